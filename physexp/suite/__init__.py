@@ -1,0 +1,87 @@
+"""The environments: a dm_control domain package (see `load` and `load_batch`)."""
+
+import inspect
+
+from physexp.suite import rendering
+
+rendering.choose_backend()
+
+from physexp.suite import batch as _batch  # noqa: E402
+from physexp.suite import environment as _environment  # noqa: E402
+from physexp.suite import towers, which_is_heavier  # noqa: E402
+from physexp.suite.batch import BatchEnvironment  # noqa: E402
+from physexp.suite.environment import Environment  # noqa: E402
+from physexp.suite.seeding import environment_seed  # noqa: E402
+
+__all__ = ["ALL_TASKS", "TASKS_BY_DOMAIN", "BatchEnvironment", "Environment", "environment_seed", "load",
+           "load_batch", "load_task"]  # fmt: skip
+
+_DOMAINS = {"which_is_heavier": which_is_heavier, "towers": towers}
+
+TASKS_BY_DOMAIN = {name: tuple(domain.SUITE) for name, domain in _DOMAINS.items()}
+"""A mapping from each domain name to the names of its tasks."""
+
+ALL_TASKS = tuple((domain, task) for domain, tasks in TASKS_BY_DOMAIN.items() for task in tasks)
+"""All (domain name, task name) pairs."""
+
+
+def load(domain_name, task_name, task_kwargs=None, environment_kwargs=None, visualize_reward=False) -> Environment:
+    """Returns an environment, as `dm_control.suite.load` does.
+
+    Args:
+      domain_name: `which_is_heavier` or `towers`.
+      task_name: one of `TASKS_BY_DOMAIN[domain_name]`.
+      task_kwargs: `random` (a seed or a RandomState), `control_timestep` (s), `time_limit` (s), and for
+        `which_is_heavier` also `difficulty` (the paper's beta).
+      environment_kwargs: `raise_exception_on_physics_error`.
+      visualize_reward: colour the floor by the outcome at the end of an episode.
+
+    Raises:
+      ValueError: for an unknown name or a bad keyword argument.
+    """
+    task = load_task(domain_name, task_name, {**(task_kwargs or {}), "visualize_reward": visualize_reward})
+    return _call(_environment.Environment, "environment_kwargs", environment_kwargs, task)
+
+
+def load_batch(domain_name, task_name, num_environments, task_kwargs=None, num_threads=1) -> BatchEnvironment:
+    """Returns many environments of one task that step together.
+
+    Environment `i` is, bit for bit, the one that `load` returns for `random=environment_seed(seed, i)`.
+
+    Args:
+      domain_name, task_name, task_kwargs: as for `load`.
+      num_environments: how many.
+      num_threads: threads that simulate.
+
+    Raises:
+      ValueError: for an unknown name or a bad argument.
+    """
+    task = load_task(domain_name, task_name, task_kwargs)
+    return _batch.BatchEnvironment(task, num_environments, num_threads)
+
+
+def load_task(domain_name, task_name, task_kwargs=None):
+    """Returns the composer task that an environment or a batch plays.
+
+    Raises:
+      ValueError: for an unknown name or a bad keyword argument.
+    """
+    if domain_name not in _DOMAINS:
+        raise ValueError(f"domain_name is {domain_name!r}; known domains: {', '.join(_DOMAINS)}")
+    domain = _DOMAINS[domain_name]
+    if task_name not in domain.SUITE:
+        raise ValueError(f"task_name is {task_name!r}; tasks of {domain_name}: {', '.join(domain.SUITE)}")
+    return domain.SUITE[task_name](_call(domain.Options, "task_kwargs", task_kwargs))
+
+
+def _call(function, name, kwargs, *args):
+    """Calls `function` with keyword arguments whose names are checked first."""
+    kwargs = dict(kwargs or {})
+    allowed = [
+        parameter.name
+        for parameter in list(inspect.signature(function).parameters.values())[len(args) :]
+    ]
+    unknown = set(kwargs) - set(allowed)
+    if unknown:
+        raise ValueError(f"{name} has {', '.join(sorted(unknown))}; allowed: {', '.join(allowed)}")
+    return function(*args, **kwargs)

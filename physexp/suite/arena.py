@@ -1,0 +1,49 @@
+"""The room in which questions are asked: a lit floor and one fixed camera."""
+
+from dm_control import composer
+
+from physexp.suite import material
+
+FLOOR_HALF_SIZE = 1.5  # m
+FLOOR_RGBA = (0.82, 0.82, 0.80, 1.0)
+
+
+class Laboratory(composer.Arena):
+    """A floor at height zero, two lights and the camera `observer`.
+
+    The visible floor is a box, much cheaper to draw than a plane; a plane that is not drawn carries the contacts.
+    """
+
+    def _build(self, camera_pos, camera_xyaxes, fovy, name="laboratory"):
+        """Builds the room.
+
+        Args:
+          camera_pos: position of the camera, m (3,).
+          camera_xyaxes: the camera's right and up directions (6,).
+          fovy: vertical field of view, degrees.
+          name: name of the MJCF model.
+        """
+        super()._build(name=name)
+        root = self.mjcf_model
+        root.visual.headlight.set_attributes(ambient=[0.4] * 3, diffuse=[0.3] * 3, specular=[0.0] * 3)
+        root.visual.map.set_attributes(znear=0.01, zfar=50)
+        root.visual.quality.set_attributes(shadowsize=0, offsamples=0, numslices=8, numstacks=8, numquads=1)
+        world = root.worldbody
+        world.add("light", name="lamp", directional=True, castshadow=False, pos=[0, 0, 3], dir=[-0.3, 0.5, -0.8],
+                  diffuse=[0.5] * 3, specular=[0.0] * 3)  # fmt: skip
+        self.floor = world.add("geom", name="floor", type="box", size=[FLOOR_HALF_SIZE, FLOOR_HALF_SIZE, 0.01],
+                               pos=[0, 0, -0.01], rgba=FLOOR_RGBA, contype=0, conaffinity=0)  # fmt: skip
+        self.ground = world.add("geom", name="ground", type="plane", size=[1, 1, 0.1], group=4, **material.solid())
+        self.camera = world.add("camera", name="observer", pos=camera_pos, xyaxes=camera_xyaxes, fovy=fovy)
+
+    def add_walls(self, distance: float) -> None:
+        """Adds four walls that are not drawn, `distance` (m) from the centre, so that nothing leaves the view.
+
+        They are boxes, not planes: the broad phase skips a box that is far away, which a plane never is.
+        """
+        half = 0.25
+        for axis, (x, y) in enumerate(((1, 0), (-1, 0), (0, 1), (0, -1))):
+            size = [half if x else distance + 2 * half, half if y else distance + 2 * half, 2.0]
+            pos = [x * (distance + half), y * (distance + half), 2.0]
+            self.mjcf_model.worldbody.add("geom", name=f"wall_{axis}", type="box", size=size, pos=pos, group=4,
+                                          **material.solid(material.WALL_FRICTION))  # fmt: skip

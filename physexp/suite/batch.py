@@ -1,0 +1,268 @@
+"""Many environments of one task that step together in C++ threads."""
+
+import logging
+
+import dm_env
+import mujoco
+from mujoco.batch import Batch
+import numpy as np
+
+from physexp.suite import seeding, task as task_lib
+
+_LOG = logging.getLogger(__name__)
+_FIRST, _MID, _LAST = (int(kind) for kind in dm_env.StepType)
+
+
+class BatchEnvironment:
+    """Environments that share a task but no randomness: each has its own seed and episodes.
+
+    Environment `i` behaves, bit for bit, as `Environment` does with the seed `environment_seed(seed, i)`, whatever
+    the number of environments and threads.
+
+    Attributes:
+      num_environments: how many there are.
+      num_divergences: episodes that ended because the simulation diverged.
+    """
+
+    def __init__(self, task: task_lib.QuestionTask, num_environments: int, num_threads: int = 1):
+        """Builds the environments of a task.
+
+        Args:
+          task: what they play; its seed is the batch's.
+          num_environments: how many, >= 1.
+          num_threads: threads that simulate, >= 1.
+
+        Raises:
+          ValueError: if one of the numbers is not a positive integer.
+        """
+        for name, value in (("num_environments", num_environments), ("num_threads", num_threads)):
+            if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < 1:
+                raise ValueError(f"{name} is {value!r}; give an integer >= 1")
+        self.num_environments = int(num_environments)
+        self.num_divergences = 0
+        self._task = task
+        self._num_threads = int(num_threads)
+        self._controls = task.controls
+        self._everyone = np.arange(self.num_environments)
+        self._seeds = np.array([seeding.environment_seed(task.options.random, i) for i in self._everyone])
+        self._next_episodes = np.zeros(self.num_environments, np.int64)
+        self._needs_reset = np.ones(self.num_environments, bool)
+        self._structures = np.zeros(self.num_environments, np.int64)
+        self._answers = np.zeros(self.num_environments, np.int64)
+        self._steps = np.zeros(self.num_environments, np.int64)
+        self._touched = np.zeros(self.num_environments, bool)
+        self._hidden: np.ndarray | None = None
+        self._groups: dict[int, _Group] = {}
+        first = self._group(0).first_observation
+        self._observations = {
+            name: np.repeat(value[None], self.num_environments, axis=0) for name, value in first.items()
+        }
+
+    # Specs are those of the single environment.
+
+    def action_spec(self) -> dm_env.specs.DiscreteArray:
+        return self._task.action_spec()
+
+    def observation_spec(self) -> dict[str, dm_env.specs.Array]:
+        return {
+            name: dm_env.specs.Array(value.shape[1:], value.dtype, name) for name, value in self._observations.items()
+        }
+
+    def reward_spec(self) -> dm_env.specs.Array:
+        return dm_env.specs.Array((), float, "reward")
+
+    def discount_spec(self) -> dm_env.specs.BoundedArray:
+        return dm_env.specs.BoundedArray((), float, 0.0, 1.0, "discount")
+
+    @property
+    def task(self) -> task_lib.QuestionTask:
+        """The task that all environments play, with its rules and options."""
+        return self._task
+
+    @property
+    def correct_answers(self) -> np.ndarray:
+        """Indices of the right labels in the current episodes, int64 [B]; never observable."""
+        return self._answers.copy()
+
+    @property
+    def hidden(self) -> np.ndarray:
+        """The hidden properties of the current episodes, [B, ...]: for analysis, never part of an observation."""
+        if self._hidden is None:
+            raise RuntimeError("no episode has been started; call reset() first")
+        return self._hidden.copy()
+
+    @property
+    def episodes(self) -> np.ndarray:
+        """Indices of the current episodes, int64 [B]; -1 before the first."""
+        return self._next_episodes - 1
+
+    def reset(self, environments: np.ndarray | None = None, episode: int | None = None) -> dm_env.TimeStep:
+        """Starts new episodes.
+
+        Args:
+          environments: which environments, sorted indices int [N]; all of them by default.
+          episode: index of the episode to start, the same in each; by default the one after the current.
+
+        Returns:
+          As `step`.
+        """
+        chosen = self._choose(environments)
+        if episode is not None:
+            self._next_episodes[chosen] = episode
+        self._reset(chosen)
+        return self._time_step(chosen, np.full(len(chosen), _FIRST), np.zeros(len(chosen)), np.ones(len(chosen)))
+
+    def step(self, actions: np.ndarray, environments: np.ndarray | None = None) -> dm_env.TimeStep:
+        """Takes one action in each environment; one whose episode is over starts a new one instead.
+
+        Args:
+          actions: one action for each of the chosen environments, int [N].
+          environments: which environments to step, sorted indices int [N]; all of them by default.
+
+        Returns:
+          A TimeStep whose fields are arrays with a leading axis [N]. Where an episode starts, the reward is 0 and the
+          discount 1.
+
+        Raises:
+          ValueError: if an action is not one of the action spec's; nothing has moved then.
+        """
+        chosen = self._choose(environments)
+        actions = self._task.rules.check_type(actions, (len(chosen),))
+        starting = self._needs_reset[chosen]
+        playing, taken = chosen[~starting], actions[~starting]
+        self._task.rules.check_range(taken)
+        self._reset(chosen[starting])
+        self._steps[playing] += 1
+        interacting = taken < self._task.num_interactions
+        diverged = self._interact(playing[interacting], taken[interacting])
+        rewards, last = self._task.rules.judge(taken, self._answers[playing], self._steps[playing])
+        if len(diverged):
+            lost = np.isin(playing, diverged)
+            rewards, last = np.where(lost, 0.0, rewards), last | lost
+        self._needs_reset[playing] = last
+        step_types = np.full(len(chosen), _FIRST)
+        step_types[~starting] = np.where(last, _LAST, _MID)
+        all_rewards = np.zeros(len(chosen))
+        all_rewards[~starting] = rewards
+        return self._time_step(chosen, step_types, all_rewards, np.where(step_types == _LAST, 0.0, 1.0))
+
+    def close(self) -> None:
+        """Frees the simulations. Closing twice does nothing."""
+        self._groups = {}
+
+    def _choose(self, environments) -> np.ndarray:
+        if environments is None:
+            return self._everyone
+        chosen = np.asarray(environments)
+        if not np.issubdtype(chosen.dtype, np.integer) or chosen.ndim != 1 or (np.diff(chosen) <= 0).any() or (
+            chosen.size and not 0 <= chosen[0] <= chosen[-1] < self.num_environments
+        ):  # fmt: skip
+            raise ValueError(
+                f"environments is {environments!r}; give increasing indices from 0 to {self.num_environments - 1}"
+            )
+        return chosen
+
+    def _group(self, structure: int) -> "_Group":
+        if structure not in self._groups:
+            kit = self._task.build_apparatus(structure)
+            self._groups[structure] = _Group(self._task, kit, self.num_environments, self._num_threads)
+        return self._groups[structure]
+
+    def _by_structure(self, chosen: np.ndarray):
+        """Splits environments by structure: pairs of a group and the positions in `chosen` that belong to it."""
+        structures = self._structures[chosen]
+        if self._task.num_structures == 1:
+            return [(self._group(0), slice(None))] if len(chosen) else []
+        return [(self._group(int(s)), np.flatnonzero(structures == s)) for s in np.unique(structures)]
+
+    def _reset(self, chosen: np.ndarray) -> None:
+        if not len(chosen):
+            return
+        hidden = self._task.draw(self._seeds[chosen], self._next_episodes[chosen])
+        if self._hidden is None:
+            self._hidden = np.zeros((self.num_environments, *hidden.shape[1:]), hidden.dtype)
+        self._hidden[chosen] = hidden
+        self._answers[chosen] = self._task.answers(hidden)
+        self._structures[chosen] = self._task.structures(hidden)
+        self._next_episodes[chosen] += 1
+        self._steps[chosen] = 0
+        self._touched[chosen] = False
+        self._needs_reset[chosen] = False
+        for group, members in self._by_structure(chosen):
+            rows = chosen[members]
+            group.reset(rows, hidden[members])
+            for name, value in group.first_observation.items():
+                self._observations[name][rows] = value
+
+    def _interact(self, chosen: np.ndarray, actions: np.ndarray) -> np.ndarray:
+        """Simulates one control step; returns the environments that diverged."""
+        diverged = []
+        for group, members in self._by_structure(chosen):
+            rows = chosen[members]
+            untouched = rows[~self._touched[rows]]
+            lost = group.step(rows, self._controls[actions[members]], untouched, self._task.options.substeps)
+            still = group.hold(untouched)
+            self._touched[untouched] = True
+            self._touched[still] = False
+            for name, value in group.read(rows).items():
+                self._observations[name][rows] = value
+            if len(lost):
+                diverged.append(lost)
+        if not diverged:
+            return np.zeros(0, np.int64)
+        lost = np.concatenate(diverged)
+        self.num_divergences += len(lost)
+        _LOG.warning("the simulation diverged in environments %s; their episodes end without reward", lost)
+        return lost
+
+    def _time_step(self, chosen, step_types, rewards, discounts) -> dm_env.TimeStep:
+        observation = {name: value[chosen] for name, value in self._observations.items()}
+        return dm_env.TimeStep(step_types, rewards, discounts, observation)
+
+
+class _Group:
+    """The simulations of one structure: row `i` serves environment `i` whenever it has this structure."""
+
+    def __init__(self, task, kit, size, num_threads):
+        self._task, self._kit = task, kit
+        self._batch = Batch(kit.model, size, num_threads)
+        self._batch.reset(stage=mujoco.mjtStage.mjSTAGE_NONE)
+        self._rest = self._batch.state[0].copy()
+        self._qpos, self._qvel, self._control, self._warmstart, self._sensordata = (
+            self._batch.bind(name) for name in ("qpos", "qvel", "ctrl", "qacc_warmstart", "sensordata")
+        )
+        data = mujoco.MjData(kit.model)
+        mujoco.mj_forward(kit.model, data)
+        self.first_observation = {name: kit.read(name, data.sensordata) for name in kit.readings}
+
+    def reset(self, rows, hidden) -> None:
+        self._batch.state[rows] = self._rest
+        if self._kit.hidden_bodies.size:
+            for field, (addresses, values) in self._kit.mass_fields(self._task.hidden_masses(hidden)).items():
+                self._batch.expand(field)[rows[:, None], addresses] = values
+
+    def step(self, rows, controls, untouched, substeps) -> np.ndarray:
+        """Simulates a control step; returns the rows that diverged."""
+        self._control[rows] = controls
+        # Forward passes after a reset or a hold leave their own warm start in a single environment: begin afresh.
+        self._warmstart[untouched] = 0
+        before = self._batch.warning[rows].copy()
+        self._batch.step(ids=rows, nstep=substeps, stage=mujoco.mjtStage.mjSTAGE_POS)
+        changed = self._batch.warning[rows] != before
+        return rows[changed.any(axis=tuple(range(1, changed.ndim)))]
+
+    def hold(self, untouched) -> np.ndarray:
+        """Puts held parts that nothing has moved back to rest; returns the rows that are still untouched."""
+        kit = self._kit
+        if not kit.held_qpos.size or not len(untouched):
+            return untouched[:0]
+        still = untouched[~kit.moved(self._qpos[untouched], task_lib.TOUCH_TOLERANCE)]
+        if len(still):
+            self._qpos[still[:, None], kit.held_qpos] = kit.rest_qpos[kit.held_qpos]
+            self._qvel[still[:, None], kit.held_qvel] = 0
+            self._batch.forward(ids=still, stage=mujoco.mjtStage.mjSTAGE_POS)
+        return still
+
+    def read(self, rows) -> dict[str, np.ndarray]:
+        values = self._sensordata[rows]
+        return {name: self._kit.read(name, values) for name in self._kit.readings}

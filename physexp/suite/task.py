@@ -1,0 +1,256 @@
+"""The base of every task: a question about something that cannot be seen (paper, Section 3)."""
+
+import abc
+import dataclasses
+import math
+from typing import Any, ClassVar
+
+from dm_control import composer
+from dm_control.composer.observation import observable
+from dm_env import specs
+import numpy as np
+
+from physexp.suite import apparatus, rules, seeding
+
+# Held parts count as untouched until a control step moves them by more than this. Contacts at rest settle by
+# less than a hundredth of it, and the weakest touch moves a block by several times as much.
+TOUCH_TOLERANCE = 1e-4  # m, or the same in a quaternion's components
+
+_OK_RGBA, _WRONG_RGBA = (0.45, 0.75, 0.45, 1.0), (0.80, 0.45, 0.40, 1.0)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Options:
+    """What a user may choose of every task: the `task_kwargs` of `suite.load`.
+
+    Attributes:
+      random: an integer seed, a `numpy.random.RandomState`, or None for a seed from the operating system.
+      control_timestep: time between actions, a multiple of the physics step, s.
+      time_limit: time after which an unanswered episode ends, rounded up to whole control steps, s.
+      visualize_reward: colour the floor by the outcome at the end of an episode.
+
+    Raises:
+      ValueError: for a value that makes no sense.
+    """
+
+    physics_timestep: ClassVar[float]
+
+    random: Any = None
+    control_timestep: float = 0.1
+    time_limit: float
+    visualize_reward: bool = False
+
+    def __post_init__(self):
+        object.__setattr__(self, "random", seeding.seed_from(self.random))
+        for name in ("control_timestep", "time_limit"):
+            check_number(name, getattr(self, name), 0, "s", strictly=True)
+        if self.substeps < 1 or abs(self.substeps * self.physics_timestep - self.control_timestep) > 1e-9:
+            raise ValueError(
+                f"control_timestep is {self.control_timestep} s; "
+                f"give a multiple of the physics step, {self.physics_timestep} s"
+            )
+
+    @property
+    def substeps(self) -> int:
+        """Physics steps in a control step."""
+        return round(self.control_timestep / self.physics_timestep)
+
+    @property
+    def step_limit(self) -> int:
+        """Control steps in an unanswered episode."""
+        return max(1, math.ceil(self.time_limit / self.control_timestep - 1e-6))
+
+
+def check_number(name: str, value, minimum: float, unit: str, strictly: bool = False) -> None:
+    """Raises ValueError unless `value` is a finite number of at least (strictly: above) `minimum`."""
+    is_number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
+    if not (is_number and minimum <= value < math.inf) or (strictly and value == minimum):
+        raise ValueError(f"{name} is {value!r}; give a finite number {'>' if strictly else '>='} {minimum} ({unit})")
+
+
+class QuestionTask(composer.Task):
+    """A composer task in which interaction actions act and labeling actions answer.
+
+    A subclass builds the scene, says how the hidden property of an episode is drawn and what follows from it.
+    The methods with a leading axis [N] serve one environment (N = 1) and a batch alike.
+
+    Attributes:
+      rules: how actions are read and judged.
+      controls: what each interaction action sends to the actuators, float64 [num_interactions, nu].
+      next_episode: index of the episode that the next reset starts; set it to rebuild any episode.
+      num_divergences: episodes that ended because the simulation diverged.
+    """
+
+    def __init__(self, arena, options: Options, num_interactions: int, num_labels: int):
+        """Sets what all tasks share.
+
+        Args:
+          arena: the arena, with the entities attached.
+          options: what the user chose.
+          num_interactions, num_labels: numbers of actions.
+        """
+        self._arena = arena
+        self.options = options
+        self.set_timesteps(options.substeps * options.physics_timestep, options.physics_timestep)
+        self.rules = rules.Rules(num_interactions, num_labels, options.step_limit)
+        self.next_episode = 0
+        self.num_divergences = 0
+        self.structure = 0
+        self.apparatus: apparatus.Apparatus | None = None  # The environment sets the one in use.
+        self._hidden = None
+        self._actions = np.zeros(1, np.int64)
+        self._steps = np.zeros(1, np.int64)
+        self._touched = False
+        self._observables = {
+            name: observable.Generic(lambda physics, name=name: self.apparatus.read(name, physics.data.sensordata))
+            for name in self.sensors
+        }
+        for reading in self._observables.values():
+            reading.enabled = True
+
+    # What a subclass defines.
+
+    num_structures = 1
+    """How many compiled models the hidden property chooses from."""
+
+    @property
+    @abc.abstractmethod
+    def controls(self) -> np.ndarray:
+        """What each interaction action sends to the actuators, float64 [num_interactions, nu]."""
+
+    @property
+    @abc.abstractmethod
+    def sensors(self) -> dict[str, tuple]:
+        """For each observation, the MJCF sensors that make it up and its shape."""
+
+    held_joints: tuple = ()
+    """Joints held at rest until something moves them by more than TOUCH_TOLERANCE."""
+
+    @abc.abstractmethod
+    def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
+        """The hidden properties, [N, ...], of some episodes: seeds and episode indices, int64 [N]."""
+
+    @abc.abstractmethod
+    def answers(self, hidden: np.ndarray) -> np.ndarray:
+        """Indices of the right labels, int64 [N]."""
+
+    def structures(self, hidden: np.ndarray) -> np.ndarray:
+        """Which compiled model each hidden property needs, int64 [N]."""
+        return np.zeros(len(hidden), np.int64)
+
+    def arrange(self, structure: int) -> None:
+        """Puts the MJCF into the form of a structure."""
+
+    hidden_joints: tuple = ()
+    """Slides that carry bodies whose masses are hidden."""
+
+    def hidden_masses(self, hidden: np.ndarray) -> np.ndarray:
+        """Masses of the bodies on `hidden_joints`, float64 [N, number of joints], kg."""
+        return np.zeros((len(hidden), 0))
+
+    # The question.
+
+    @property
+    def num_interactions(self) -> int:
+        return self.rules.num_interactions
+
+    @property
+    def num_labels(self) -> int:
+        return self.rules.num_labels
+
+    @property
+    def hidden(self) -> np.ndarray:
+        """The hidden property of the current episode: for analysis, never part of an observation."""
+        if self._hidden is None:
+            raise RuntimeError("no episode has been started; call reset() first")
+        return self._hidden[0]
+
+    @property
+    def correct_answer(self) -> int:
+        """Index of the right label in the current episode; never observable."""
+        self.hidden  # Raises before the first reset.
+        return int(self._answers[0])
+
+    @property
+    def episode(self) -> int:
+        """Index of the current episode, -1 before the first."""
+        return self.next_episode - 1
+
+    @property
+    def answered(self) -> bool:
+        """Whether the last action was a labeling action."""
+        return bool(self._actions[0] >= self.num_interactions)
+
+    def action_spec(self, physics=None) -> specs.DiscreteArray:
+        return specs.DiscreteArray(self.rules.num_actions, dtype=np.int32, name="action")
+
+    # The composer task.
+
+    @property
+    def root_entity(self):
+        return self._arena
+
+    @property
+    def task_observables(self):
+        return self._observables
+
+    def build_apparatus(self, structure: int) -> apparatus.Apparatus:
+        """Arranges the MJCF and compiles it."""
+        self.arrange(structure)
+        return apparatus.build(self.root_entity.mjcf_model, self.sensors, self.held_joints, self.hidden_joints)
+
+    def initialize_episode_mjcf(self, random_state):
+        self._hidden = self.draw(np.array([self.options.random]), np.array([self.next_episode]))
+        self._answers = self.answers(self._hidden)
+        self.next_episode += 1
+        self.structure = int(self.structures(self._hidden)[0])
+        self.arrange(self.structure)
+
+    def initialize_episode(self, physics, random_state):
+        for field, (addresses, values) in self.apparatus.mass_fields(self.hidden_masses(self._hidden)).items():
+            getattr(physics.model, field)[addresses] = values[0]
+        self._steps[0] = 0
+        self._actions[0] = 0
+        self._touched = False
+        if self.options.visualize_reward:
+            physics.bind(self._arena.floor).rgba = self._arena.floor.rgba
+
+    def before_step(self, physics, action, random_state):
+        self._actions[0] = self._checked(action)
+        self._steps[0] += 1
+        if not self.answered:
+            physics.data.ctrl[:] = self.controls[self._actions[0]]
+            if not self._touched:
+                physics.data.qacc_warmstart[:] = 0  # What a batch does: see BatchEnvironment.
+
+    def _checked(self, action) -> int:
+        checked = self.rules.check_type(action, ())
+        self.rules.check_range(checked)
+        return int(checked)
+
+    def after_step(self, physics, random_state):
+        if not self.answered and not self._touched:
+            self._touched = self._hold(physics.data)
+            if not self._touched:
+                physics.forward()
+        self._rewards, self._last = self.rules.judge(self._actions, self._answers, self._steps)
+        if self.options.visualize_reward and self._last[0]:
+            physics.bind(self._arena.floor).rgba = _OK_RGBA if self._rewards[0] > 0 else _WRONG_RGBA
+
+    def _hold(self, data) -> bool:
+        """Puts untouched parts back to rest; returns whether they were touched after all."""
+        kit = self.apparatus
+        if not kit.held_qpos.size or kit.moved(data.qpos[None], TOUCH_TOLERANCE)[0]:
+            return True
+        data.qpos[kit.held_qpos] = kit.rest_qpos[kit.held_qpos]
+        data.qvel[kit.held_qvel] = 0
+        return False
+
+    def get_reward(self, physics):
+        return float(self._rewards[0])
+
+    def get_discount(self, physics):
+        return 0.0 if self._last[0] else 1.0
+
+    def should_terminate_episode(self, physics):
+        return bool(self._last[0])

@@ -1,0 +1,161 @@
+"""Towers: a column of five cubes, and the question how many rigid bodies it is made of (paper, Section 6)."""
+
+import dataclasses
+import math
+
+from dm_control.utils import containers
+import numpy as np
+
+from physexp.suite import arena, block, fist, seeding, task, tower
+
+SUITE = containers.TaggedTasks()
+
+PHYSICS_TIMESTEP = 0.005  # s
+
+WALL_DISTANCE = 0.75  # m, from the tower: a tower that falls as one piece fits inside
+
+# The lowest cube alone is held by friction of 0.3 * (4 + 5) * 9.81 = 26.5 N: twice that moves it, and slides a cube
+# from the middle out by a good part of its edge in one control step.
+PUSH_FORCE = 50.0  # N
+
+FIST_START = (-0.32, 0.0, 0.25)  # m: at the height of the middle cube, 0.17 m clear of the tower
+FIST_SPEED = 1.0  # m/s
+_FIST_REACH = WALL_DISTANCE - fist.RADIUS - 2 * block.HALF_SIZE  # m: leaves room for a block at the wall
+_DIRECTIONS = np.array([(1, 0), (-1, 0), (0, 1), (0, -1)], float)  # +x, -x, +y, -y
+
+_CAMERA = dict(camera_pos=[0.9, -2.1, 1.35], camera_xyaxes=[0.92, 0.39, 0, -0.2, 0.46, 0.86], fovy=36)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Options(task.Options):
+    """The `task_kwargs` of this domain."""
+
+    physics_timestep = PHYSICS_TIMESTEP
+
+    time_limit: float = 2.6  # the paper's 26 steps at its control step of 0.1 s
+
+
+class Towers(task.QuestionTask):
+    """A tower whose glue is hidden."""
+
+    num_structures = len(tower.PATTERNS)
+
+    def __init__(self, options: Options, actuator):
+        """Builds the scene around an actuator, a `DirectActuator` or a `FistActuator`."""
+        room = arena.Laboratory(**_CAMERA)
+        room.add_walls(WALL_DISTANCE)
+        room.mjcf_model.option.tolerance = 1e-6
+        self._actuator = actuator
+        self._towers: dict[int, tower.Tower] = {}  # Built when first needed, one for each pattern.
+        self.tower: tower.Tower | None = None
+        actuator.attach_to(room)
+        self._arena = room
+        self.arrange(0)
+        super().__init__(room, options, len(actuator.controls), tower.NUM_BLOCKS)
+
+    @property
+    def controls(self):
+        return self._actuator.controls
+
+    @property
+    def sensors(self):
+        return {"positions": (self.tower.position_sensors, (tower.NUM_BLOCKS, 3)), **self._actuator.sensors}
+
+    @property
+    def held_joints(self):
+        return self.tower.joints
+
+    def draw(self, seeds, episodes):
+        """Indices of glue patterns in `tower.PATTERNS`, int64 [N]."""
+        return draw_patterns(seeds, episodes)
+
+    def answers(self, hidden):
+        return _NUM_BODIES[hidden] - 1
+
+    def structures(self, hidden):
+        return hidden
+
+    def arrange(self, structure):
+        if structure not in self._towers:
+            self._towers[structure] = built = tower.Tower(tower.PATTERNS[structure])
+            self._actuator.equip(built)
+        if self.tower is not self._towers[structure]:
+            if self.tower is not None:
+                self.tower.detach()
+            self.tower = self._towers[structure]
+            self._arena.attach(self.tower)
+
+
+_NUM_BODIES = np.array([tower.num_bodies(pattern) for pattern in tower.PATTERNS])
+
+
+def draw_patterns(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
+    """Glue patterns of some episodes: the count uniform over 1..5, the pattern uniform given the count.
+
+    Args:
+      seeds, episodes: environment seeds and episode indices, int64 [N].
+
+    Returns:
+      Indices in `tower.PATTERNS`, int64 [N].
+    """
+    draws = seeding.uniforms(seeds, episodes, 2)
+    counts = 1 + (draws[:, 0] * tower.NUM_BLOCKS).astype(np.int64)
+    by_count = np.argsort(_NUM_BODIES, kind="stable")
+    sizes = np.array([math.comb(tower.NUM_BLOCKS - 1, n - 1) for n in range(1, tower.NUM_BLOCKS + 1)])
+    starts = np.concatenate([[0], np.cumsum(sizes)[:-1]])
+    return by_count[starts[counts - 1] + (draws[:, 1] * sizes[counts - 1]).astype(np.int64)]
+
+
+class DirectActuator:
+    """Pushes one block with a horizontal force (paper, Section 6.2)."""
+
+    sensors: dict[str, tuple] = {}
+
+    def attach_to(self, room) -> None:
+        """Adds the site whose axes give the directions of the forces."""
+        self._axes = room.mjcf_model.worldbody.add("site", name="axes", size=[0.001], group=5)
+
+    def equip(self, built: tower.Tower) -> None:
+        """Gives a tower what it needs to be pushed."""
+        built.add_pushers(self._axes)
+
+    @property
+    def controls(self) -> np.ndarray:
+        """Action 4 * block + direction pushes the block in that direction, N [20, 10]."""
+        return PUSH_FORCE * np.kron(np.eye(tower.NUM_BLOCKS), _DIRECTIONS)
+
+
+class FistActuator:
+    """Sets the velocity of the fist (paper, Section 6.2)."""
+
+    def __init__(self):
+        x, y, _ = FIST_START
+        reach = _FIST_REACH
+        self.fist = fist.Fist(x_range=[-reach - x, reach - x], y_range=[-reach - y, reach - y])
+        self.sensors = {"fist_position": ([self.fist.position_sensor], (3,))}
+
+    def attach_to(self, room) -> None:
+        """Places the fist in the room."""
+        frame = room.attach(self.fist)
+        frame.pos = FIST_START
+        self.fist.create_root_joints(frame)
+
+    def equip(self, built: tower.Tower) -> None:
+        """Does nothing: the fist needs nothing of the tower."""
+
+    @property
+    def controls(self) -> np.ndarray:
+        """Action `direction` holds the velocity in that direction, m/s [4, 2]."""
+        return FIST_SPEED * _DIRECTIONS
+
+
+@SUITE.add("features", "direct")
+def direct_features(options):
+    """Observes `positions`, float32 (5, 3): the blocks' centres, m."""
+    return Towers(options, DirectActuator())
+
+
+@SUITE.add("features", "fist")
+def fist_features(options):
+    """Observes `positions`, float32 (5, 3), and `fist_position`, float32 (3,), m."""
+    return Towers(options, FistActuator())

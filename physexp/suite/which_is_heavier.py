@@ -1,0 +1,137 @@
+"""Which is Heavier: four equal blocks, and the question which of them is heaviest (paper, Section 5)."""
+
+import dataclasses
+
+from dm_control.utils import containers
+import numpy as np
+
+from physexp.suite import arena, block, seeding, task
+
+SUITE = containers.TaggedTasks()
+
+NUM_BLOCKS = 4
+SPACING = 0.16  # m, between the centres of neighbours
+
+PHYSICS_TIMESTEP = 0.025  # s; the paper's example: four simulation steps to a control step
+
+# A block slides on a vertical rail, with no gravity: a spring and a damper bring it back. Both vanish exactly at
+# rest, whatever the mass, and no contact solver joins one block to another, so nothing tells of a mass before its
+# block is poked. Even the heaviest block is critically damped (damping >= 2 sqrt(stiffness * mass)), so no block
+# ever sinks below its rest. One poke lifts the lightest block almost to the ceiling, where the rail ends.
+LIGHTEST, HEAVIEST = 0.2, 1.0  # kg
+STIFFNESS = 6.25  # N/m
+DAMPING = 5.0  # N s/m
+POKE_FORCE = 20.0  # N
+CEILING = 0.4  # m, highest displacement from rest
+
+_CAMERA = dict(camera_pos=[0, -1.45, 0.52], camera_xyaxes=[1, 0, 0, 0, 0.16, 1], fovy=28)
+_MAX_DRAWS = 16
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Options(task.Options):
+    """The `task_kwargs` of this domain.
+
+    Attributes:
+      difficulty: the paper's beta, >= 1; the larger, the easier.
+    """
+
+    physics_timestep = PHYSICS_TIMESTEP
+
+    time_limit: float = 10.0  # 100 control steps (Section 5.1)
+    difficulty: float = 5.0  # the middle one of the paper's three
+
+    def __post_init__(self):
+        super().__post_init__()
+        task.check_number("difficulty", self.difficulty, 1, "the paper's beta")
+
+
+class WhichIsHeavier(task.QuestionTask):
+    """Four blocks in a line that move only vertically; their masses are hidden."""
+
+    def __init__(self, options: Options):
+        """Builds the scene."""
+        room = arena.Laboratory(**_CAMERA)
+        room.mjcf_model.option.gravity = [0, 0, 0]
+        room.mjcf_model.option.flag.contact = "disable"
+        self.blocks, self._joints, motors = [], [], room.mjcf_model.actuator
+        for k in range(NUM_BLOCKS):
+            cube = block.Block(rgba=block.COLORS[k], mass=HEAVIEST, name=f"block_{k}")
+            frame = room.attach(cube)
+            frame.pos = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, block.HALF_SIZE]
+            self._joints.append(frame.add("joint", name="rail", type="slide", axis=[0, 0, 1], stiffness=STIFFNESS,
+                                          damping=DAMPING, limited=True, range=[-0.01, CEILING]))  # fmt: skip
+            motors.add("motor", name=f"poke_{k}", joint=self._joints[-1])
+            self.blocks.append(cube)
+        self._height_sensors = [
+            room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=joint)
+            for k, joint in enumerate(self._joints)
+        ]
+        super().__init__(room, options, num_interactions=NUM_BLOCKS, num_labels=NUM_BLOCKS)
+
+    @property
+    def controls(self):
+        return POKE_FORCE * np.eye(NUM_BLOCKS)
+
+    @property
+    def sensors(self):
+        return {"heights": (self._height_sensors, (NUM_BLOCKS,))}
+
+    def draw(self, seeds, episodes):
+        """Masses on the paper's scale, float64 [N, 4] in [0, 1]; to kilograms: `kilograms`."""
+        return draw_masses(seeds, episodes, self.options.difficulty)
+
+    def answers(self, hidden):
+        return hidden.argmax(axis=1)
+
+    @property
+    def hidden_joints(self):
+        return self._joints
+
+    def hidden_masses(self, hidden):
+        return kilograms(hidden)
+
+
+def kilograms(masses):
+    """Maps the paper's masses in [0, 1] linearly to what the agent's strength can lift, kg."""
+    return LIGHTEST + (HEAVIEST - LIGHTEST) * masses
+
+
+def draw_masses(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
+    """Masses of some episodes (paper, Section 5.1), float64 [N, 4] in [0, 1].
+
+    One block, drawn uniformly, is from Beta(difficulty, 1), the others from Beta(1, difficulty). Both have inverse
+    distribution functions in closed form: u^(1 / difficulty) and 1 - (1 - u)^(1 / difficulty).
+
+    Args:
+      seeds, episodes: environment seeds and episode indices, int64 [N].
+      difficulty: the paper's beta.
+
+    Raises:
+      RuntimeError: if the two heaviest blocks tie in every one of many draws.
+    """
+    columns = NUM_BLOCKS + 1
+    draws = seeding.uniforms(seeds, episodes, columns * _MAX_DRAWS).reshape(len(seeds), _MAX_DRAWS, columns)
+    masses = _masses(np.ascontiguousarray(draws[:, 0]), difficulty)
+    for attempt in range(1, _MAX_DRAWS + 1):
+        heaviest = np.sort(masses, axis=1)[:, -2:]
+        tied = heaviest[:, 0] == heaviest[:, 1]
+        if not tied.any():
+            return masses
+        if attempt < _MAX_DRAWS:
+            masses[tied] = _masses(draws[tied, attempt], difficulty)
+    raise RuntimeError(f"difficulty {difficulty} makes blocks tie; choose one closer to 1")
+
+
+def _masses(draws: np.ndarray, difficulty: float) -> np.ndarray:
+    """Masses [N, 4] from uniform numbers [N, 5]: the first chooses the heavy block."""
+    masses = -np.expm1(np.log1p(-draws[:, 1:]) / difficulty)
+    rows, heavy = np.arange(len(draws)), (draws[:, 0] * NUM_BLOCKS).astype(np.int64)
+    masses[rows, heavy] = np.exp(np.log(draws[rows, 1 + heavy]) / difficulty)
+    return masses
+
+
+@SUITE.add("features")
+def features(options):
+    """Observes `heights`, float32 (4,): how far each block is above its rest, m."""
+    return WhichIsHeavier(options)
