@@ -23,19 +23,20 @@ def environment_seed(seed: int, index: int) -> int:
     return int(_mix(key ^ np.array([index], np.uint64))[0] >> np.uint64(32))
 
 
-def uniforms(seeds: np.ndarray, episodes: np.ndarray, count: int) -> np.ndarray:
+def uniforms(seeds: np.ndarray, episodes: np.ndarray, count: int, attempt: int = 0) -> np.ndarray:
     """Independent uniform numbers of some episodes.
 
     Args:
       seeds: environment seeds, int64 [N].
       episodes: episode indices, int64 [N].
       count: numbers per episode.
+      attempt: 0, 1, ... for further, independent numbers of the same episodes.
 
     Returns:
       float64 [N, count], in the open interval (0, 1).
     """
     keys = _mix(_mix(seeds.astype(np.uint64)) ^ episodes.astype(np.uint64))
-    steps = np.arange(1, count + 1, dtype=np.uint64) * _GOLDEN
+    steps = np.arange(attempt * count + 1, (attempt + 1) * count + 1, dtype=np.uint64) * _GOLDEN
     bits = _mix(keys[:, None] + steps) >> np.uint64(12)
     return (bits.astype(np.float64) + 0.5) * 2.0**-52
 

@@ -110,17 +110,15 @@ def draw_masses(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> n
     Raises:
       RuntimeError: if the two heaviest blocks tie in every one of many draws.
     """
-    columns = NUM_BLOCKS + 1
-    draws = seeding.uniforms(seeds, episodes, columns * _MAX_DRAWS).reshape(len(seeds), _MAX_DRAWS, columns)
-    masses = _masses(np.ascontiguousarray(draws[:, 0]), difficulty)
-    for attempt in range(1, _MAX_DRAWS + 1):
-        heaviest = np.sort(masses, axis=1)[:, -2:]
-        tied = heaviest[:, 0] == heaviest[:, 1]
+    masses = _masses(seeding.uniforms(seeds, episodes, NUM_BLOCKS + 1), difficulty)
+    for attempt in range(1, _MAX_DRAWS):
+        two_heaviest = np.partition(masses, -2, axis=1)[:, -2:]
+        tied = two_heaviest[:, 0] == two_heaviest[:, 1]
         if not tied.any():
             return masses
-        if attempt < _MAX_DRAWS:
-            masses[tied] = _masses(draws[tied, attempt], difficulty)
-    raise RuntimeError(f"difficulty {difficulty} makes blocks tie; choose one closer to 1")
+        again = seeding.uniforms(seeds[tied], episodes[tied], NUM_BLOCKS + 1, attempt)
+        masses[tied] = _masses(again, difficulty)
+    raise RuntimeError(f"difficulty {difficulty} makes blocks tie in {_MAX_DRAWS} draws; choose one closer to 1")
 
 
 def _masses(draws: np.ndarray, difficulty: float) -> np.ndarray:

@@ -1,0 +1,128 @@
+"""Acting: one episode in any environment, or a round of whole episodes side by side in a batch."""
+
+from collections.abc import Callable
+import dataclasses
+
+import dm_env
+import numpy as np
+import torch
+
+from physexp.agents import core, networks
+
+# Replaces actions on their way to the environment: actions int [N] and a generator to replaced actions int [N].
+Interference = Callable[[np.ndarray, np.random.Generator], np.ndarray]
+
+
+@dataclasses.dataclass(frozen=True)
+class Round:
+    """Whole episodes, one in each environment of a batch, padded to the longest.
+
+    Attributes:
+      observations: what was seen before each action, arrays [T, B, ...].
+      actions: actions taken, int64 [T, B].
+      rewards: rewards that followed, float32 [T, B].
+      lengths: actions in each episode, int64 [B].
+      answers: the right labels, int64 [B]: for records, not for learning.
+    """
+
+    observations: dict[str, np.ndarray]
+    actions: np.ndarray
+    rewards: np.ndarray
+    lengths: np.ndarray
+    answers: np.ndarray
+
+    @property
+    def num_frames(self) -> int:
+        return int(self.lengths.sum())
+
+    def packed(self, array: np.ndarray, order: np.ndarray) -> torch.Tensor:
+        """The steps of an array [T, B, ...] that were played, episodes in the given order: [N, ...]."""
+        played = np.arange(len(array))[:, None] < self.lengths[order]
+        return torch.from_numpy(array[:, order][played])
+
+
+def as_tensors(observation) -> dict[str, torch.Tensor]:
+    """The arrays of a batched observation as tensors."""
+    return {name: torch.from_numpy(value) for name, value in observation.items()}
+
+
+def sample(logits: torch.Tensor, generator: np.random.Generator) -> np.ndarray:
+    """Draws actions, int64 [N], from logits [N, A]."""
+    cumulative = torch.softmax(logits, dim=-1).numpy().cumsum(axis=1)
+    thresholds = generator.random((len(cumulative), 1)) * cumulative[:, -1:]
+    return (cumulative <= thresholds).sum(axis=1).clip(max=cumulative.shape[1] - 1)
+
+
+@torch.inference_mode()
+def play_round(network: networks.RecurrentActorCritic, environment, episode: int, generator: np.random.Generator,
+               greedy: bool = False, interference: Interference | None = None) -> Round:  # fmt: skip
+    """Plays one whole episode in each environment of a batch.
+
+    Args:
+      network: the policy.
+      environment: a `BatchEnvironment`.
+      episode: index of the episode that every environment starts.
+      generator: source of the actions.
+      greedy: take the likeliest action instead of drawing one.
+      interference: changes the chosen actions on their way to the environment.
+    """
+    timestep = environment.reset(episode=episode)
+    active = np.arange(environment.num_environments)
+    state = network.initial_state(len(active))
+    steps, lengths = [], np.zeros(len(active), np.int64)
+    while len(active):
+        observation = timestep.observation
+        logits, _, state = network.step(as_tensors(observation), state)
+        actions = logits.numpy().argmax(axis=1) if greedy else sample(logits, generator)
+        if interference is not None:
+            actions = interference(actions, generator)
+        timestep = environment.step(actions, active)
+        steps.append((active, observation, actions, timestep.reward))
+        lengths[active] += 1
+        going = timestep.step_type != dm_env.StepType.LAST
+        if not going.all():
+            kept = torch.from_numpy(np.flatnonzero(going))
+            active, state = active[going], (state[0][:, kept], state[1][:, kept])
+            timestep = timestep._replace(observation={k: v[going] for k, v in timestep.observation.items()})
+    return _collect(steps, lengths, environment.correct_answers)
+
+
+def _collect(steps, lengths, answers) -> Round:
+    """Joins the steps of a round into padded arrays."""
+    shape = (len(steps), len(lengths))
+    first = steps[0][1]
+    observations = {name: np.zeros(shape + value.shape[1:], value.dtype) for name, value in first.items()}
+    actions, rewards = np.zeros(shape, np.int64), np.zeros(shape, np.float32)
+    for t, (active, observation, taken, reward) in enumerate(steps):
+        for name, value in observation.items():
+            observations[name][t, active] = value
+        actions[t, active] = taken
+        rewards[t, active] = reward
+    return Round(observations, actions, rewards, lengths, answers)
+
+
+class A3CActor(core.Actor):
+    """Plays one environment with a fixed network, carrying the LSTM's state through each episode."""
+
+    def __init__(self, network: networks.RecurrentActorCritic, seed: int = 0, greedy: bool = False):
+        """Wraps a network; `seed` determines the actions drawn, `greedy` takes the likeliest ones instead."""
+        self._network, self._greedy = network, greedy
+        self._generator = np.random.default_rng(seed)
+        self._state = network.initial_state(1)
+
+    @torch.inference_mode()
+    def select_action(self, observation) -> int:
+        tensors = {name: torch.as_tensor(value)[None] for name, value in observation.items()}
+        logits, _, self._state = self._network.step(tensors, self._state)
+        if self._greedy:
+            return int(logits.argmax())
+        return int(sample(logits, self._generator)[0])
+
+    def observe_first(self, timestep):
+        self._state = self._network.initial_state(1)
+
+    def observe(self, action, next_timestep):
+        """Needs nothing: the state has moved on in `select_action`."""
+
+    def update(self):
+        """Needs nothing: the network is fixed."""

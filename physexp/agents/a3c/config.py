@@ -1,0 +1,58 @@
+"""The configuration of A3C. Imports nothing heavy, since the command line is made from it."""
+
+import dataclasses
+import math
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class A3CConfig:
+    """What A3C may be told.
+
+    Attributes:
+      discount: the agent's gamma: the cost of information (paper, Section 3).
+      frames: environment steps to train for.
+      seed: seed of everything random: weights, environments, actions.
+      num_workers: processes that act and learn asynchronously on shared parameters.
+      envs_per_worker: episodes that a worker plays side by side for one update; 1 is the paper's learner.
+      learning_rate: step size of Adam, decaying linearly to zero over `frames`.
+      entropy_cost: weight of the entropy bonus at the start.
+      final_entropy_cost: the same at the end; the decay is exponential.
+      baseline_cost: weight of the value loss.
+      max_gradient_norm: gradients are scaled down to this norm.
+      lstm_units: hidden units of the LSTM (paper: 100).
+      torso_units: units of a ReLU layer between features and LSTM; 0 for none (paper).
+      observation_scale: factor on features, which are in metres.
+      checkpoint_seconds: time between checkpoints, s.
+
+    Raises:
+      ValueError: for a value that makes no sense.
+    """
+
+    discount: float = 0.95
+    frames: int = 10_000_000
+    seed: int = 0
+    num_workers: int = 2
+    envs_per_worker: int = 256
+    learning_rate: float = 2e-3
+    entropy_cost: float = 0.05
+    final_entropy_cost: float = 0.005
+    baseline_cost: float = 0.5
+    max_gradient_norm: float = 1.0
+    lstm_units: int = 100
+    torso_units: int = 0
+    observation_scale: float = 10.0
+    checkpoint_seconds: float = 60.0
+
+    def __post_init__(self):
+        whole = {"frames": 1, "seed": 0, "num_workers": 1, "envs_per_worker": 1, "lstm_units": 1, "torso_units": 0}
+        for name, minimum in whole.items():
+            value = getattr(self, name)
+            if not isinstance(value, int) or isinstance(value, bool) or not minimum <= value < 2**63:
+                raise ValueError(f"{name} is {value!r}; give an integer >= {minimum}")
+        positive = ("learning_rate", "max_gradient_norm", "observation_scale", "checkpoint_seconds")
+        for name in (*positive, "entropy_cost", "final_entropy_cost", "baseline_cost"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0) or (name in positive and value == 0):
+                raise ValueError(f"{name} is {value!r}; give a finite number {'> 0' if name in positive else '>= 0'}")
+        if not 0 < self.discount <= 1:
+            raise ValueError(f"discount is {self.discount!r}; give a number in (0, 1]")

@@ -1,0 +1,53 @@
+"""Plays episodes of any dm_env environment with any actor."""
+
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+import dm_env
+
+from physexp.agents import core
+
+
+class Observer(Protocol):
+    """Watches episodes without taking part."""
+
+    def observe_first(self, environment: dm_env.Environment, timestep: dm_env.TimeStep) -> None:
+        """Notes the first timestep of an episode."""
+
+    def observe(self, environment: dm_env.Environment, timestep: dm_env.TimeStep, action: int) -> None:
+        """Notes an action and the timestep that followed."""
+
+    def get_metrics(self) -> dict[str, Any]:
+        """Returns what was measured in the episode that has just ended."""
+
+
+class EnvironmentLoop:
+    """Runs an actor in an environment, episode by episode."""
+
+    def __init__(self, environment: dm_env.Environment, actor: core.Actor, observers: Sequence[Observer] = ()):
+        self._environment, self._actor, self._observers = environment, actor, tuple(observers)
+
+    def run_episode(self) -> dict[str, Any]:
+        """Plays one episode; returns `episode_length`, `episode_return` and what the observers measured."""
+        timestep = self._environment.reset()
+        self._actor.observe_first(timestep)
+        for observer in self._observers:
+            observer.observe_first(self._environment, timestep)
+        length, episode_return = 0, 0.0
+        while not timestep.last():
+            action = self._actor.select_action(timestep.observation)
+            timestep = self._environment.step(action)
+            self._actor.observe(action, timestep)
+            for observer in self._observers:
+                observer.observe(self._environment, timestep, action)
+            self._actor.update()
+            length += 1
+            episode_return += timestep.reward
+        metrics = {"episode_length": length, "episode_return": episode_return}
+        for observer in self._observers:
+            metrics.update(observer.get_metrics())
+        return metrics
+
+    def run(self, num_episodes: int) -> list[dict[str, Any]]:
+        """Plays many episodes; returns the metrics of each."""
+        return [self.run_episode() for _ in range(num_episodes)]
