@@ -40,10 +40,14 @@ for domain, task in suite.ALL_TASKS:
 
 
 @pytest.fixture(scope="module")
-def wheel(tmp_path_factory):
-    """The path of a wheel built from a copy of the checkout, without what earlier builds left there."""
-    source = tmp_path_factory.mktemp("source") / "physexp"
-    shutil.copytree(ROOT, source, ignore=NOT_SOURCE)
+def source(tmp_path_factory):
+    """A copy of the checkout, without what earlier builds left there."""
+    return Path(shutil.copytree(ROOT, tmp_path_factory.mktemp("source") / "physexp", ignore=NOT_SOURCE))
+
+
+@pytest.fixture(scope="module")
+def wheel(source, tmp_path_factory):
+    """The path of a wheel built from the checkout."""
     folder = tmp_path_factory.mktemp("wheel")
     run_pip("wheel", "--no-deps", "--no-build-isolation", "--wheel-dir", folder, source)
     (path,) = folder.glob("*.whl")
@@ -84,9 +88,9 @@ def test_every_task_plays_from_the_wheel_outside_the_checkout(installed, tmp_pat
     assert lines[1:] == [f"{domain} {task}" for domain, task in suite.ALL_TASKS]
 
 
-def test_the_wheel_holds_the_package_with_its_types_and_no_tests(wheel):
+def test_the_wheel_holds_the_package_with_its_types_and_no_tests(source, wheel):
+    modules = {str(path.relative_to(source)) for path in (source / "physexp").rglob("*.py")}
     names = zipfile.ZipFile(wheel).namelist()
-    modules = {str(path.relative_to(ROOT)) for path in (ROOT / "physexp").rglob("*.py")}
 
     assert {name for name in names if ".dist-info/" not in name} == modules | {"physexp/py.typed"}
 

@@ -181,7 +181,7 @@ def _work(index, make_environment, config, shared, lock, stopping, updates) -> N
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the parent, which asks to stop.
     torch.set_num_threads(1)
     try:
-        environment = make_environment(_worker_seed(config.seed, index), config.envs_per_worker, 1)
+        environment = make_environment(worker_seed(config.seed, index), config.envs_per_worker, 1)
         network = make_network(environment, config)
         rounds = _rounds(index, network, environment, config, shared)
         learner = learning.A3CLearner(network, shared, lock, rounds, index, config)
@@ -202,7 +202,7 @@ def _rounds(index, network, environment, config, shared) -> Iterator[acting.Roun
         yield acting.play_round(network, environment, number, generator)
 
 
-def _worker_seed(seed: int, index: int) -> int:
+def worker_seed(seed: int, index: int) -> int:
     """The seed of a worker's environments."""
     return int(np.random.SeedSequence([seed, index]).generate_state(1, np.uint32)[0])
 

@@ -6,7 +6,7 @@ import math
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class A3CConfig:
-    """What A3C may be told.
+    """What A3C may be told; a value that makes no sense raises ValueError.
 
     Attributes:
       discount: the agent's gamma: the cost of information (paper, Section 3).
@@ -16,7 +16,7 @@ class A3CConfig:
       envs_per_worker: episodes that a worker plays side by side for one update; 1 is the paper's learner.
       learning_rate: step size of Adam, decaying linearly to zero over `frames`.
       entropy_cost: weight of the entropy bonus at the start.
-      final_entropy_cost: the same at the end; the decay is exponential.
+      final_entropy_cost: the same at the end; the decay is linear over `frames`.
       baseline_cost: weight of the value loss.
       max_gradient_norm: gradients are scaled down to this norm.
       lstm_units: hidden units of the LSTM (paper: 100).
@@ -24,8 +24,6 @@ class A3CConfig:
       observation_scale: factor on features, which are in metres.
       checkpoint_seconds: time between checkpoints, s.
 
-    Raises:
-      ValueError: for a value that makes no sense.
     """
 
     discount: float = 0.95

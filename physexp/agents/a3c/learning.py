@@ -75,16 +75,17 @@ class A3CLearner(core.Learner):
         with self._lock:
             self._network.load_state_dict(self._shared.network.state_dict())
             progress = min(1.0, self._shared.frames.item() / self._config.frames)
+        number = self._shared.rounds[self._worker].item()
         episodes = self.last_round = next(self._rounds)
         metrics = self._compute_gradients(episodes, progress)
         with self._lock:
             self._apply_gradients(episodes.num_frames, progress)
-            metrics["updates"], metrics["frames"] = self._shared.updates.item(), self._shared.frames.item()
+            metrics |= {"rounds": number, "updates": self._shared.updates.item(), "frames": self._shared.frames.item()}
         return metrics
 
     def _compute_gradients(self, episodes: acting.Round, progress: float) -> dict[str, float]:
         config = self._config
-        entropy_cost = config.entropy_cost * (config.final_entropy_cost / config.entropy_cost) ** progress
+        entropy_cost = (1 - progress) * config.entropy_cost + progress * config.final_entropy_cost
         policy_loss, baseline_loss, entropy = round_losses(self._network, episodes, config.discount)
         loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
         self._network.zero_grad()

@@ -1,0 +1,58 @@
+"""What a training run is: the task, the agent's configuration, and the presets that were found to work.
+
+Imports nothing heavy, since the command line is made from it.
+"""
+
+import dataclasses
+
+from physexp.agents.a3c import config as a3c
+
+PRESETS = {
+    ("which_is_heavier", "features"): a3c.A3CConfig(),
+    ("towers", "direct_features"): a3c.A3CConfig(discount=0.98),
+    ("towers", "fist_features"): a3c.A3CConfig(discount=0.98),
+}
+"""The default configuration of each task's agent; `docs/performance.md` says how they were found."""
+
+
+def preset(domain: str = "", task: str = "") -> a3c.A3CConfig:
+    """The default configuration of a task's agent; A3C's own for a task without a preset."""
+    return PRESETS.get((domain, task), a3c.A3CConfig())
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class TrainConfig:
+    """A training run.
+
+    Attributes:
+      domain: the domain's name.
+      task: the task's name.
+      difficulty: the paper's beta, for Which is Heavier only; None for the task's default.
+      control_timestep: time between actions, s; None for the task's default.
+      agent: the agent's configuration.
+    """
+
+    domain: str
+    task: str
+    difficulty: float | None = None
+    control_timestep: float | None = None
+    agent: a3c.A3CConfig
+
+    @property
+    def task_kwargs(self) -> dict:
+        """The `task_kwargs` of `suite.load` that were chosen, without the seed."""
+        chosen = {"difficulty": self.difficulty, "control_timestep": self.control_timestep}
+        return {name: value for name, value in chosen.items() if value is not None}
+
+    @property
+    def name(self) -> str:
+        """A name for the run's folder."""
+        difficulty = "" if self.difficulty is None else f"-difficulty{self.difficulty:g}"
+        return f"{self.domain}-{self.task}{difficulty}-discount{self.agent.discount:g}-seed{self.agent.seed}"
+
+    def to_json(self) -> dict:
+        return dataclasses.asdict(self)
+
+    @classmethod
+    def from_json(cls, fields: dict) -> "TrainConfig":
+        return cls(**{**fields, "agent": a3c.A3CConfig(**fields["agent"])})

@@ -1,0 +1,154 @@
+"""A run's folder: what was asked for, how training went, and the agent it made.
+
+    config.json       the whole configuration, with versions and seeds
+    metrics.csv       a row every few seconds of training
+    episodes.parquet  the episodes of one update for each of those rows, a part for each checkpoint
+    checkpoints/      the shared variables (safetensors) and the facts beside them (JSON)
+"""
+
+import csv
+import fcntl
+import importlib.metadata
+import io
+import json
+from pathlib import Path
+import platform
+from typing import Any
+
+import pyarrow
+from pyarrow import parquet
+
+from physexp.agents import checkpointing
+from physexp.analysis import config as config_lib
+
+FORMAT = 1
+
+METRICS = {
+    "frames": "environment steps trained on",
+    "updates": "updates made",
+    "episodes": "episodes trained on",
+    "seconds": "time spent training, s",
+    "frames_per_second": "since the row before",
+    "success_rate": "share of episodes with the right label",
+    "episode_return": "mean discounted return",
+    "interactions": "mean interaction actions in an episode",
+    "timeouts": "share of episodes that ran out of time",
+    "entropy": "mean entropy of the policy, nats",
+    "policy_loss": "",
+    "baseline_loss": "",
+    "gradient_norm": "before clipping",
+    "learning_rate": "",
+    "entropy_cost": "",
+}
+"""The columns of `metrics.csv`; losses and rates are means over the updates since the row before."""
+
+EPISODES = pyarrow.schema(
+    [
+        ("frames", pyarrow.int64()),  # Of training, when the episode was learned from.
+        ("seed", pyarrow.int64()),  # Seed of the environment: with `episode`, it rebuilds the episode.
+        ("episode", pyarrow.int64()),
+        ("answer", pyarrow.int8()),  # The right label.
+        ("label", pyarrow.int8()),  # The label given, -1 when time ran out.
+        ("reward", pyarrow.float32()),
+        ("length", pyarrow.int16()),
+        ("actions", pyarrow.list_(pyarrow.int8())),
+    ]
+)
+
+
+class Run:
+    """A run's folder."""
+
+    def __init__(self, path: Path):
+        self.path = Path(path)
+        self.checkpointer = checkpointing.Checkpointer(self.path / "checkpoints")
+        self._lock_file: Any = None
+
+    @property
+    def config(self) -> config_lib.TrainConfig:
+        """What was asked for.
+
+        Raises:
+          ValueError: if the folder holds no run, or one of another format.
+        """
+        try:
+            fields = json.loads((self.path / "config.json").read_text())
+        except FileNotFoundError:
+            raise ValueError(f"{self.path} holds no run (no config.json); give the folder of a run") from None
+        if fields["format"] != FORMAT:
+            raise ValueError(f"{self.path} has format {fields['format']}; this version reads format {FORMAT}")
+        return config_lib.TrainConfig.from_json(fields["train"])
+
+    def create(self, config: config_lib.TrainConfig) -> None:
+        """Makes the folder and writes the configuration.
+
+        Raises:
+          ValueError: if there is a run already.
+        """
+        if (self.path / "config.json").exists():
+            raise ValueError(f"{self.path} already holds a run; add --resume to continue it, or choose another folder")
+        self.path.mkdir(parents=True, exist_ok=True)
+        content = {"format": FORMAT, "train": config.to_json(), "versions": versions()}
+        checkpointing.write_atomically(self.path / "config.json", (json.dumps(content, indent=1) + "\n").encode())
+
+    def lock(self) -> None:
+        """Keeps other trainers out of the folder until this process ends or `unlock` is called.
+
+        Raises:
+          ValueError: if another trainer is at work in it.
+        """
+        self._lock_file = open(self.path / ".lock", "w")  # noqa: SIM115
+        try:
+            fcntl.flock(self._lock_file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            self._lock_file.close()
+            raise ValueError(f"another process is training in {self.path}; wait for it or choose another") from None
+
+    def unlock(self) -> None:
+        self._lock_file.close()
+
+    # Metrics.
+
+    def append_metrics(self, row: dict[str, float]) -> None:
+        """Adds a row to `metrics.csv`."""
+        path = self.path / "metrics.csv"
+        text = io.StringIO()
+        writer = csv.DictWriter(text, METRICS, lineterminator="\n")
+        if not path.exists():
+            writer.writeheader()
+        writer.writerow({name: f"{row[name]:.6g}" if isinstance(row[name], float) else row[name] for name in METRICS})
+        with open(path, "a") as file:
+            file.write(text.getvalue())
+
+    def metrics(self) -> list[dict[str, float]]:
+        """The rows of `metrics.csv`."""
+        path = self.path / "metrics.csv"
+        if not path.exists():
+            return []
+        with open(path) as file:
+            return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+
+    def append_episodes(self, frames: int, columns: dict[str, list]) -> None:
+        """Adds a part to `episodes.parquet`."""
+        folder = self.path / "episodes.parquet"
+        folder.mkdir(exist_ok=True)
+        content = io.BytesIO()
+        parquet.write_table(pyarrow.table(columns, EPISODES), content, compression="zstd")
+        checkpointing.write_atomically(folder / f"part-{frames:015d}.parquet", content.getvalue())
+
+    def rewind(self, frames: int) -> None:
+        """Drops what was recorded after a checkpoint, so that a resumed run leaves no row twice."""
+        path = self.path / "metrics.csv"
+        if path.exists():
+            lines = path.read_text().splitlines(keepends=True)
+            kept = [line for line in lines[1:] if line.endswith("\n") and int(line.split(",", 1)[0]) <= frames]
+            checkpointing.write_atomically(path, "".join(lines[:1] + kept).encode())
+        for part in (self.path / "episodes.parquet").glob("part-*.parquet"):
+            if int(part.stem.removeprefix("part-")) > frames:
+                part.unlink()
+
+
+def versions() -> dict[str, str]:
+    """Versions of what determines a run's results."""
+    names = ("physexp", "mujoco", "dm-control", "torch", "numpy")
+    return {"python": platform.python_version(), **{name: importlib.metadata.version(name) for name in names}}

@@ -1,0 +1,230 @@
+"""Training: runs an agent on a task, and records it in a run's folder."""
+
+from collections.abc import Callable
+import functools
+import signal
+import threading
+import time
+
+import numpy as np
+
+from physexp import suite
+from physexp.agents.a3c import agent as agent_lib
+from physexp.analysis import config as config_lib, run as run_lib
+
+ROW_SECONDS = 5.0  # Between rows of metrics.csv.
+
+
+def make_environment(config: config_lib.TrainConfig, seed: int, num_environments: int, num_threads: int):
+    """The environments of a run, with a seed of their own."""
+    task_kwargs = {**config.task_kwargs, "random": seed}
+    return suite.load_batch(config.domain, config.task, num_environments, task_kwargs, num_threads)
+
+
+def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None) -> None:
+    """Trains the agent that a run's configuration describes, from its last checkpoint if there is one.
+
+    Ctrl-C finishes the update and writes a checkpoint; a second one leaves at once.
+
+    Args:
+      run: a run that has been created.
+      report: called with each row of metrics.
+
+    Raises:
+      KeyboardInterrupt: after a Ctrl-C, when the checkpoint has been written.
+      RuntimeError: if training cannot go on; the last checkpoint is whole.
+    """
+    config = run.config
+    agent = agent_lib.A3C(functools.partial(make_environment, config), config.agent)
+    run.lock()
+    try:
+        recorder = _Recorder(run, config, report)
+        recorder.resume(agent)
+        with _Interruption(agent.stop) as interruption:
+            _run(agent, recorder)
+        if interruption.happened:
+            raise KeyboardInterrupt
+    finally:
+        run.unlock()
+
+
+def _run(agent: agent_lib.A3C, recorder: "_Recorder") -> None:
+    try:
+        for update in agent.updates():
+            if update is not None:
+                recorder.add(update)
+            if recorder.checkpoint_is_due():
+                recorder.snapshot(agent.save())
+    except agent_lib.WorkerError as error:
+        where = recorder.save_failure(error)
+        raise RuntimeError(f"training stopped: {error}{where}; the last checkpoint is whole, --resume it") from None
+    recorder.snapshot(agent.save())
+
+
+class _Recorder:
+    """Writes a run's rows, episodes and checkpoints.
+
+    A checkpoint is written when all updates in it, and none after it, have been recorded: so the records of a run that
+    was killed and resumed have no gap, and nothing twice.
+    """
+
+    def __init__(self, run: run_lib.Run, config: config_lib.TrainConfig, report: Callable[[dict], None]):
+        self._run, self._config, self._report = run, config, report
+        self._num_interactions = suite.load_task(config.domain, config.task, config.task_kwargs).num_interactions
+        self._seeds = [agent_lib.worker_seed(config.agent.seed, worker) for worker in range(config.agent.num_workers)]
+        self._frames = self._updates = self._episodes = 0
+        self._seconds = 0.0
+        self._started = self._row_started = self._checkpointed = time.monotonic()
+        self._frames_at_row = 0
+        self._window: list[agent_lib.Update] = []
+        self._snapshot: dict | None = None
+        self._later: list[agent_lib.Update] = []
+        self._records: list[dict[str, list]] = []
+
+    def resume(self, agent: agent_lib.A3C) -> None:
+        """Puts the agent and the records back to the last checkpoint, if there is one."""
+        found = self._run.checkpointer.latest()
+        if found is None:
+            self._run.rewind(-1)
+            return
+        tensors, facts = found
+        agent.restore(tensors)
+        self._frames, self._updates = int(tensors["frames"]), int(tensors["updates"])
+        self._episodes, self._seconds = facts["episodes"], facts["seconds"]
+        self._frames_at_row = self._frames
+        self._run.rewind(self._frames)
+
+    def add(self, update: agent_lib.Update) -> None:
+        """Records an update, or keeps it until the checkpoint before it has been written."""
+        if self._snapshot is not None and update.metrics["updates"] > int(self._snapshot["updates"]):
+            self._later.append(update)
+            return
+        self._window.append(update)
+        self._updates += 1
+        self._frames += update.episodes.num_frames
+        self._episodes += len(update.episodes.lengths)
+        if time.monotonic() - self._row_started > ROW_SECONDS:
+            self._write_row()
+        self._write_checkpoint_when_complete()
+
+    def checkpoint_is_due(self) -> bool:
+        waited = time.monotonic() - self._checkpointed
+        return self._snapshot is None and waited > self._config.agent.checkpoint_seconds
+
+    def snapshot(self, tensors: dict) -> None:
+        """Writes a checkpoint of these variables, as soon as the updates in it have been recorded."""
+        self._snapshot = tensors
+        self._write_checkpoint_when_complete()
+
+    def save_failure(self, error: agent_lib.WorkerError) -> str:
+        """Saves the episodes that made the loss diverge; returns a phrase that says where."""
+        if error.round is None:
+            return ""
+        path = self._run.path / "failed_batch.npz"
+        arrays = {"actions": error.round.actions, "rewards": error.round.rewards, "lengths": error.round.lengths}
+        np.savez_compressed(path, **arrays, **error.round.observations)
+        return f" (the batch is in {path})"
+
+    def _write_checkpoint_when_complete(self) -> None:
+        if self._snapshot is None or self._updates < int(self._snapshot["updates"]):
+            return
+        tensors, self._snapshot = self._snapshot, None
+        if self._window:
+            self._write_row()
+        if self._records:
+            columns = {name: sum((record[name] for record in self._records), []) for name in self._records[0]}
+            self._run.append_episodes(self._frames, columns)
+            self._records = []
+        facts = {"episodes": self._episodes, "seconds": self._elapsed(), "versions": run_lib.versions()}
+        self._run.checkpointer.save(tensors, facts)
+        self._checkpointed = time.monotonic()
+        later, self._later = self._later, []
+        for update in later:
+            self.add(update)
+
+    def _elapsed(self) -> float:
+        return self._seconds + time.monotonic() - self._started
+
+    def _write_row(self) -> None:
+        now = time.monotonic()
+        row = {"frames": self._frames, "updates": self._updates, "episodes": self._episodes,
+               "seconds": self._elapsed()}  # fmt: skip
+        row["frames_per_second"] = (self._frames - self._frames_at_row) / (now - self._row_started)
+        row.update(self._summary())
+        self._run.append_metrics(row)
+        self._records.append(self._columns(self._window[-1]))
+        self._report(row)
+        self._window, self._row_started, self._frames_at_row = [], now, self._frames
+
+    def _summary(self) -> dict[str, float]:
+        """Means over the episodes and the updates of the window."""
+        rewards, lengths, interactions = [], [], []
+        for update in self._window:
+            rewards.append(update.episodes.rewards.sum(axis=0))
+            lengths.append(update.episodes.lengths)
+            interactions.append(interaction_counts(update.episodes, self._num_interactions))
+        reward, length, pokes = (np.concatenate(arrays) for arrays in (rewards, lengths, interactions))
+        learner = {
+            name: float(np.mean([update.metrics[name] for update in self._window]))
+            for name in ("entropy", "policy_loss", "baseline_loss", "gradient_norm", "learning_rate", "entropy_cost")
+        }
+        return {
+            "success_rate": float((reward > 0).mean()),
+            "episode_return": float((reward * self._config.agent.discount ** (length - 1)).mean()),
+            "interactions": float(pokes.mean()),
+            "timeouts": float((pokes == length).mean()),
+            **learner,
+        }
+
+    def _columns(self, update: agent_lib.Update) -> dict[str, list]:
+        """The episodes of an update as columns of `run.EPISODES`."""
+        episodes = update.episodes
+        size = len(episodes.lengths)
+        batch_seed, number = self._seeds[update.worker], int(update.metrics["rounds"])
+        environments = [suite.environment_seed(batch_seed, i) for i in range(size)]
+        return {
+            "frames": [self._frames] * size,
+            "seed": environments,
+            "episode": [number] * size,
+            **episode_columns(episodes, self._num_interactions),
+        }
+
+
+def interaction_counts(episodes, num_interactions: int) -> np.ndarray:
+    """How many interaction actions each episode of a `Round` has, int64 [B]."""
+    played = np.arange(len(episodes.actions))[:, None] < episodes.lengths
+    return (played & (episodes.actions < num_interactions)).sum(axis=0)
+
+
+def episode_columns(episodes, num_interactions: int) -> dict[str, list]:
+    """Answers, labels, rewards, lengths and actions of a `Round`, one entry an episode."""
+    last = episodes.actions[episodes.lengths - 1, np.arange(len(episodes.lengths))]
+    return {
+        "answer": episodes.answers.tolist(),
+        "label": np.where(last >= num_interactions, last - num_interactions, -1).tolist(),
+        "reward": episodes.rewards.sum(axis=0).tolist(),
+        "length": episodes.lengths.tolist(),
+        "actions": [row[:length].tolist() for row, length in zip(episodes.actions.T, episodes.lengths, strict=True)],
+    }
+
+
+class _Interruption:
+    """Turns the first Ctrl-C into a call; the second is an ordinary one."""
+
+    def __init__(self, stop: Callable[[], None]):
+        self._stop, self.happened = stop, False
+
+    def __enter__(self):
+        self._in_main = threading.current_thread() is threading.main_thread()
+        if self._in_main:
+            self._previous = signal.signal(signal.SIGINT, self._handle)
+        return self
+
+    def __exit__(self, *_):
+        if self._in_main:
+            signal.signal(signal.SIGINT, self._previous)
+
+    def _handle(self, *_):
+        self.happened = True
+        self._stop()
+        signal.signal(signal.SIGINT, self._previous)

@@ -1,0 +1,222 @@
+"""The command line. Heavy libraries are imported by the command that needs them, so that `--help` is quick."""
+
+import dataclasses
+import json
+from pathlib import Path
+import sys
+from typing import Annotated, Literal, Union
+
+import tyro
+from tyro.conf import OmitArgPrefixes, Positional
+
+from physexp.analysis import config as config_lib
+
+
+@dataclasses.dataclass
+class Tasks:
+    """List the tasks.
+
+    Attributes:
+      json: print JSON.
+    """
+
+    json: bool = False
+
+    def run(self) -> None:
+        from physexp import suite
+
+        rows = []
+        for domain, name in suite.ALL_TASKS:
+            task = suite.load_task(domain, name)
+            rows.append({"domain": domain, "task": name, "interactions": task.num_interactions,
+                         "labels": task.num_labels, "step_limit": task.rules.step_limit})  # fmt: skip
+        _show_rows(rows, self.json)
+
+
+@dataclasses.dataclass
+class Train:
+    """Train an agent.
+
+    Attributes:
+      domain: the domain: which_is_heavier or towers.
+      task: the task; `physexp tasks` lists them.
+      difficulty: the paper's beta, for Which is Heavier.
+      control_timestep: time between actions, s.
+      agent: the agent.
+      run_dir: the run's folder; by default one named after the run, under runs/.
+      resume: continue the run in that folder, with its own configuration.
+    """
+
+    domain: Positional[str]
+    task: Positional[str]
+    agent: OmitArgPrefixes[config_lib.a3c.A3CConfig]
+    difficulty: float | None = None
+    control_timestep: float | None = None
+    run_dir: Path | None = None
+    resume: bool = False
+
+    def run(self) -> None:
+        from physexp import suite
+        from physexp.analysis import progress, run as run_lib, training
+
+        config = config_lib.TrainConfig(
+            domain=self.domain, task=self.task, difficulty=self.difficulty, control_timestep=self.control_timestep,
+            agent=self.agent,
+        )  # fmt: skip
+        run = run_lib.Run(self.run_dir or Path("runs") / config.name)
+        if self.resume:
+            if (run.config.domain, run.config.task) != (self.domain, self.task):
+                raise ValueError(f"{run.path} holds a run of {run.config.domain}/{run.config.task}; name that task")
+        else:
+            suite.load_task(config.domain, config.task, config.task_kwargs)  # Refuses what no run can be made of.
+            run.create(config)
+        with progress.Progress(run.config) as display:
+            training.train(run, display)
+        print(run.path)
+
+
+@dataclasses.dataclass
+class Evaluate:
+    """Play episodes with a trained agent and measure how well it answers.
+
+    Attributes:
+      run_dir: the folder of a run.
+      episodes: how many to play.
+      interaction: learned, or random: interaction actions are replaced by uniformly drawn ones (paper, Section 5.3).
+      greedy: take the likeliest action instead of drawing one.
+      seed: of the environments and the actions; by default one that training never uses.
+      json: print JSON.
+    """
+
+    run_dir: Positional[Path]
+    episodes: int = 1000
+    interaction: Literal["learned", "random"] = "learned"
+    greedy: bool = False
+    seed: int | None = None
+    json: bool = False
+
+    def run(self) -> None:
+        from physexp.analysis import evaluation, run as run_lib
+
+        run = run_lib.Run(self.run_dir)
+        seed = evaluation.SEED if self.seed is None else self.seed
+        played = evaluation.evaluate(run, self.episodes, self.interaction, self.greedy, seed)
+        _show(played.summary(run.config.agent.discount), self.json)
+
+
+@dataclasses.dataclass
+class Bench:
+    """Measure every performance figure, side by side.
+
+    Attributes:
+      sections: which figures; all but learning by default, since learning takes hours.
+      runs_dir: where the runs of the learning figures are, or go.
+      json: print JSON.
+    """
+
+    sections: Positional[tuple[Literal["reset", "batch", "training", "peers", "learning"], ...]] = (
+        "reset", "batch", "training", "peers",
+    )  # fmt: skip
+    runs_dir: Path = Path("runs")
+    json: bool = False
+
+    def run(self) -> None:
+        from physexp.analysis import bench
+
+        rows = []
+        for row in bench.run(self.sections, self.runs_dir):
+            rows.append(row)
+            if not self.json:
+                print(bench.line(row), flush=True)
+        if self.json:
+            print(json.dumps(rows, indent=1))
+
+
+@dataclasses.dataclass
+class Doctor:
+    """Tell what this machine offers.
+
+    Attributes:
+      json: print JSON.
+    """
+
+    json: bool = False
+
+    def run(self) -> None:
+        from physexp.analysis import doctor
+
+        _show(doctor.examine(), self.json)
+
+
+@dataclasses.dataclass
+class Demo:
+    """Train Which is Heavier for a minute or two, and compare the agent with randomized interaction.
+
+    Attributes:
+      run_dir: the folder of the run; what it held before is replaced.
+    """
+
+    run_dir: Path = Path("runs/demo")
+
+    def run(self) -> None:
+        from physexp.analysis import demo
+
+        demo.run(self.run_dir)
+
+
+def main() -> None:
+    """The entry point: runs a command; an error of the user's is one line and exit status 2."""
+    command = _parse(sys.argv[1:])
+    try:
+        command.run()
+    except (ValueError, OSError) as error:
+        print(f"physexp: {error}", file=sys.stderr)
+        sys.exit(2)
+    except RuntimeError as error:
+        print(f"physexp: {error}", file=sys.stderr)
+        sys.exit(1)
+    except KeyboardInterrupt:
+        print("physexp: interrupted", file=sys.stderr)
+        sys.exit(130)
+
+
+def _parse(arguments: list[str]):
+    """The command that the arguments describe; the defaults of `train` are those of the task it names."""
+    preset = config_lib.preset(*arguments[1:3]) if arguments[:1] == ["train"] else config_lib.a3c.A3CConfig()
+    train = Train(domain=tyro.MISSING, task=tyro.MISSING, agent=preset)
+    commands = Union[
+        Annotated[Tasks, tyro.conf.subcommand("tasks")],
+        Annotated[Train, tyro.conf.subcommand("train", default=train)],
+        Annotated[Evaluate, tyro.conf.subcommand("evaluate")],
+        Annotated[Bench, tyro.conf.subcommand("bench")],
+        Annotated[Doctor, tyro.conf.subcommand("doctor")],
+        Annotated[Demo, tyro.conf.subcommand("demo")],
+    ]
+    description = "Environments in which an agent must experiment, and agents that learn to."
+    return tyro.cli(commands, prog="physexp", description=description, args=arguments)  # type: ignore[call-overload]
+
+
+def _show(figures: dict, as_json: bool) -> None:
+    if as_json:
+        print(json.dumps(figures, indent=1))
+        return
+    width = max(len(name) for name in figures)
+    for name, value in figures.items():
+        print(f"{name:{width}}  {_text(value)}")
+
+
+def _show_rows(rows: list[dict], as_json: bool) -> None:
+    if as_json:
+        print(json.dumps(rows, indent=1))
+        return
+    widths = {name: max(len(name), *(len(_text(row[name])) for row in rows)) for name in rows[0]}
+    for row in [{name: name for name in rows[0]}, *rows]:
+        print("  ".join(f"{_text(row[name]):{width}}" for name, width in widths.items()).rstrip())
+
+
+def _text(value) -> str:
+    if isinstance(value, float):
+        return f"{value:.4f}"
+    if isinstance(value, (list, tuple)):
+        return " to ".join(_text(item) for item in value)
+    return str(value)
