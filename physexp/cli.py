@@ -57,7 +57,8 @@ class Train:
 
     def run(self) -> None:
         from physexp import suite
-        from physexp.analysis import progress, run as run_lib, training
+        from physexp.analysis import progress, training
+        from physexp.analysis import run as run_lib
 
         config = config_lib.TrainConfig(
             domain=self.domain, task=self.task, difficulty=self.difficulty, control_timestep=self.control_timestep,
@@ -96,7 +97,8 @@ class Evaluate:
     json: bool = False
 
     def run(self) -> None:
-        from physexp.analysis import evaluation, run as run_lib
+        from physexp.analysis import evaluation
+        from physexp.analysis import run as run_lib
 
         run = run_lib.Run(self.run_dir)
         seed = evaluation.SEED if self.seed is None else self.seed
@@ -184,7 +186,7 @@ def _parse(arguments: list[str]):
     """The command that the arguments describe; the defaults of `train` are those of the task it names."""
     preset = config_lib.preset(*arguments[1:3]) if arguments[:1] == ["train"] else config_lib.a3c.A3CConfig()
     train = Train(domain=tyro.MISSING, task=tyro.MISSING, agent=preset)
-    commands = Union[
+    commands = Union[  # noqa: UP007
         Annotated[Tasks, tyro.conf.subcommand("tasks")],
         Annotated[Train, tyro.conf.subcommand("train", default=train)],
         Annotated[Evaluate, tyro.conf.subcommand("evaluate")],

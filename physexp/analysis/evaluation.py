@@ -6,10 +6,11 @@ import functools
 import numpy as np
 import torch
 
-from physexp import suite
 from physexp.agents import networks
-from physexp.agents.a3c import acting, agent as agent_lib
-from physexp.analysis import run as run_lib, statistics, training
+from physexp.agents.a3c import acting
+from physexp.agents.a3c import agent as agent_lib
+from physexp.analysis import run as run_lib
+from physexp.analysis import statistics, training
 
 SEED = 1_000_003  # Of the evaluation's environments, apart from those of training.
 INTERACTIONS = ("learned", "random")

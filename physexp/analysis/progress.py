@@ -2,6 +2,7 @@
 
 import sys
 import time
+from typing import Any
 
 from physexp.analysis import config as config_lib
 
@@ -22,7 +23,9 @@ class Progress:
     def __init__(self, config: config_lib.TrainConfig, file=None):
         """Prepares a display of a run on `file`, by default standard error."""
         self._config, self._file = config, file or sys.stderr
-        self._live, self._printed, self._rates = None, 0.0, []
+        self._live: Any = None
+        self._printed = 0.0
+        self._rates: list[float] = []
 
     def __enter__(self):
         if self._file.isatty():

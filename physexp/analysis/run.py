@@ -1,9 +1,9 @@
 """A run's folder: what was asked for, how training went, and the agent it made.
 
-    config.json       the whole configuration, with versions and seeds
-    metrics.csv       a row every few seconds of training
-    episodes.parquet  the episodes of one update for each of those rows, a part for each checkpoint
-    checkpoints/      the shared variables (safetensors) and the facts beside them (JSON)
+config.json       the whole configuration, with versions and seeds
+metrics.csv       a row every few seconds of training
+episodes.parquet  the episodes of one update for each of those rows, a part for each checkpoint
+checkpoints/      the shared variables (safetensors) and the facts beside them (JSON)
 """
 
 import csv

@@ -5,12 +5,14 @@ import functools
 import signal
 import threading
 import time
+from typing import Any
 
 import numpy as np
 
 from physexp import suite
 from physexp.agents.a3c import agent as agent_lib
-from physexp.analysis import config as config_lib, run as run_lib
+from physexp.analysis import config as config_lib
+from physexp.analysis import run as run_lib
 
 ROW_SECONDS = 5.0  # Between rows of metrics.csv.
 
@@ -121,8 +123,12 @@ class _Recorder:
         if error.round is None:
             return ""
         path = self._run.path / "failed_batch.npz"
-        arrays = {"actions": error.round.actions, "rewards": error.round.rewards, "lengths": error.round.lengths}
-        np.savez_compressed(path, **arrays, **error.round.observations)
+        arrays: dict[str, Any] = {
+            "actions": error.round.actions,
+            "rewards": error.round.rewards,
+            "lengths": error.round.lengths,
+        }
+        np.savez_compressed(path, **{**arrays, **error.round.observations})
         return f" (the batch is in {path})"
 
     def _write_checkpoint_when_complete(self) -> None:

@@ -77,10 +77,7 @@ def load_task(domain_name, task_name, task_kwargs=None):
 def _call(function, name, kwargs, *args):
     """Calls `function` with keyword arguments whose names are checked first."""
     kwargs = dict(kwargs or {})
-    allowed = [
-        parameter.name
-        for parameter in list(inspect.signature(function).parameters.values())[len(args) :]
-    ]
+    allowed = [parameter.name for parameter in list(inspect.signature(function).parameters.values())[len(args) :]]
     unknown = set(kwargs) - set(allowed)
     if unknown:
         raise ValueError(f"{name} has {', '.join(sorted(unknown))}; allowed: {', '.join(allowed)}")

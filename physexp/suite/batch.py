@@ -7,7 +7,8 @@ import mujoco
 from mujoco.batch import Batch
 import numpy as np
 
-from physexp.suite import seeding, task as task_lib
+from physexp.suite import seeding
+from physexp.suite import task as task_lib
 
 _LOG = logging.getLogger(__name__)
 _FIRST, _MID, _LAST = (int(kind) for kind in dm_env.StepType)
@@ -44,7 +45,7 @@ class BatchEnvironment:
         self._num_threads = int(num_threads)
         self._controls = task.controls
         self._everyone = np.arange(self.num_environments)
-        self._seeds = np.array([seeding.environment_seed(task.options.random, i) for i in self._everyone])
+        self._seeds = np.array([seeding.environment_seed(task.options.random, i) for i in range(self.num_environments)])
         self._next_episodes = np.zeros(self.num_environments, np.int64)
         self._needs_reset = np.ones(self.num_environments, bool)
         self._structures = np.zeros(self.num_environments, np.int64)

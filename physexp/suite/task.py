@@ -1,6 +1,7 @@
 """The base of every task: a question about something that cannot be seen (paper, Section 3)."""
 
 import abc
+from collections.abc import Sequence
 import dataclasses
 import math
 from typing import Any, ClassVar
@@ -79,7 +80,11 @@ class QuestionTask(composer.Task):
       controls: what each interaction action sends to the actuators, float64 [num_interactions, nu].
       next_episode: index of the episode that the next reset starts; set it to rebuild any episode.
       num_divergences: episodes that ended because the simulation diverged.
+      apparatus: the compiled model in use; the environment sets it.
     """
+
+    apparatus: apparatus.Apparatus
+    options: Options
 
     def __init__(self, arena, options: Options, num_interactions: int, num_labels: int):
         """Sets what all tasks share.
@@ -96,8 +101,7 @@ class QuestionTask(composer.Task):
         self.next_episode = 0
         self.num_divergences = 0
         self.structure = 0
-        self.apparatus: apparatus.Apparatus | None = None  # The environment sets the one in use.
-        self._hidden = None
+        self._hidden: np.ndarray | None = None
         self._actions = np.zeros(1, np.int64)
         self._steps = np.zeros(1, np.int64)
         self._touched = False
@@ -123,8 +127,10 @@ class QuestionTask(composer.Task):
     def sensors(self) -> dict[str, tuple]:
         """For each observation, the MJCF sensors that make it up and its shape."""
 
-    held_joints: tuple = ()
-    """Joints held at rest until something moves them by more than TOUCH_TOLERANCE."""
+    @property
+    def held_joints(self) -> Sequence:
+        """Joints held at rest until something moves them by more than TOUCH_TOLERANCE."""
+        return ()
 
     @abc.abstractmethod
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
@@ -141,8 +147,10 @@ class QuestionTask(composer.Task):
     def arrange(self, structure: int) -> None:
         """Puts the MJCF into the form of a structure."""
 
-    hidden_joints: tuple = ()
-    """Slides that carry bodies whose masses are hidden."""
+    @property
+    def hidden_joints(self) -> Sequence:
+        """Slides that carry bodies whose masses are hidden."""
+        return ()
 
     def hidden_masses(self, hidden: np.ndarray) -> np.ndarray:
         """Masses of the bodies on `hidden_joints`, float64 [N, number of joints], kg."""
@@ -168,8 +176,7 @@ class QuestionTask(composer.Task):
     @property
     def correct_answer(self) -> int:
         """Index of the right label in the current episode; never observable."""
-        self.hidden  # Raises before the first reset.
-        return int(self._answers[0])
+        return int(self.answers(self.hidden[None])[0])
 
     @property
     def episode(self) -> int:
@@ -200,14 +207,14 @@ class QuestionTask(composer.Task):
         return apparatus.build(self.root_entity.mjcf_model, self.sensors, self.held_joints, self.hidden_joints)
 
     def initialize_episode_mjcf(self, random_state):
-        self._hidden = self.draw(np.array([self.options.random]), np.array([self.next_episode]))
-        self._answers = self.answers(self._hidden)
+        hidden = self.draw(np.array([self.options.random]), np.array([self.next_episode]))
+        self._hidden, self._answers = hidden, self.answers(hidden)
         self.next_episode += 1
-        self.structure = int(self.structures(self._hidden)[0])
+        self.structure = int(self.structures(hidden)[0])
         self.arrange(self.structure)
 
     def initialize_episode(self, physics, random_state):
-        for field, (addresses, values) in self.apparatus.mass_fields(self.hidden_masses(self._hidden)).items():
+        for field, (addresses, values) in self.apparatus.mass_fields(self.hidden_masses(self.hidden[None])).items():
             getattr(physics.model, field)[addresses] = values[0]
         self._steps[0] = 0
         self._actions[0] = 0

@@ -46,7 +46,7 @@ class Tower(composer.Entity):
         for number, members in enumerate(_rigid_bodies(self.pattern)):
             center = np.mean([self._height(k) for k in members])
             body = self._root.worldbody.add("body", name=f"body_{number}", pos=[0, 0, center])
-            for axis, direction in zip("xyz", np.eye(3)):
+            for axis, direction in zip("xyz", np.eye(3), strict=True):
                 self.joints.append(body.add("joint", name=f"{axis}_{number}", type="slide", axis=direction))
             self.joints.append(body.add("joint", name=f"ball_{number}", type="ball"))
             for k in members:

@@ -46,12 +46,18 @@ class Towers(task.QuestionTask):
         room.add_walls(WALL_DISTANCE)
         room.mjcf_model.option.tolerance = 1e-6
         self._actuator = actuator
+        self._tower: tower.Tower | None = None
         self._towers: dict[int, tower.Tower] = {}  # Built when first needed, one for each pattern.
-        self.tower: tower.Tower | None = None
         actuator.attach_to(room)
         self._arena = room
         self.arrange(0)
         super().__init__(room, options, len(actuator.controls), tower.NUM_BLOCKS)
+
+    @property
+    def tower(self) -> tower.Tower:
+        """The tower of the current structure."""
+        assert self._tower is not None  # `arrange` is called when the task is made.
+        return self._tower
 
     @property
     def controls(self):
@@ -79,11 +85,11 @@ class Towers(task.QuestionTask):
         if structure not in self._towers:
             self._towers[structure] = built = tower.Tower(tower.PATTERNS[structure])
             self._actuator.equip(built)
-        if self.tower is not self._towers[structure]:
-            if self.tower is not None:
-                self.tower.detach()
-            self.tower = self._towers[structure]
-            self._arena.attach(self.tower)
+        if self._tower is not self._towers[structure]:
+            if self._tower is not None:
+                self._tower.detach()
+            self._tower = self._towers[structure]
+            self._arena.attach(self._tower)
 
 
 _NUM_BODIES = np.array([tower.num_bodies(pattern) for pattern in tower.PATTERNS])

@@ -49,6 +49,8 @@ class Options(task.Options):
 class WhichIsHeavier(task.QuestionTask):
     """Four blocks in a line that move only vertically; their masses are hidden."""
 
+    options: Options
+
     def __init__(self, options: Options):
         """Builds the scene."""
         room = arena.Laboratory(**_CAMERA)

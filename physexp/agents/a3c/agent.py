@@ -14,7 +14,8 @@ import torch
 from torch import multiprocessing
 
 from physexp.agents import networks
-from physexp.agents.a3c import acting, config as config_lib, learning
+from physexp.agents.a3c import acting, learning
+from physexp.agents.a3c import config as config_lib
 
 # Makes a worker's batch of environments from its seed, its number of environments and its number of threads.
 EnvironmentFactory = Callable[[int, int, int], Any]
@@ -205,4 +206,3 @@ def _rounds(index, network, environment, config, shared) -> Iterator[acting.Roun
 def worker_seed(seed: int, index: int) -> int:
     """The seed of a worker's environments."""
     return int(np.random.SeedSequence([seed, index]).generate_state(1, np.uint32)[0])
-

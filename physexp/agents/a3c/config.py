@@ -30,9 +30,9 @@ class A3CConfig:
     frames: int = 10_000_000
     seed: int = 0
     num_workers: int = 2
-    envs_per_worker: int = 256
-    learning_rate: float = 2e-3
-    entropy_cost: float = 0.05
+    envs_per_worker: int = 512
+    learning_rate: float = 1e-2
+    entropy_cost: float = 0.15
     final_entropy_cost: float = 0.005
     baseline_cost: float = 0.5
     max_gradient_norm: float = 1.0
@@ -40,6 +40,10 @@ class A3CConfig:
     torso_units: int = 0
     observation_scale: float = 10.0
     checkpoint_seconds: float = 60.0
+
+    def replace(self, **changes) -> "A3CConfig":
+        """A copy with some values changed."""
+        return dataclasses.replace(self, **changes)
 
     def __post_init__(self):
         whole = {"frames": 1, "seed": 0, "num_workers": 1, "envs_per_worker": 1, "lstm_units": 1, "torso_units": 0}

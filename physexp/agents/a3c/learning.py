@@ -6,7 +6,8 @@ import numpy as np
 import torch
 
 from physexp.agents import core, losses, networks
-from physexp.agents.a3c import acting, config as config_lib
+from physexp.agents.a3c import acting
+from physexp.agents.a3c import config as config_lib
 
 
 class DivergedError(RuntimeError):
@@ -68,7 +69,6 @@ class A3CLearner(core.Learner):
         """
         self._network, self._shared, self._lock = network, shared, lock
         self._rounds, self._worker, self._config = rounds, worker, config
-        self.last_round: acting.Round | None = None
 
     def step(self) -> dict[str, float]:
         """Takes the shared parameters, plays a round, and applies its gradient to the shared variables."""
@@ -76,7 +76,7 @@ class A3CLearner(core.Learner):
             self._network.load_state_dict(self._shared.network.state_dict())
             progress = min(1.0, self._shared.frames.item() / self._config.frames)
         number = self._shared.rounds[self._worker].item()
-        episodes = self.last_round = next(self._rounds)
+        self.last_round = episodes = next(self._rounds)
         metrics = self._compute_gradients(episodes, progress)
         with self._lock:
             self._apply_gradients(episodes.num_frames, progress)

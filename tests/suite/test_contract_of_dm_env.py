@@ -1,0 +1,163 @@
+"""Every registered task keeps dm_env's contract, and pays as DESIGN.md says."""
+
+from absl.testing import absltest
+from dm_env import test_utils
+import numpy as np
+import pytest
+
+from physexp import suite
+
+# Interaction actions, labels, and control steps of an unanswered episode. Heavier: 4 blocks to poke, 4 to name, 100
+# steps. Towers: 5 blocks in 4 directions or a fist in 4, 1..5 bodies to answer, 2.6 s / 0.1 s = 26 steps.
+NUMBERS = {"features": (4, 4, 100), "direct_features": (20, 5, 26), "fist_features": (4, 5, 26)}
+NUMBERS |= {name.replace("features", "pixels"): numbers for name, numbers in NUMBERS.items()}
+
+FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
+every_task = pytest.mark.parametrize("domain_name, task_name", suite.ALL_TASKS)
+every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_TASKS)
+
+
+@pytest.fixture
+def env(domain_name, task_name):
+    environment = suite.load(domain_name, task_name, task_kwargs={"random": 0})
+    yield environment
+    environment.close()
+
+
+def _contract_of(domain_name, task_name):
+    """The test case of one task."""
+
+    class Contract(test_utils.EnvironmentTestMixin, absltest.TestCase):
+        def make_object_under_test(self):
+            return suite.load(domain_name, task_name, task_kwargs={"random": 0})
+
+        def make_action_sequence(self):
+            """Past the time limit, through the first step of the next episode, to an answer and past that as well."""
+            interactions, _, step_limit = NUMBERS[task_name]
+            for t in range(step_limit + 3):
+                yield np.int32(t % interactions)
+            for action in (interactions, 0, 0):
+                yield np.int32(action)
+
+        def test_the_longer_action_sequence_ends_two_episodes(self):
+            self.environment.reset()
+            steps = [self.environment.step(action) for action in self.make_action_sequence()]
+            self.assertEqual(2, sum(step.last() for step in steps))
+
+        def test_rewards_and_observations_are_finite(self):
+            self.environment.reset()
+            for action in self.make_action_sequence():
+                step = self.environment.step(action)
+                self.assertTrue(step.first() or np.isfinite([step.reward, step.discount]).all())
+                self.assertTrue(all(np.isfinite(value).all() for value in step.observation.values()))
+
+    return Contract
+
+
+for _domain_name, _task_name in suite.ALL_TASKS:
+    _name = f"Test_{_domain_name}_{_task_name}"
+    globals()[_name] = type(_name, (_contract_of(_domain_name, _task_name),), {"__module__": __name__})
+
+
+def test_the_registry_holds_the_feature_tasks_of_both_domains():
+    assert {
+        ("which_is_heavier", "features"),
+        ("towers", "direct_features"),
+        ("towers", "fist_features"),
+    } <= set(suite.ALL_TASKS)
+
+
+def test_the_two_registries_agree():
+    assert list(suite.ALL_TASKS) == [(d, name) for d, names in suite.TASKS_BY_DOMAIN.items() for name in names]
+
+
+@every_task
+def test_actions_are_the_interactions_followed_by_the_labels(env, task_name):
+    interactions, labels, _ = NUMBERS[task_name]
+    assert (env.task.num_interactions, env.task.num_labels) == (interactions, labels)
+    assert env.action_spec().num_values == interactions + labels
+
+
+@every_feature_task
+def test_features_are_float32_of_the_stated_shapes(env, domain_name, task_name):
+    blocks = (4,) if domain_name == "which_is_heavier" else (5, 3)
+    expected = {blocks, (3,)} if task_name.startswith("fist") else {blocks}
+    observation = env.reset().observation
+    assert {value.shape for value in observation.values()} == expected
+    assert {value.dtype for value in observation.values()} == {np.dtype(np.float32)}
+
+
+@every_task
+def test_only_the_right_label_earns_one_and_the_others_lose_one(env, task_name):
+    interactions, labels, _ = NUMBERS[task_name]
+    for label in range(labels):
+        env.reset()
+        step = env.step(np.int32(interactions + label))
+        right = label == env.task.correct_answer
+        assert (step.last(), step.reward, step.discount) == (True, 1.0 if right else -1.0, 0.0)
+
+
+@every_task
+def test_interacting_earns_nothing_until_time_runs_out_which_loses_one(env, task_name):
+    interactions, _, step_limit = NUMBERS[task_name]
+    env.reset()
+    for t in range(step_limit - 1):
+        step = env.step(np.int32(t % interactions))
+        assert (step.mid(), step.reward, step.discount) == (True, 0.0, 1.0)
+    step = env.step(np.int32(0))
+    assert (step.last(), step.reward, step.discount) == (True, -1.0, 0.0)
+    assert env.step(np.int32(0)).first()
+
+
+@every_task
+def test_the_right_label_in_the_last_step_still_earns_one(env, task_name):
+    interactions, _, step_limit = NUMBERS[task_name]
+    env.reset()
+    for _ in range(step_limit - 1):
+        env.step(np.int32(0))
+    assert env.step(np.int32(interactions + env.task.correct_answer)).reward == 1.0
+
+
+@every_feature_task
+def test_a_label_moves_nothing(env, task_name):
+    interactions, _, _ = NUMBERS[task_name]
+    env.reset()
+    for t in range(5):
+        before = env.step(np.int32(t % interactions)).observation
+    after = env.step(np.int32(interactions)).observation
+    assert {name: value.tobytes() for name, value in after.items()} == {n: v.tobytes() for n, v in before.items()}
+
+
+# The limit is a time. Towers: 2.6 s / 0.01 s = 260 and 2.6 / 1.0 rounded up = 3. Heavier: 10 s / 0.025 s = 400. Given
+# limits are rounded up to whole control steps: 0.25 s / 0.1 s gives 3, 0.3 / 0.1 exactly 3, though 0.3 < 3 * 0.1 in
+# binary, and 0.01 s at least 1.
+@pytest.mark.parametrize(
+    "domain_name, task_name, task_kwargs, steps",
+    [
+        ("towers", "direct_features", {"control_timestep": 0.01}, 260),
+        ("towers", "fist_features", {"control_timestep": 0.01}, 260),
+        ("towers", "fist_features", {"control_timestep": 1.0}, 3),
+        ("which_is_heavier", "features", {"control_timestep": 0.025}, 400),
+        ("which_is_heavier", "features", {"time_limit": 0.25}, 3),
+        ("which_is_heavier", "features", {"time_limit": 0.3}, 3),
+        ("which_is_heavier", "features", {"time_limit": 0.01}, 1),
+    ],
+)
+def test_the_limit_of_an_episode_is_a_time(domain_name, task_name, task_kwargs, steps):
+    batch = suite.load_batch(domain_name, task_name, 1, task_kwargs={"random": 0, **task_kwargs})
+    batch.reset()
+    played = 1
+    while not batch.step(np.array([1])).step_type[0] == 2:
+        played += 1
+        assert played <= steps
+    assert played == steps
+
+
+@every_task
+def test_the_answer_is_not_among_the_observations(env):
+    seen = set()
+    for _ in range(20):
+        observation = env.reset().observation
+        seen.add((env.task.correct_answer, *(value.tobytes() for value in observation.values())))
+    assert len({answer for answer, *_ in seen}) > 1, "twenty episodes had one answer"
+    assert len({tuple(values) for _, *values in seen}) == 1, "first observations differ"

@@ -1,0 +1,164 @@
+"""Which is Heavier: the physics of a poke, and the distribution of the masses."""
+
+import copy
+import os
+import secrets
+
+import mujoco
+import numpy as np
+import pytest
+from scipy import stats
+
+from physexp import suite
+from physexp.suite import which_is_heavier as heavier
+
+P_VALUE = 1e-4  # A right distribution fails one test in ten thousand.
+
+# The physics step and the numbers of the scene, as the module documents them.
+TIMESTEP, SUBSTEPS, FORCE, STIFFNESS, DAMPING = 0.025, 4, 20.0, 6.25, 5.0
+LIGHTEST, HEAVIEST, CEILING = 0.2, 1.0, 0.4
+
+TOLERANCE_AT_REST = 1e-5  # m
+TOLERANCE_AT_CEILING = 0.01  # m, a tenth of a block
+
+
+@pytest.fixture
+def seed():
+    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure."""
+    value = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
+    print(f"PHYSEXP_TEST_SEED={value}")
+    return value
+
+
+def _height_after_one_poke(mass: float) -> float:
+    """The height that the spring and the damper allow, m.
+
+    m z'' = F - k z - d z'. MuJoCo's Euler step h takes the damping implicitly: (m + h d) (v' - v) / h = F - k z - d v,
+    hence v' = (m v + h (F - k z)) / (m + h d), and z' = z + h v'. One control step is four of them.
+    """
+    z = v = 0.0
+    for _ in range(SUBSTEPS):
+        v = (mass * v + TIMESTEP * (FORCE - STIFFNESS * z)) / (mass + TIMESTEP * DAMPING)
+        z += TIMESTEP * v
+    return z
+
+
+def _draw(seed, difficulty, count):
+    return heavier.draw_masses(np.full(count, seed), np.arange(count), difficulty)
+
+
+def test_a_poke_lifts_a_block_as_the_spring_damper_law_predicts(seed):
+    env = suite.load("which_is_heavier", "features", task_kwargs={"random": seed, "difficulty": 1})
+    for episode in range(20):
+        for block in range(4):
+            env.task.next_episode = episode
+            env.reset()
+            kilograms = LIGHTEST + (HEAVIEST - LIGHTEST) * env.task.hidden[block]
+            height = env.step(block).observation["heights"][block]
+            assert height == pytest.approx(_height_after_one_poke(kilograms), abs=1e-6)
+
+
+def test_the_lightest_block_rises_at_least_twice_as_far_as_the_heaviest(seed):
+    # At difficulty 1e300 one block has mass 1 on the paper's scale and the others 0: 1 kg and 0.2 kg. The law above
+    # gives 0.0989 m and 0.2580 m, a ratio of 2.6.
+    env = suite.load("which_is_heavier", "features", task_kwargs={"random": seed, "difficulty": 1e300})
+    env.reset()
+    heaviest = env.task.correct_answer
+    lightest = (heaviest + 1) % 4
+    np.testing.assert_allclose(env.task.hidden[[heaviest, lightest]], [1, 0], atol=1e-12)
+    low = env.step(heaviest).observation["heights"][heaviest]
+    high = env.step(lightest).observation["heights"][lightest]
+    assert (low, high) == pytest.approx((0.0989, 0.2580), abs=1e-4)
+    assert high >= 2 * low
+
+
+@pytest.mark.parametrize("hold", [1, 3, 8])
+@pytest.mark.parametrize("difficulty", [1, 1e300])
+def test_random_pokes_take_no_block_above_the_ceiling_or_below_its_rest(seed, difficulty, hold):
+    """A poke is held for some control steps; random masses, and the two extremes."""
+    rng = np.random.default_rng(seed)
+    batch = suite.load_batch("which_is_heavier", "features", 64, task_kwargs={"random": seed, "difficulty": difficulty})
+    batch.reset()
+    heights = []
+    for t in range(99):
+        if t % hold == 0:
+            pokes = rng.integers(4, size=64)
+        heights.append(batch.step(pokes).observation["heights"])
+    assert np.min(heights) >= -TOLERANCE_AT_REST
+    assert np.max(heights) > CEILING / 2, "the blocks were hardly moved"
+    assert np.max(heights) <= CEILING + TOLERANCE_AT_CEILING
+
+
+@pytest.mark.parametrize("pokes_first", [0, 20], ids=["random pokes", "pushed to the ceiling first"])
+def test_the_masses_act_as_if_they_were_compiled_into_the_model(seed, pokes_first):
+    """`mass_fields` writes three fields where `mj_setConst` would write them all; nothing else may matter."""
+    rng = np.random.default_rng(seed)
+    env = suite.load("which_is_heavier", "features", task_kwargs={"random": seed, "difficulty": 1})
+    for _ in range(3):
+        env.reset()
+        kit = env.task.apparatus
+        model = copy.copy(kit.model)
+        model.body_mass[kit.hidden_bodies] = LIGHTEST + (HEAVIEST - LIGHTEST) * env.task.hidden
+        mujoco.mj_setConst(model, mujoco.MjData(model))
+        data = mujoco.MjData(model)
+        highest = 0.0
+        for t in range(99):
+            poke = 2 if t < pokes_first else int(rng.integers(4))
+            env.step(poke)
+            data.ctrl[:] = FORCE * np.eye(4)[poke]
+            mujoco.mj_step(model, data, SUBSTEPS)
+            np.testing.assert_allclose(env.physics.data.qpos, data.qpos, rtol=0, atol=1e-12)
+            highest = max(highest, data.qpos.max())
+        assert not pokes_first or highest > CEILING, "the ceiling was not reached"
+
+
+@pytest.mark.parametrize("difficulty", [1, 3, 5, 10, 100])
+def test_each_mass_is_heavy_once_in_four_and_light_otherwise(seed, difficulty):
+    """Block by block, the distribution function is Beta(b, 1)'s / 4 + 3 Beta(1, b)'s / 4."""
+    heavy, light = stats.beta(difficulty, 1), stats.beta(1, difficulty)
+    for masses in _draw(seed, difficulty, 5000).T:
+        assert stats.kstest(masses, lambda x: heavy.cdf(x) / 4 + 3 * light.cdf(x) / 4).pvalue > P_VALUE
+
+
+def test_heavy_and_light_masses_follow_their_own_distributions(seed):
+    # At difficulty 100 a mass above 0.5 is the heavy one but for a probability of 0.5 ** 100.
+    masses = _draw(seed, 100, 5000)
+    is_heavy = masses > 0.5
+    assert (is_heavy.sum(axis=1) == 1).all()
+    assert stats.kstest(masses[is_heavy], stats.beta(100, 1).cdf).pvalue > P_VALUE
+    assert stats.kstest(masses[~is_heavy], stats.beta(1, 100).cdf).pvalue > P_VALUE
+    assert stats.chisquare(is_heavy.sum(axis=0)).pvalue > P_VALUE, "a block is heavy more often than others"
+
+
+@pytest.mark.parametrize("difficulty", [1, 3, 5, 10])
+def test_the_masses_of_an_episode_are_independent(seed, difficulty):
+    # The largest of four independent masses has the product of their distribution functions, F and G three times.
+    largest = _draw(seed, difficulty, 5000).max(axis=1)
+    heavy, light = stats.beta(difficulty, 1), stats.beta(1, difficulty)
+    assert stats.kstest(largest, lambda x: heavy.cdf(x) * light.cdf(x) ** 3).pvalue > P_VALUE
+
+
+@pytest.mark.parametrize("difficulty", [1, 5, 1e6, 1e300])
+def test_exactly_one_block_is_heaviest_and_it_is_the_answer(seed, difficulty):
+    masses = _draw(seed, difficulty, 20_000)
+    assert ((masses >= 0) & (masses <= 1)).all()
+    assert ((masses == masses.max(axis=1, keepdims=True)).sum(axis=1) == 1).all()
+    env = suite.load("which_is_heavier", "features", task_kwargs={"random": seed, "difficulty": difficulty})
+    for expected in masses[:50]:
+        env.reset()
+        np.testing.assert_array_equal(env.task.hidden, expected)
+        assert env.task.correct_answer == np.argmax(expected)
+
+
+@pytest.mark.parametrize("difficulty", [1, 5])
+def test_every_block_is_equally_often_the_heaviest(seed, difficulty):
+    counts = np.bincount(_draw(seed, difficulty, 5000).argmax(axis=1), minlength=4)
+    assert stats.chisquare(counts).pvalue > P_VALUE
+
+
+def test_a_larger_difficulty_makes_the_mass_gap_larger(seed):
+    gaps = []
+    for difficulty in (1, 3, 5, 10, 100):
+        two_heaviest = np.sort(_draw(seed, difficulty, 2000), axis=1)[:, -2:]
+        gaps.append(np.diff(two_heaviest, axis=1).mean())
+    assert gaps == sorted(gaps)
