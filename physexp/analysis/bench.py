@@ -147,9 +147,8 @@ def bare_batch(name: str) -> Callable[[], int]:
     task = suite.load_task(*TASKS[name], {"random": 0})
     seeds = np.array([suite.environment_seed(0, i) for i in range(BATCH)])
     structures, counts = np.unique(task.structures(task.draw(seeds, np.zeros_like(seeds))), return_counts=True)
-    batches = [
-        Batch(task.build_apparatus(int(s)).model, int(n), THREADS) for s, n in zip(structures, counts, strict=True)
-    ]
+    models = [task.build_apparatus(int(structure)).model for structure in structures]
+    batches = [Batch(model, int(count), THREADS) for model, count in zip(models, counts, strict=True)]
     controls = [batch.bind("ctrl") for batch in batches]
     generator, steps = np.random.default_rng(0), 0
 

@@ -123,12 +123,9 @@ class _Recorder:
         if error.round is None:
             return ""
         path = self._run.path / "failed_batch.npz"
-        arrays: dict[str, Any] = {
-            "actions": error.round.actions,
-            "rewards": error.round.rewards,
-            "lengths": error.round.lengths,
-        }
-        np.savez_compressed(path, **{**arrays, **error.round.observations})
+        names = ("actions", "rewards", "lengths")
+        arrays: dict[str, Any] = {name: getattr(error.round, name) for name in names} | error.round.observations
+        np.savez_compressed(path, **arrays)
         return f" (the batch is in {path})"
 
     def _write_checkpoint_when_complete(self) -> None:

@@ -11,7 +11,8 @@ from dm_control.composer.observation import observable
 from dm_env import specs
 import numpy as np
 
-from physexp.suite import apparatus, rules, seeding
+from physexp.suite import apparatus as apparatus_lib
+from physexp.suite import rules, seeding
 
 # Held parts count as untouched until a control step moves them by more than this. Contacts at rest settle by
 # less than a hundredth of it, and the weakest touch moves a block by several times as much.
@@ -83,7 +84,7 @@ class QuestionTask(composer.Task):
       apparatus: the compiled model in use; the environment sets it.
     """
 
-    apparatus: apparatus.Apparatus
+    apparatus: apparatus_lib.Apparatus
     options: Options
 
     def __init__(self, arena, options: Options, num_interactions: int, num_labels: int):
@@ -201,10 +202,10 @@ class QuestionTask(composer.Task):
     def task_observables(self):
         return self._observables
 
-    def build_apparatus(self, structure: int) -> apparatus.Apparatus:
+    def build_apparatus(self, structure: int) -> apparatus_lib.Apparatus:
         """Arranges the MJCF and compiles it."""
         self.arrange(structure)
-        return apparatus.build(self.root_entity.mjcf_model, self.sensors, self.held_joints, self.hidden_joints)
+        return apparatus_lib.build(self.root_entity.mjcf_model, self.sensors, self.held_joints, self.hidden_joints)
 
     def initialize_episode_mjcf(self, random_state):
         hidden = self.draw(np.array([self.options.random]), np.array([self.next_episode]))
