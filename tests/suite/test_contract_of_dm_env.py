@@ -1,6 +1,7 @@
 """Every registered task keeps dm_env's contract, and pays as DESIGN.md says."""
 
 from absl.testing import absltest
+import dm_env
 from dm_env import test_utils
 import numpy as np
 import pytest
@@ -147,7 +148,7 @@ def test_the_limit_of_an_episode_is_a_time(domain_name, task_name, task_kwargs, 
     batch = suite.load_batch(domain_name, task_name, 1, task_kwargs={"random": 0, **task_kwargs})
     batch.reset()
     played = 1
-    while not batch.step(np.array([1])).step_type[0] == 2:
+    while batch.step(np.array([1])).step_type[0] != dm_env.StepType.LAST:
         played += 1
         assert played <= steps
     assert played == steps
