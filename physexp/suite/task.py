@@ -15,7 +15,7 @@ from physexp.suite import apparatus as apparatus_lib
 from physexp.suite import rules, seeding
 
 # Held parts count as untouched until a control step moves them by more than this. Contacts at rest settle by
-# less than a hundredth of it, and the weakest touch moves a block by several times as much.
+# less than a tenth of it, and the weakest touch moves a block by several times as much.
 TOUCH_TOLERANCE = 1e-4  # m, or the same in a quaternion's components
 
 _OK_RGBA, _WRONG_RGBA = (0.45, 0.75, 0.45, 1.0), (0.80, 0.45, 0.40, 1.0)

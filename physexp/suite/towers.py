@@ -11,7 +11,6 @@ from physexp.suite import arena, block, fist, seeding, task, tower
 SUITE = containers.TaggedTasks()
 
 PHYSICS_TIMESTEP = 0.005  # s
-
 WALL_DISTANCE = 0.75  # m, from the tower: a tower that falls as one piece fits inside
 
 # The lowest cube alone is held by friction of 0.3 * (4 + 5) * 9.81 = 26.5 N: twice that moves it, and slides a cube
@@ -44,7 +43,6 @@ class Towers(task.QuestionTask):
         """Builds the scene around an actuator, a `DirectActuator` or a `FistActuator`."""
         room = arena.Laboratory(**_CAMERA)
         room.add_walls(WALL_DISTANCE)
-        room.mjcf_model.option.tolerance = 1e-6
         self._actuator = actuator
         self._tower: tower.Tower | None = None
         self._towers: dict[int, tower.Tower] = {}  # Built when first needed, one for each pattern.

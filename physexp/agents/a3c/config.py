@@ -16,7 +16,7 @@ class A3CConfig:
       envs_per_worker: episodes that a worker plays side by side for one update; 1 is the paper's learner.
       learning_rate: step size of Adam, decaying linearly to zero over `frames`.
       entropy_cost: weight of the entropy bonus at the start.
-      final_entropy_cost: the same at the end; the decay is linear over `frames`.
+      final_entropy_cost: the same at the end; the decay is exponential over `frames`.
       baseline_cost: weight of the value loss.
       max_gradient_norm: gradients are scaled down to this norm.
       lstm_units: hidden units of the LSTM (paper: 100).
@@ -33,7 +33,7 @@ class A3CConfig:
     envs_per_worker: int = 512
     learning_rate: float = 1e-2
     entropy_cost: float = 0.15
-    final_entropy_cost: float = 0.005
+    final_entropy_cost: float = 0.002
     baseline_cost: float = 0.5
     max_gradient_norm: float = 1.0
     lstm_units: int = 100

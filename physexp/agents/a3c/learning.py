@@ -85,7 +85,7 @@ class A3CLearner(core.Learner):
 
     def _compute_gradients(self, episodes: acting.Round, progress: float) -> dict[str, float]:
         config = self._config
-        entropy_cost = (1 - progress) * config.entropy_cost + progress * config.final_entropy_cost
+        entropy_cost = config.entropy_cost ** (1 - progress) * config.final_entropy_cost**progress
         policy_loss, baseline_loss, entropy = round_losses(self._network, episodes, config.discount)
         loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
         self._network.zero_grad()
