@@ -12,43 +12,34 @@ Observation = Mapping[str, torch.Tensor]
 
 
 class FeatureTorso(nn.Module):
-    """Concatenates and scales features."""
+    """Concatenates and scales features; the LSTM takes them directly, as in the paper."""
 
-    def __init__(self, observation_spec: Mapping[str, specs.Array], units: int, scale: float):
-        """Builds the torso.
-
-        Args:
-          observation_spec: arrays of features.
-          units: units of a ReLU layer; 0 for none.
-          scale: factor on the features.
-        """
+    def __init__(self, observation_spec: Mapping[str, specs.Array], scale: float):
+        """Builds the torso for arrays of features; `scale` is a factor on them."""
         super().__init__()
         self._names = sorted(observation_spec)
         self._scale = scale
-        num_inputs = sum(int(np.prod(observation_spec[name].shape)) for name in self._names)
-        self.layer = nn.Linear(num_inputs, units) if units else None
-        self.num_outputs = units or num_inputs
+        self.num_outputs = sum(int(np.prod(observation_spec[name].shape)) for name in self._names)
 
     def forward(self, observation: Observation) -> torch.Tensor:
         """Maps arrays [N, ...] to inputs of the LSTM, [N, num_outputs]."""
-        inputs = self._scale * torch.cat([observation[name].flatten(1) for name in self._names], dim=1)
-        return inputs if self.layer is None else torch.relu(self.layer(inputs))
+        return self._scale * torch.cat([observation[name].flatten(1) for name in self._names], dim=1)
 
 
 class RecurrentActorCritic(nn.Module):
     """Torso, LSTM, and two linear heads: the policy's logits and the value."""
 
     def __init__(self, observation_spec: Mapping[str, specs.Array], num_actions: int, *, lstm_units: int,
-                 torso_units: int, observation_scale: float):  # fmt: skip
+                 observation_scale: float):  # fmt: skip
         """Builds the network; its weights follow torch's global seed.
 
         Args:
           observation_spec: what is observed.
           num_actions: how many actions there are.
-          lstm_units, torso_units, observation_scale: see `A3CConfig`.
+          lstm_units, observation_scale: see `A3CConfig`.
         """
         super().__init__()
-        self.torso = FeatureTorso(observation_spec, torso_units, observation_scale)
+        self.torso = FeatureTorso(observation_spec, observation_scale)
         self.lstm = nn.LSTM(self.torso.num_outputs, lstm_units)
         self.policy = nn.Linear(lstm_units, num_actions)
         self.value = nn.Linear(lstm_units, 1)

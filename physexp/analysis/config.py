@@ -7,10 +7,13 @@ import dataclasses
 
 from physexp.agents.a3c import config as a3c
 
+# Simulation is what a tower costs, not learning: smaller updates and more of them.
+_TOWERS = a3c.A3CConfig(discount=0.98, envs_per_worker=64, entropy_cost=0.04, final_entropy_cost=0.001)
+
 PRESETS = {
     ("which_is_heavier", "features"): a3c.A3CConfig(),
-    ("towers", "direct_features"): a3c.A3CConfig(discount=0.98),
-    ("towers", "fist_features"): a3c.A3CConfig(discount=0.98),
+    ("towers", "direct_features"): _TOWERS.replace(frames=5_000_000),
+    ("towers", "fist_features"): _TOWERS.replace(frames=3_000_000),
 }
 """The default configuration of each task's agent; `docs/performance.md` says how they were found."""
 

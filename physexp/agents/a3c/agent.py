@@ -54,7 +54,6 @@ def make_network(environment, config: config_lib.A3CConfig) -> networks.Recurren
             environment.observation_spec(),
             environment.action_spec().num_values,
             lstm_units=config.lstm_units,
-            torso_units=config.torso_units,
             observation_scale=config.observation_scale,
         )
 

@@ -20,24 +20,23 @@ class A3CConfig:
       baseline_cost: weight of the value loss.
       max_gradient_norm: gradients are scaled down to this norm.
       lstm_units: hidden units of the LSTM (paper: 100).
-      torso_units: units of a ReLU layer between features and LSTM; 0 for none (paper).
-      observation_scale: factor on features, which are in metres.
+      observation_scale: factor on features. They are in metres and what matters in them in tenths of one: ten brings
+        it to the order of one.
       checkpoint_seconds: time between checkpoints, s.
 
     """
 
     discount: float = 0.95
-    frames: int = 10_000_000
+    frames: int = 8_000_000
     seed: int = 0
     num_workers: int = 2
-    envs_per_worker: int = 512
-    learning_rate: float = 1e-2
+    envs_per_worker: int = 256
+    learning_rate: float = 5e-3
     entropy_cost: float = 0.15
     final_entropy_cost: float = 0.002
     baseline_cost: float = 0.5
     max_gradient_norm: float = 1.0
     lstm_units: int = 100
-    torso_units: int = 0
     observation_scale: float = 10.0
     checkpoint_seconds: float = 60.0
 
@@ -46,7 +45,7 @@ class A3CConfig:
         return dataclasses.replace(self, **changes)
 
     def __post_init__(self):
-        whole = {"frames": 1, "seed": 0, "num_workers": 1, "envs_per_worker": 1, "lstm_units": 1, "torso_units": 0}
+        whole = {"frames": 1, "seed": 0, "num_workers": 1, "envs_per_worker": 1, "lstm_units": 1}
         for name, minimum in whole.items():
             value = getattr(self, name)
             if not isinstance(value, int) or isinstance(value, bool) or not minimum <= value < 2**63:
