@@ -12,8 +12,8 @@ _TOWERS = a3c.A3CConfig(discount=0.98, envs_per_worker=64, entropy_cost=0.04, fi
 
 PRESETS = {
     ("which_is_heavier", "features"): a3c.A3CConfig(),
-    ("towers", "direct_features"): _TOWERS.replace(frames=5_000_000),
-    ("towers", "fist_features"): _TOWERS.replace(frames=3_000_000),
+    ("towers", "direct_features"): _TOWERS.replace(frames=3_000_000),
+    ("towers", "fist_features"): _TOWERS.replace(frames=2_000_000),
 }
 """The default configuration of each task's agent; `docs/performance.md` says how they were found."""
 
