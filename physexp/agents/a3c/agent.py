@@ -180,6 +180,7 @@ def _work(index, make_environment, config, shared, lock, stopping, updates) -> N
     """A worker's process: updates until all frames are done or it is told to stop."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the parent, which asks to stop.
     torch.set_num_threads(1)
+    parent = multiprocessing.parent_process()
     try:
         environment = make_environment(worker_seed(config.seed, index), config.envs_per_worker, 1)
         network = make_network(environment, config)
@@ -187,6 +188,9 @@ def _work(index, make_environment, config, shared, lock, stopping, updates) -> N
         learner = learning.A3CLearner(network, shared, lock, rounds, index, config)
         while not stopping.is_set() and int(shared.frames) < config.frames:
             metrics = learner.step()
+            if parent is not None and not parent.is_alive():  # Killed: nobody is left to stop this worker.
+                updates.cancel_join_thread()
+                return
             updates.put(Update(index, metrics, dataclasses.replace(learner.last_round, observations={})))
     except learning.DivergedError as error:
         updates.put(WorkerError(f"worker {index}: {error}", error.round))
