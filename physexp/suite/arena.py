@@ -1,6 +1,7 @@
 """The room in which questions are asked: a lit floor and one fixed camera."""
 
 from dm_control import composer
+import numpy as np
 
 from physexp.suite import material
 
@@ -14,12 +15,12 @@ class Laboratory(composer.Arena):
     The visible floor is a box, much cheaper to draw than a plane; a plane that is not drawn carries the contacts.
     """
 
-    def _build(self, camera_pos, camera_xyaxes, fovy, name="laboratory"):
+    def _build(self, camera_pos, camera_target, fovy, name="laboratory"):
         """Builds the room.
 
         Args:
           camera_pos: position of the camera, m (3,).
-          camera_xyaxes: the camera's right and up directions (6,).
+          camera_target: the point that it looks at, m (3,).
           fovy: vertical field of view, degrees.
           name: name of the MJCF model.
         """
@@ -38,7 +39,8 @@ class Laboratory(composer.Arena):
         self.floor = world.add("geom", name="floor", type="box", size=[FLOOR_HALF_SIZE, FLOOR_HALF_SIZE, 0.01],
                                pos=[0, 0, -0.01], rgba=FLOOR_RGBA, contype=0, conaffinity=0)  # fmt: skip
         self.ground = world.add("geom", name="ground", type="plane", size=[1, 1, 0.1], group=4, **material.solid())
-        self.camera = world.add("camera", name="observer", pos=camera_pos, xyaxes=camera_xyaxes, fovy=fovy)
+        self.camera = world.add("camera", name="observer", pos=camera_pos, fovy=fovy,
+                                xyaxes=_looking_at(camera_pos, camera_target))  # fmt: skip
 
     def add_walls(self, distance: float) -> None:
         """Adds four walls that are not drawn, `distance` (m) from the centre, so that nothing leaves the view.
@@ -51,3 +53,10 @@ class Laboratory(composer.Arena):
             pos = [x * (distance + half), y * (distance + half), 2.0]
             self.mjcf_model.worldbody.add("geom", name=f"wall_{axis}", type="box", size=size, pos=pos, group=4,
                                           **material.solid(material.WALL_FRICTION))  # fmt: skip
+
+
+def _looking_at(pos, target) -> np.ndarray:
+    """The right and up directions (6,) of an upright camera at `pos` that looks at `target`."""
+    forward = np.subtract(target, pos) / np.linalg.norm(np.subtract(target, pos))
+    right = np.cross(forward, [0, 0, 1])
+    return np.concatenate([right, np.cross(right, forward)])

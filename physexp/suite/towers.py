@@ -22,7 +22,7 @@ FIST_SPEED = 1.0  # m/s
 _FIST_REACH = WALL_DISTANCE - fist.RADIUS - 2 * block.HALF_SIZE  # m: leaves room for a block at the wall
 _DIRECTIONS = np.array([(1, 0), (-1, 0), (0, 1), (0, -1)], float)  # +x, -x, +y, -y
 
-_CAMERA = dict(camera_pos=[0.9, -2.1, 1.35], camera_xyaxes=[0.92, 0.39, 0, -0.2, 0.46, 0.86], fovy=36)
+_CAMERA = dict(camera_pos=[0.4, -2.5, 1.4], camera_target=[-0.05, -0.1, 0.15], fovy=41)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

@@ -24,7 +24,7 @@ DAMPING = 5.0  # N s/m
 POKE_FORCE = 20.0  # N
 CEILING = 0.4  # m, highest displacement from rest
 
-_CAMERA = dict(camera_pos=[0, -1.45, 0.52], camera_xyaxes=[1, 0, 0, 0, 0.16, 1], fovy=28)
+_CAMERA = dict(camera_pos=[0, -1.5, 0.45], camera_target=[0, 0, 0.28], fovy=26)
 _MAX_DRAWS = 16
 
 

@@ -1,0 +1,227 @@
+"""A batch is its single environments, bit for bit, however many there are and whatever steps them."""
+
+import os
+import secrets
+
+import dm_env
+import numpy as np
+import pytest
+
+from physexp import suite
+from physexp.suite import towers
+
+FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
+every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_TASKS)
+
+# Control steps to compare: the single towers take some 300 of them a second.
+STEPS = {"which_is_heavier": 400, "towers": 120}
+
+
+@pytest.fixture
+def seed():
+    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure."""
+    value = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
+    print(f"PHYSEXP_TEST_SEED={value}")
+    return value
+
+
+def _load_both(domain_name, task_name, seed, size, num_threads=1, **task_kwargs):
+    batch = suite.load_batch(domain_name, task_name, size, {"random": seed, **task_kwargs}, num_threads)
+    singles = [
+        suite.load(domain_name, task_name, {"random": suite.environment_seed(seed, i), **task_kwargs})
+        for i in range(size)
+    ]
+    return batch, singles
+
+
+def _random_actions(rng, task, size):
+    """Interactions, and one label in twelve."""
+    labels = task.num_interactions + rng.integers(task.num_labels, size=size)
+    return np.where(rng.random(size) < 1 / 12, labels, rng.integers(task.num_interactions, size=size))
+
+
+def _assert_same(steps: dm_env.TimeStep, singles: list[dm_env.TimeStep]) -> None:
+    """Row `i` of a batch's time step is the i-th single time step; on a first step a batch has 0 for None, and 1."""
+    for i, single in enumerate(singles):
+        assert steps.step_type[i] == single.step_type
+        reward, discount = (0.0, 1.0) if single.first() else (single.reward, single.discount)
+        assert (steps.reward[i], steps.discount[i]) == (reward, discount)
+        assert set(steps.observation) == set(single.observation)
+        for name, value in single.observation.items():
+            row = steps.observation[name][i]
+            assert (row.dtype, row.shape) == (value.dtype, value.shape)
+            assert row.tobytes() == value.tobytes(), (name, row, value)
+
+
+def _assert_same_questions(batch, singles) -> None:
+    assert [single.task.correct_answer for single in singles] == batch.correct_answers.tolist()
+    assert [single.task.episode for single in singles] == batch.episodes.tolist()
+    for hidden, single in zip(batch.hidden, singles, strict=True):
+        np.testing.assert_array_equal(hidden, single.task.hidden)
+
+
+@every_feature_task
+@pytest.mark.parametrize("size, num_threads", [(2, 1), (3, 2)])
+def test_a_batch_is_its_single_environments(seed, domain_name, task_name, size, num_threads):
+    rng = np.random.default_rng(seed)
+    batch, singles = _load_both(domain_name, task_name, seed, size, num_threads)
+    _assert_same(batch.reset(), [single.reset() for single in singles])
+    for _ in range(STEPS[domain_name]):
+        _assert_same_questions(batch, singles)
+        actions = _random_actions(rng, batch.task, size)
+        _assert_same(batch.step(actions), [single.step(a) for single, a in zip(singles, actions, strict=True)])
+
+
+@every_feature_task
+def test_chosen_environments_step_and_reset_without_the_others(seed, domain_name, task_name):
+    """Some step, some are reset in the middle of an episode, some wait: each is its single environment still."""
+    rng = np.random.default_rng(seed)
+    size = 3
+    batch, singles = _load_both(domain_name, task_name, seed, size)
+    _assert_same(batch.reset(), [single.reset() for single in singles])
+    for _ in range(STEPS[domain_name] // 2):
+        chosen = np.flatnonzero(rng.random(size) < 0.6)
+        actions = _random_actions(rng, batch.task, len(chosen))
+        expected = [singles[i].step(a) for i, a in zip(chosen, actions, strict=True)]
+        _assert_same(batch.step(actions, environments=chosen), expected)
+        if rng.random() < 0.1:
+            chosen = np.flatnonzero(rng.random(size) < 0.5)
+            expected = [singles[i].reset() for i in chosen]
+            _assert_same(batch.reset(environments=chosen), expected)
+        _assert_same_questions(batch, singles)
+
+
+@every_feature_task
+def test_a_reset_rebuilds_a_chosen_episode(seed, domain_name, task_name):
+    rng = np.random.default_rng(seed)
+    batch, singles = _load_both(domain_name, task_name, seed, 3)
+    batch.reset()
+    for episode, chosen in ((7, [0, 1, 2]), (2, [1]), (2, [0, 2]), (0, [0, 1])):
+        for i in chosen:
+            singles[i].task.next_episode = episode
+        expected = [singles[i].reset() for i in chosen]
+        _assert_same(batch.reset(environments=np.array(chosen), episode=episode), expected)
+        assert batch.episodes[chosen].tolist() == [episode] * len(chosen)
+        for _ in range(4):
+            actions = rng.integers(batch.task.num_interactions, size=len(chosen))
+            expected = [singles[i].step(a) for i, a in zip(chosen, actions, strict=True)]
+            _assert_same(batch.step(actions, environments=np.array(chosen)), expected)
+
+
+@pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
+def test_a_fine_control_step_changes_nothing_in_that(seed, task_name):
+    rng = np.random.default_rng(seed)
+    batch, singles = _load_both("towers", task_name, seed, 3, control_timestep=0.01)
+    _assert_same(batch.reset(), [single.reset() for single in singles])
+    for t in range(80):
+        if t % 25 == 0:
+            actions = rng.integers(batch.task.num_interactions, size=3)
+            actions[0] = 0  # The fist hits the tower.
+        _assert_same(batch.step(actions), [single.step(a) for single, a in zip(singles, actions, strict=True)])
+
+
+@every_feature_task
+def test_an_environment_does_not_depend_on_how_many_there_are(seed, domain_name, task_name):
+    """Batches of 1, 3 and 6 environments, on 1 and 2 threads; the first environments take the same actions."""
+    rng = np.random.default_rng(seed)
+    shapes = [(1, 1), (3, 2), (6, 1), (6, 2)]
+    batches = [
+        suite.load_batch(domain_name, task_name, size, {"random": seed}, num_threads) for size, num_threads in shapes
+    ]
+    steps = [batch.reset() for batch in batches]
+    for _ in range(20):
+        actions = _random_actions(rng, batches[0].task, 6)
+        steps = [batch.step(actions[: batch.num_environments]) for batch in batches]
+        largest = steps[-1]
+        for step in steps[:-1]:
+            size = len(step.reward)
+            for field in ("step_type", "reward", "discount"):
+                np.testing.assert_array_equal(getattr(step, field), getattr(largest, field)[:size])
+            for name, value in step.observation.items():
+                assert value.tobytes() == largest.observation[name][:size].tobytes()
+
+
+@every_feature_task
+def test_the_specs_are_those_of_the_single_environment(domain_name, task_name):
+    single = suite.load(domain_name, task_name, {"random": 0})
+    batch = suite.load_batch(domain_name, task_name, 2, {"random": 0})
+    assert batch.action_spec() == single.action_spec()
+    assert batch.reward_spec() == single.reward_spec()
+    assert batch.discount_spec() == single.discount_spec()
+    assert dict(batch.observation_spec()) == dict(single.observation_spec())
+
+
+@every_feature_task
+def test_a_time_step_has_arrays_with_a_leading_axis(domain_name, task_name):
+    batch = suite.load_batch(domain_name, task_name, 3, {"random": 0})
+    for step in (batch.reset(), batch.step(np.zeros(3, np.int32))):
+        assert isinstance(step, dm_env.TimeStep)
+        assert step.step_type.shape == step.reward.shape == step.discount.shape == (3,)
+        for name, spec in batch.observation_spec().items():
+            for row in step.observation[name]:
+                spec.validate(row)
+
+
+@every_feature_task
+def test_what_a_batch_returns_is_the_callers_own(domain_name, task_name):
+    """Writing into returned arrays changes nothing, and later steps do not write into them."""
+    batch, twin = (suite.load_batch(domain_name, task_name, 2, {"random": 0}) for _ in range(2))
+    for returned in (batch.reset(), batch.step(np.zeros(2, int))):
+        for value in (*returned.observation.values(), returned.reward, returned.discount, returned.step_type):
+            value[:] = 77
+    for own in (batch.hidden, batch.correct_answers, batch.episodes):
+        own[:] = 77
+    twin.reset()
+    twin.step(np.zeros(2, int))
+    step, expected = batch.step(np.ones(2, int)), twin.step(np.ones(2, int))
+    kept = {name: value.copy() for name, value in step.observation.items()}
+    batch.step(np.ones(2, int))
+    for name, value in expected.observation.items():
+        np.testing.assert_array_equal(step.observation[name], value)
+        np.testing.assert_array_equal(step.observation[name], kept[name])
+    np.testing.assert_array_equal(batch.episodes, [0, 0])
+
+
+def test_environments_of_a_batch_play_different_episodes(seed):
+    batch = suite.load_batch("which_is_heavier", "features", 50, {"random": seed})
+    batch.reset()
+    first = batch.hidden
+    batch.reset()
+    assert len(np.unique(np.concatenate([first, batch.hidden]), axis=0)) == 100
+
+
+def test_choosing_no_environment_does_nothing(seed):
+    batch = suite.load_batch("towers", "fist_features", 2, {"random": seed})
+    batch.reset()
+    nobody = np.array([], int)
+    for step in (batch.step(nobody, environments=nobody), batch.reset(environments=nobody)):
+        assert step.reward.shape == (0,)
+        assert step.observation["positions"].shape == (0, 5, 3)
+    np.testing.assert_array_equal(batch.episodes, [0, 0])
+
+
+def test_two_batches_in_one_process_share_nothing(seed):
+    """They share the compiled models; masses and states are each one's own."""
+    one, alone = (suite.load_batch("which_is_heavier", "features", 4, {"random": seed}) for _ in range(2))
+    one.reset()
+    alone.reset()
+    other = suite.load_batch("which_is_heavier", "features", 4, {"random": seed + 1})
+    other.reset()
+    for poke in range(4):
+        other.step(np.full(4, 3 - poke))
+        step, expected = one.step(np.full(4, poke)), alone.step(np.full(4, poke))
+        np.testing.assert_array_equal(step.observation["heights"], expected.observation["heights"])
+
+
+def test_every_pattern_of_glue_is_played_alike_in_a_batch_and_alone(seed):
+    """One environment each, at the first of its episodes with that pattern, two pushes."""
+    batch, singles = _load_both("towers", "direct_features", seed, 16)
+    for pattern, single in enumerate(singles):
+        patterns = towers.draw_patterns(np.full(1000, single.task.options.random), np.arange(1000))
+        episode = int(np.flatnonzero(patterns == pattern)[0])
+        single.task.next_episode = episode
+        single.reset()
+        batch.reset(environments=np.array([pattern]), episode=episode)
+    np.testing.assert_array_equal(batch.hidden, np.arange(16))
+    for action in (4, 14):
+        _assert_same(batch.step(np.full(16, action)), [single.step(action) for single in singles])

@@ -1,0 +1,117 @@
+"""Importing the suite costs nothing it need not: no torch, no GL context, no process, no thread."""
+
+import ctypes.util
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+
+def _run(code: str, **environment: str | None) -> dict:
+    """What `code` leaves in its dictionary `found`, run in a fresh interpreter; None unsets a variable."""
+    variables = {name: value for name, value in {**os.environ, **environment}.items() if value is not None}
+    code = f"found = {{}}\n{code}\nimport json\nprint(json.dumps(found))"
+    finished = subprocess.run(
+        [sys.executable, "-c", code], env=variables, capture_output=True, text=True, timeout=120, check=False
+    )
+    assert finished.returncode == 0, finished.stderr
+    return json.loads(finished.stdout.splitlines()[-1])
+
+
+# A GL context of dm_control or of mujoco is an object, with one of these among the classes of its class.
+LOOK_AROUND = """
+import gc, os, sys, threading
+def look_around():
+    contexts = {"GLContext", "MjrContext", "ContextBase"}
+    classes = [{kind.__name__ for kind in type(thing).__mro__} for thing in gc.get_objects()]
+    return {
+        "children": len(open(f"/proc/self/task/{os.getpid()}/children").read().split()),
+        "threads": threading.active_count(),
+        "contexts": sum(not contexts.isdisjoint(names) for names in classes),
+        "loaded": sorted({name.split(".")[0] for name in sys.modules}),
+        "physexp": sorted(name for name in sys.modules if name.startswith("physexp")),
+        "backend": os.environ.get("MUJOCO_GL"),
+    }
+"""
+
+PLAY = """
+from physexp import suite
+for domain_name, task_name in suite.ALL_TASKS:
+    if task_name.endswith("features"):
+        env = suite.load(domain_name, task_name, {"random": 0})
+        env.reset()
+        for action in range(3):
+            env.step(action)
+        batch = suite.load_batch(domain_name, task_name, 2, {"random": 0})
+        batch.reset()
+        batch.step([0, 1])
+        env.close()
+"""
+
+
+@pytest.mark.parametrize("module", ["physexp", "physexp.suite"])
+def test_importing_starts_no_thread_or_process_and_opens_no_context(module):
+    found = _run(f"{LOOK_AROUND}\nimport {module}\nfound.update(look_around())")
+    assert (found["children"], found["threads"], found["contexts"]) == (0, 1, 0)
+
+
+def test_importing_the_suite_imports_neither_torch_nor_what_learns_and_plots():
+    found = _run(f"{LOOK_AROUND}\nimport physexp.suite\nfound.update(look_around())")
+    unwanted = {"torch", "matplotlib", "pandas", "pyarrow", "rerun", "gymnasium", "ray", "tensorboard", "tyro"}
+    assert not unwanted & set(found["loaded"])
+    assert [name for name in found["physexp"] if not name.startswith("physexp.suite")] == ["physexp"]
+
+
+def test_importing_physexp_imports_nothing_heavy():
+    found = _run("import sys\nimport physexp\nfound['loaded'] = sorted(sys.modules)")
+    assert not {"torch", "mujoco", "dm_control", "numpy"} & set(found["loaded"])
+
+
+def test_playing_with_features_opens_no_context_and_starts_no_process():
+    found = _run(f"{LOOK_AROUND}\n{PLAY}\nfound.update(look_around())")
+    assert (found["children"], found["contexts"]) == (0, 0)
+    assert "torch" not in found["loaded"]
+
+
+def test_features_need_no_gl_at_all():
+    found = _run(f"{LOOK_AROUND}\n{PLAY}\nfound.update(look_around())", MUJOCO_GL="disable")
+    assert found["backend"] == "disable"
+    assert "OpenGL" not in found["loaded"]
+
+
+def test_the_users_choice_of_a_backend_is_left_alone():
+    code = "import os\nimport physexp.suite\nfound['backend'] = os.environ['MUJOCO_GL']"
+    assert _run(code, MUJOCO_GL="disable") == {"backend": "disable"}
+
+
+@pytest.mark.parametrize("unset", [None, ""])
+def test_without_a_choice_the_backend_is_one_that_is_installed(unset):
+    """EGL before OSMesa, as it may use a GPU; with neither, none."""
+    libraries = {"egl": "EGL", "osmesa": "OSMesa"}
+    installed = [backend for backend, library in libraries.items() if ctypes.util.find_library(library)]
+    found = _run("import os\nimport physexp.suite\nfound['backend'] = os.environ['MUJOCO_GL']", MUJOCO_GL=unset)
+    assert found == {"backend": (installed + ["disable"])[0]}
+
+
+def test_the_backend_is_settled_before_dm_control_is_imported():
+    code = """
+import os, sys
+settled = []
+class Spy:
+    def find_spec(self, name, path=None, target=None):
+        if name == "dm_control" and not settled:
+            settled.append(os.environ.get("MUJOCO_GL"))
+sys.meta_path.insert(0, Spy())
+import physexp.suite
+found["settled"] = settled
+found["backend"] = os.environ["MUJOCO_GL"]
+"""
+    found = _run(code, MUJOCO_GL=None)
+    assert found["settled"] == [found["backend"]]
+
+
+def test_the_suite_works_from_any_folder(tmp_path):
+    code = f"import os\nos.chdir({str(tmp_path)!r})\n{PLAY}\nfound['left_behind'] = os.listdir()"
+    assert _run(code) == {"left_behind": []}

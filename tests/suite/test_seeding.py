@@ -1,0 +1,192 @@
+"""A seed reaches everything, and an episode depends on nothing but its seed and its index."""
+
+import itertools
+import os
+import secrets
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from physexp import suite
+from physexp.suite import seeding
+
+P_VALUE = 1e-4  # A right generator fails one test in ten thousand.
+
+FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
+every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_TASKS)
+
+
+@pytest.fixture
+def seed():
+    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure."""
+    value = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
+    print(f"PHYSEXP_TEST_SEED={value}")
+    return value
+
+
+def _episode(env) -> list:
+    """The hidden property, the answer and everything observed under fixed actions, from a reset on."""
+    trace = [env.reset()]
+    hidden = np.copy(env.task.hidden).tobytes()
+    trace += [env.step(t % env.task.num_interactions) for t in range(5)]
+    observed = [value.tobytes() for step in trace for value in step.observation.values()]
+    return [hidden, env.task.correct_answer, *observed]
+
+
+def _hidden(env, episodes: int) -> list[bytes]:
+    hidden = []
+    for _ in range(episodes):
+        env.reset()
+        hidden.append(np.copy(env.task.hidden).tobytes())
+    return hidden
+
+
+def test_environment_seeds_are_integers_of_32_bits(seed):
+    for index in (0, 1, 2**31, 2**63 - 1):
+        for value in (seed, 0, 2**63 - 1):
+            result = suite.environment_seed(value, index)
+            assert type(result) is int and 0 <= result < 2**32
+
+
+def test_environment_seeds_are_the_same_in_another_process(seed):
+    code = f"from physexp import suite; print([suite.environment_seed({seed}, i) for i in range(5)])"
+    env = {**os.environ, "PYTHONHASHSEED": "1"}
+    printed = subprocess.run([sys.executable, "-c", code], env=env, capture_output=True, text=True, check=True).stdout
+    assert printed.strip() == str([suite.environment_seed(seed, i) for i in range(5)])
+
+
+def test_environment_seeds_accept_numpy_integers(seed):
+    assert suite.environment_seed(np.int64(seed), np.int32(3)) == suite.environment_seed(seed, 3)
+
+
+@pytest.mark.parametrize("value", [0, 1, 2, 3, 42])
+def test_the_seeds_of_ten_thousand_environments_differ(value):
+    assert len({suite.environment_seed(value, i) for i in range(10_000)}) == 10_000
+
+
+def test_environment_seeds_collide_no_more_than_random_numbers_do(seed):
+    # 10 000 ** 2 / 2 pairs in 2 ** 32 seeds: 0.0116 collisions are expected, so four of them have a probability of
+    # 0.0116 ** 4 / 24 = 8e-10. The same for the seeds of one environment in 10 000 batches.
+    assert len({suite.environment_seed(seed, i) for i in range(10_000)}) >= 10_000 - 3
+    assert len({suite.environment_seed(seed + i, 7) for i in range(10_000)}) >= 10_000 - 3
+
+
+@every_feature_task
+def test_the_same_seed_gives_the_same_episodes_and_another_seed_others(seed, domain_name, task_name):
+    first, again, other = (
+        suite.load(domain_name, task_name, task_kwargs={"random": value}) for value in (seed, seed, seed + 1)
+    )
+    for _ in range(4):
+        assert _episode(first) == _episode(again)
+    # Two seeds give the same pattern of glue in at most 1/5 of the episodes: in all of 15 with a probability of 3e-11.
+    assert _hidden(first, 15) != _hidden(other, 15)
+
+
+@every_feature_task
+def test_what_is_done_in_an_episode_does_not_change_the_next(seed, domain_name, task_name):
+    answering, playing = (suite.load(domain_name, task_name, task_kwargs={"random": seed}) for _ in range(2))
+    for _ in range(4):
+        answering.reset()
+        answering.step(answering.task.num_interactions)
+        _episode(playing)
+    assert _episode(answering) == _episode(playing)
+
+
+@every_feature_task
+def test_an_episode_can_be_rebuilt_alone(seed, domain_name, task_name):
+    env, alone = (suite.load(domain_name, task_name, task_kwargs={"random": seed}) for _ in range(2))
+    episodes = [_episode(env) for _ in range(6)]
+    assert env.task.episode == 5
+    for k in (4, 0, 5, 5):
+        alone.task.next_episode = k
+        assert _episode(alone) == episodes[k]
+        assert alone.task.episode == k
+
+
+@every_feature_task
+def test_the_episode_after_a_rebuilt_one_is_its_successor(seed, domain_name, task_name):
+    env, alone = (suite.load(domain_name, task_name, task_kwargs={"random": seed}) for _ in range(2))
+    episodes = [_episode(env) for _ in range(5)]
+    alone.task.next_episode = 3
+    assert [_episode(alone), _episode(alone)] == episodes[3:]
+
+
+def test_a_random_state_stands_for_one_seed_drawn_from_it(seed):
+    def load(random):
+        return suite.load("which_is_heavier", "features", task_kwargs={"random": random})
+
+    state = np.random.RandomState(seed)
+    first, second = load(state), load(state)
+    again = load(np.random.RandomState(seed))
+    assert _hidden(first, 3) == _hidden(again, 3)
+    assert _hidden(first, 3) != _hidden(second, 3)
+
+
+def test_a_random_state_seeds_a_batch_as_well(seed):
+    batches = [
+        suite.load_batch("which_is_heavier", "features", 3, task_kwargs={"random": np.random.RandomState(seed)})
+        for _ in range(2)
+    ]
+    for batch in batches:
+        batch.reset()
+    np.testing.assert_array_equal(batches[0].hidden, batches[1].hidden)
+
+
+def test_no_seed_gives_other_episodes_each_time():
+    envs = [suite.load("which_is_heavier", "features", task_kwargs=kwargs) for kwargs in (None, {}, {"random": None})]
+    assert len({tuple(_hidden(env, 2)) for env in envs}) == 3
+
+
+def test_the_global_random_state_of_numpy_is_neither_used_nor_moved(seed):
+    np.random.seed(0)
+    before = np.random.get_state()[1].copy()
+    env = suite.load("which_is_heavier", "features", task_kwargs={"random": seed})
+    first = _hidden(env, 3)
+    np.testing.assert_array_equal(np.random.get_state()[1], before)
+    np.random.seed(1)
+    assert _hidden(suite.load("which_is_heavier", "features", task_kwargs={"random": seed}), 3) == first
+
+
+# Streams that must look like independent uniform numbers, [10 000, 3] each: the episodes of one environment, the
+# environments of a batch in their first episode, neighbouring seeds, and another attempt at the same episodes.
+def _streams(seed):
+    many = np.arange(10_000)
+    in_batch = np.array([suite.environment_seed(seed, i) for i in many])
+    return {
+        "episodes": seeding.uniforms(np.full(10_000, seed), many, 3),
+        "environments": seeding.uniforms(in_batch, np.zeros(10_000, np.int64), 3),
+        "seeds": seeding.uniforms(seed + many, np.zeros(10_000, np.int64), 3),
+        "attempts": seeding.uniforms(np.full(10_000, seed), many, 3, attempt=1),
+    }
+
+
+@pytest.mark.parametrize("name", ["episodes", "environments", "seeds", "attempts"])
+def test_the_draws_are_uniform(seed, name):
+    draws = _streams(seed)[name]
+    assert ((draws > 0) & (draws < 1)).all()
+    for column in draws.T:
+        assert stats.kstest(column, "uniform").pvalue > P_VALUE
+
+
+def test_the_draws_are_independent(seed):
+    # The rank correlation of 10 000 independent pairs has a standard deviation of 0.01: none of these pairs may lie six
+    # of them from zero. Each column also goes against itself, one episode (environment, seed) later.
+    columns = [column for draws in _streams(seed).values() for column in draws.T]
+    pairs = list(itertools.combinations(columns, 2)) + [(column[:-1], column[1:]) for column in columns]
+    for one, other in pairs:
+        assert abs(stats.spearmanr(one, other).statistic) < 0.06
+
+
+def test_further_attempts_share_no_number_with_the_first(seed):
+    draws = [seeding.uniforms(np.full(1000, seed), np.arange(1000), 5, attempt) for attempt in range(4)]
+    assert len(np.unique(draws)) == 4 * 5 * 1000
+
+
+def test_an_episode_draws_the_same_numbers_alone_and_among_others(seed):
+    seeds, episodes = seed + np.arange(50) % 7, np.arange(50)
+    together = seeding.uniforms(seeds, episodes, 5)
+    for i in range(50):
+        np.testing.assert_array_equal(seeding.uniforms(seeds[i : i + 1], episodes[i : i + 1], 5)[0], together[i])

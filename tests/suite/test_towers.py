@@ -1,0 +1,231 @@
+"""Towers: glue, pushes and the fist do what they say, and two pokes can tell the answer."""
+
+import itertools
+import os
+import secrets
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from physexp import suite
+from physexp.suite import tower, towers
+
+P_VALUE = 1e-4  # A right distribution fails one test in ten thousand.
+
+EDGE = 0.1  # m, of a cube
+FIST_RADIUS = 0.1  # m
+DIRECTIONS = np.array([(1, 0), (-1, 0), (0, 1), (0, -1)])  # +x, -x, +y, -y
+
+# Bodies in a tower of each pattern, in the order of `tower.PATTERNS`: five, less one for each of the glued joints.
+COUNTS = np.array([5 - sum(pattern) for pattern in itertools.product((0, 1), repeat=4)])
+EVERY_PATTERN = np.arange(16)
+SEPARATE, WHOLE = 0, 15
+
+
+@pytest.fixture
+def seed():
+    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure."""
+    value = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
+    print(f"PHYSEXP_TEST_SEED={value}")
+    return value
+
+
+def _episode_with(pattern: int, environment_seed: int) -> int:
+    """The first episode with this pattern; one in thirty at least has it, so a thousand are enough."""
+    patterns = towers.draw_patterns(np.full(1000, environment_seed), np.arange(1000))
+    return int(np.flatnonzero(patterns == pattern)[0])
+
+
+def _batch_of(task_name, patterns, seed, **task_kwargs):
+    """A batch whose i-th environment starts with `patterns[i]`, and its first positions, [N, 5, 3]."""
+    batch = suite.load_batch("towers", task_name, len(patterns), {"random": seed, **task_kwargs})
+    positions = []
+    for i, pattern in enumerate(patterns):
+        episode = _episode_with(pattern, suite.environment_seed(seed, i))
+        positions.append(batch.reset(np.array([i]), episode).observation["positions"][0])
+    np.testing.assert_array_equal(batch.hidden, patterns)
+    return batch, np.stack(positions)
+
+
+def _distances(positions, lower: int, upper: int):
+    """Distances between two blocks' centres, float64 [...] from [..., 5, 3]."""
+    return np.linalg.norm(positions[..., upper, :].astype(float) - positions[..., lower, :], axis=-1)
+
+
+def _glued(pattern: int, lower: int, upper: int) -> bool:
+    return all(tower.PATTERNS[pattern][lower:upper])
+
+
+def test_there_are_sixteen_patterns_and_each_glued_joint_saves_a_body():
+    assert sorted(tower.PATTERNS) == sorted(itertools.product((False, True), repeat=4))
+    assert [tower.num_bodies(pattern) for pattern in tower.PATTERNS] == COUNTS.tolist()
+
+
+def test_the_count_is_uniform_and_so_is_the_pattern_given_the_count(seed):
+    patterns = towers.draw_patterns(np.full(20_000, seed), np.arange(20_000))
+    assert stats.chisquare(np.bincount(COUNTS[patterns], minlength=6)[1:]).pvalue > P_VALUE
+    for count, number in zip(range(1, 6), (1, 4, 6, 4, 1), strict=True):  # Binomial coefficients of 4.
+        seen = np.bincount(patterns, minlength=16)[count == COUNTS]
+        assert len(seen) == number
+        assert number == 1 or stats.chisquare(seen).pvalue > P_VALUE
+
+
+@pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
+def test_the_answer_is_the_number_of_bodies_less_one(seed, task_name):
+    env = suite.load("towers", task_name, {"random": seed})
+    for pattern in EVERY_PATTERN:
+        env.task.next_episode = _episode_with(pattern, seed)
+        env.reset()
+        assert env.task.hidden == pattern
+        assert env.task.correct_answer == COUNTS[pattern] - 1
+        assert env.step(env.task.num_interactions + COUNTS[pattern] - 1).reward == 1
+
+
+@pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
+def test_the_tower_starts_as_a_column_of_touching_cubes(task_name):
+    positions = suite.load("towers", task_name, {"random": 0}).reset().observation["positions"]
+    expected = [(0, 0, EDGE / 2 + k * EDGE) for k in range(5)]
+    np.testing.assert_allclose(positions, expected, atol=1e-5)
+
+
+@pytest.fixture(scope="module")
+def random_episodes():
+    """Whole episodes of two towers of each pattern: for each task, patterns [32] and positions [T, 32, 5, 3]."""
+    seed = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
+    print(f"PHYSEXP_TEST_SEED={seed}")
+    rng = np.random.default_rng(seed)
+    patterns, played = np.tile(EVERY_PATTERN, 2), {}
+    for task_name in ("direct_features", "fist_features"):
+        batch, _ = _batch_of(task_name, patterns, seed)
+        positions = []
+        for t in range(26):
+            actions = rng.integers(batch.task.num_interactions, size=32)
+            if task_name == "fist_features" and t < 4:
+                actions[:] = 0  # Into the tower.
+            positions.append(batch.step(actions).observation["positions"])
+        played[task_name] = patterns, np.stack(positions)
+    return played
+
+
+@pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
+def test_glued_blocks_keep_their_distance(random_episodes, task_name):
+    patterns, positions = random_episodes[task_name]
+    for i, pattern in enumerate(patterns):
+        for lower, upper in itertools.combinations(range(5), 2):
+            if _glued(pattern, lower, upper):
+                distances = _distances(positions[:, i], lower, upper)
+                np.testing.assert_allclose(distances, EDGE * (upper - lower), rtol=0, atol=1e-6)
+
+
+def test_neighbours_that_are_not_glued_come_apart_when_pushed(random_episodes):
+    patterns, positions = random_episodes["direct_features"]
+    for pattern in EVERY_PATTERN:
+        for lower in range(4):
+            if not _glued(pattern, lower, lower + 1):
+                apart = _distances(positions[:, patterns == pattern], lower, lower + 1) - EDGE
+                assert apart.max() > 0.02, f"joint {lower} of {tower.PATTERNS[pattern]}"
+
+
+def test_a_tower_of_several_bodies_comes_apart_when_the_fist_hits_it(random_episodes):
+    patterns, positions = random_episodes["fist_features"]
+    for pattern in np.flatnonzero(COUNTS > 1):
+        apart = [_distances(positions[:, patterns == pattern], k, k + 1).max() - EDGE for k in range(4)]
+        assert max(apart) > 0.02, tower.PATTERNS[pattern]
+
+
+@pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
+def test_nothing_leaves_the_room_or_sinks_into_its_floor(random_episodes, task_name):
+    # The walls are 0.75 m from the tower's middle. A cube's centre is at least half an edge from what the cube leans
+    # on; contacts are soft, so a quarter of an edge is allowed.
+    _, positions = random_episodes[task_name]
+    assert np.abs(positions[..., :2]).max() < 0.75 - EDGE / 4
+    assert positions[..., 2].min() > EDGE / 4
+
+
+@pytest.mark.parametrize("first, second", [(0, 2), (1, 3), (2, 1), (3, 0)])
+def test_two_pokes_tell_the_number_of_bodies(seed, first, second):
+    """Block 1 in one direction, then block 3 across: patterns of different counts end up more than 2 cm apart."""
+    batch, _ = _batch_of("direct_features", EVERY_PATTERN, seed)
+    batch.step(np.full(16, 4 * 1 + first))
+    positions = batch.step(np.full(16, 4 * 3 + second)).observation["positions"]
+    for one, other in itertools.combinations(EVERY_PATTERN, 2):
+        if COUNTS[one] != COUNTS[other]:
+            largest = np.linalg.norm(positions[one] - positions[other], axis=-1).max()
+            assert largest > 0.02, (tower.PATTERNS[one], tower.PATTERNS[other])
+
+
+def test_a_push_moves_its_own_block_in_its_own_direction(seed):
+    batch, before = _batch_of("direct_features", np.full(20, SEPARATE), seed)
+    moved = (batch.step(np.arange(20)).observation["positions"] - before)[..., :2]
+    for action in range(20):
+        block, direction = action // 4, DIRECTIONS[action % 4]
+        along, across = moved[action] @ direction, moved[action] @ direction[::-1]
+        assert along.argmax() == block
+        assert along[block] > 0.05
+        assert abs(across[block]) < 0.2 * along[block]
+
+
+@pytest.mark.parametrize("control_timestep", [0.005, 0.1])
+def test_every_push_moves_every_tower(seed, control_timestep):
+    """Also in the shortest control step: a push that moved less than the tolerance would be undone each time."""
+    batch, before = _batch_of("direct_features", np.repeat(EVERY_PATTERN, 20), seed, control_timestep=control_timestep)
+    actions = np.tile(np.arange(20), 16)
+    moved = (batch.step(actions).observation["positions"] - before)[np.arange(320), actions // 4, :2]
+    along = (moved * DIRECTIONS[actions % 4]).sum(axis=1)
+    # The whole tower is the hardest to move: (50 N - 0.3 * 5 kg * 9.81 m/s^2) / 5 kg * (5 ms)^2 = 0.18 mm in 5 ms.
+    assert along.min() > 1e-4
+
+
+def test_the_fist_starts_clear_of_the_tower_at_the_height_of_its_middle():
+    observation = suite.load("towers", "fist_features", {"random": 0}).reset().observation
+    middle, fist = observation["positions"][2], observation["fist_position"]
+    x, y, z = fist - middle
+    assert abs(x) - FIST_RADIUS - EDGE / 2 > 0.1
+    assert (y, z) == pytest.approx((0, 0), abs=1e-5)
+
+
+def test_exactly_one_held_action_takes_the_fist_into_the_tower(seed):
+    hits = []
+    for pattern in (SEPARATE, 5, WHOLE):
+        batch, before = _batch_of("fist_features", np.full(4, pattern), seed)
+        for _ in range(26):
+            positions = batch.step(np.arange(4)).observation["positions"]
+        hits.append(np.abs(positions - before).max(axis=(1, 2)) > 0.02)
+    np.testing.assert_array_equal(hits, [[True, False, False, False]] * 3)
+
+
+def test_the_fist_hits_the_middle_block_first():
+    env = suite.load("towers", "fist_features", {"random": 0, "control_timestep": 0.01})
+    for pattern in EVERY_PATTERN:
+        env.task.next_episode = _episode_with(pattern, 0)
+        env.reset()
+        hit = set()
+        while not hit:
+            assert env.step(0).mid(), "the fist missed the tower"
+            model, contacts = env.physics.model, env.physics.data.contact
+            pairs = [{model.id2name(int(geom), "geom") for geom in pair} for pair in contacts.geom]
+            hit = {name for pair in pairs if "fist/geom" in pair for name in pair - {"fist/geom"}}
+        assert hit == {"tower/block_2/geom"}
+
+
+@pytest.mark.parametrize("action", range(4))
+def test_the_fist_keeps_its_speed_in_the_open(action):
+    """1 m/s in the held direction, from the second control step until it is near a wall or the tower."""
+    env = suite.load("towers", "fist_features", {"random": 0, "control_timestep": 0.01})
+    track = [env.reset().observation["fist_position"].astype(float)]
+    track += [env.step(action).observation["fist_position"].astype(float) for _ in range(16)]
+    velocities = np.diff(track, axis=0) / 0.01
+    np.testing.assert_allclose(velocities[10:], [[*DIRECTIONS[action], 0]] * 6, atol=0.01)
+
+
+# Held for 0.1 s, then for 0.2 s: pairs that lead neither to a wall nor to the tower.
+@pytest.mark.parametrize("first, second", [(1, 0), (1, 2), (1, 3), (2, 1), (2, 3), (3, 1), (3, 2)])
+def test_the_fist_turns_where_it_is_told(first, second):
+    """It moves at 1 m/s in the new direction, and stays in its plane."""
+    env = suite.load("towers", "fist_features", {"random": 0, "control_timestep": 0.05})
+    env.reset()
+    for action in (first, first, second, second, second):
+        position = env.step(action).observation["fist_position"].astype(float)
+    velocity = (env.step(second).observation["fist_position"] - position) / 0.05
+    np.testing.assert_allclose(velocity, [*DIRECTIONS[second], 0], atol=0.01)
