@@ -7,7 +7,8 @@ import numpy as np
 import torch
 from torch import nn
 
-State = tuple[torch.Tensor, torch.Tensor]
+from physexp.agents import lstm
+
 Observation = Mapping[str, torch.Tensor]
 
 
@@ -40,16 +41,16 @@ class RecurrentActorCritic(nn.Module):
         """
         super().__init__()
         self.torso = FeatureTorso(observation_spec, observation_scale)
-        self.lstm = nn.LSTM(self.torso.num_outputs, lstm_units)
+        self.lstm = lstm.LSTM(self.torso.num_outputs, lstm_units)
         self.policy = nn.Linear(lstm_units, num_actions)
         self.value = nn.Linear(lstm_units, 1)
 
-    def initial_state(self, batch_size: int) -> State:
+    def initial_state(self, batch_size: int) -> lstm.State:
         """The state at an episode's start: zeros, hidden and cell each [1, batch_size, units]."""
         shape = (1, batch_size, self.lstm.hidden_size)
         return torch.zeros(shape), torch.zeros(shape)
 
-    def step(self, observation: Observation, state: State) -> tuple[torch.Tensor, torch.Tensor, State]:
+    def step(self, observation: Observation, state: lstm.State) -> tuple[torch.Tensor, torch.Tensor, lstm.State]:
         """One time step of many episodes.
 
         Args:
@@ -59,8 +60,8 @@ class RecurrentActorCritic(nn.Module):
         Returns:
           Logits [N, A], values [N] and the next state.
         """
-        outputs, state = self.lstm(self.torso(observation)[None], state)
-        return *self._heads(outputs[0]), state
+        outputs, state = self.lstm.step(self.torso(observation), state)
+        return *self._heads(outputs), state
 
     def unroll(self, observation: Observation, batch_sizes: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
         """Whole episodes from their first steps, packed: sorted from the longest to the shortest, no padding.
@@ -72,9 +73,7 @@ class RecurrentActorCritic(nn.Module):
         Returns:
           Logits [N, A] and values [N].
         """
-        packed = nn.utils.rnn.PackedSequence(self.torso(observation), batch_sizes)
-        outputs, _ = self.lstm(packed)
-        return self._heads(outputs.data)
+        return self._heads(self.lstm.unroll(self.torso(observation), batch_sizes))
 
     def _heads(self, outputs):
         return self.policy(outputs), self.value(outputs).squeeze(-1)

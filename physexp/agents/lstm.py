@@ -1,0 +1,127 @@
+"""An LSTM layer with torch's parameters and torch's results, made quick on a processor.
+
+On a processor, an LSTM of 100 units spends most of its time not on matrix products but on tanh, which costs several
+times as much as the logistic function, and on small gradients of the weights at every time step. Here all four gates
+go through one logistic function (tanh x = 2 sigma(2x) - 1), and the gradients of the weights are one product over all
+time steps. On a GPU torch's own kernels are used.
+"""
+
+import torch
+from torch import nn
+
+State = tuple[torch.Tensor, torch.Tensor]
+
+
+class LSTM(nn.LSTM):
+    """One layer; `step` and `unroll` agree with what `torch.nn.LSTM` computes."""
+
+    weight_ih_l0: torch.Tensor
+    weight_hh_l0: torch.Tensor
+    bias_ih_l0: torch.Tensor
+    bias_hh_l0: torch.Tensor
+
+    def __init__(self, num_inputs: int, num_units: int):
+        super().__init__(num_inputs, num_units)
+
+    def step(self, inputs: torch.Tensor, state: State) -> tuple[torch.Tensor, State]:
+        """One time step, not to be differentiated.
+
+        Args:
+          inputs: [N, F].
+          state: hidden and cell state, each [1, N, H].
+
+        Returns:
+          Outputs [N, H] and the next state.
+        """
+        if inputs.is_cuda:
+            outputs, state = self(inputs[None], state)
+            return outputs[0], state
+        hidden, cell = state[0][0], state[1][0]
+        gates = self._project(inputs).addmm_(hidden, self.weight_hh_l0.t())
+        hidden, cell, _ = _advance(gates, cell)
+        return hidden, (hidden[None], cell[None])
+
+    def unroll(self, inputs: torch.Tensor, batch_sizes: torch.Tensor) -> torch.Tensor:
+        """Whole sequences from a state of zeros, with gradients.
+
+        Args:
+          inputs: packed sequences, the longest first: all first steps, then all second steps, ..., [N, F].
+          batch_sizes: how many sequences have a t-th step, int64 [T]; they sum to N.
+
+        Returns:
+          Outputs, packed alike, [N, H].
+        """
+        if inputs.is_cuda:
+            return self(nn.utils.rnn.PackedSequence(inputs, batch_sizes))[0].data
+        return _Unroll.apply(self._project(inputs), self.weight_hh_l0, batch_sizes.tolist())
+
+    def _project(self, inputs: torch.Tensor) -> torch.Tensor:
+        """What the inputs and the biases add to the gates, [N, 4 H]."""
+        return torch.addmm(self.bias_ih_l0 + self.bias_hh_l0, inputs, self.weight_ih_l0.t())
+
+
+def _advance(gates: torch.Tensor, cell: torch.Tensor | None):
+    """Turns gates before their nonlinearity [n, 4 H], in place, into gates, and returns hidden, cell, tanh(cell)."""
+    size = gates.shape[1] // 4
+    gates[:, 2 * size : 3 * size].mul_(2)
+    gates.sigmoid_()
+    gates[:, 2 * size : 3 * size].mul_(2).sub_(1)
+    entry, forget, candidate, exit_ = gates.chunk(4, dim=1)
+    new_cell = entry * candidate
+    if cell is not None:
+        new_cell.addcmul_(forget, cell)
+    squashed = (2 * new_cell).sigmoid_().mul_(2).sub_(1)
+    return exit_ * squashed, new_cell, squashed
+
+
+class _Unroll(torch.autograd.Function):
+    """The recurrence, and its gradient by backpropagation through time (Hochreiter & Schmidhuber, 1997)."""
+
+    @staticmethod
+    def forward(ctx, projections, weight, batch_sizes):
+        gates = projections.clone()
+        hiddens, cells, squashed = (projections.new_empty(len(gates), weight.shape[1]) for _ in range(3))
+        transposed = weight.t().contiguous()
+        start, before = 0, 0
+        for size in batch_sizes:
+            now = slice(start, start + size)
+            cell = None
+            if start:
+                past = slice(before, before + size)
+                gates[now].addmm_(hiddens[past], transposed)
+                cell = cells[past]
+            hiddens[now], cells[now], squashed[now] = _advance(gates[now], cell)
+            start, before = start + size, start
+        ctx.save_for_backward(gates, weight, hiddens, cells, squashed)
+        ctx.batch_sizes = batch_sizes
+        return hiddens
+
+    @staticmethod
+    def backward(ctx, grad_hiddens):
+        gates, weight, hiddens, cells, squashed = ctx.saved_tensors
+        sizes = ctx.batch_sizes
+        grad_gates = torch.empty_like(gates)  # Before the nonlinearity.
+        past_hiddens = torch.zeros_like(hiddens)
+        grad_hidden, grad_cell = (hiddens.new_zeros(sizes[0], hiddens.shape[1]) for _ in range(2))
+        end = len(gates)
+        for step in reversed(range(len(sizes))):
+            size = sizes[step]
+            now = slice(end - size, end)
+            entry, forget, candidate, exit_ = gates[now].chunk(4, dim=1)
+            to_entry, to_forget, to_candidate, to_exit = grad_gates[now].chunk(4, dim=1)
+            hidden, cell = grad_hidden[:size], grad_cell[:size]  # Shorter sequences join on the way back.
+            hidden += grad_hiddens[now]
+            cell.addcmul_(hidden * exit_, 1 - squashed[now].square())
+            torch.mul(hidden * squashed[now], exit_ * (1 - exit_), out=to_exit)
+            torch.mul(cell * candidate, entry * (1 - entry), out=to_entry)
+            torch.mul(cell * entry, 1 - candidate.square(), out=to_candidate)
+            end -= size
+            if step == 0:
+                to_forget.zero_()
+                break
+            past = slice(end - sizes[step - 1], end - sizes[step - 1] + size)
+            torch.mul(cell * cells[past], forget * (1 - forget), out=to_forget)
+            cell.mul_(forget)
+            torch.mm(grad_gates[now], weight, out=hidden)
+            past_hiddens[now] = hiddens[past]
+        return grad_gates, grad_gates.t() @ past_hiddens, None

@@ -1,0 +1,50 @@
+"""The quick LSTM computes what torch's LSTM computes."""
+
+import numpy as np
+import torch
+
+from physexp.agents import lstm
+
+
+def packed_inputs(num_inputs: int):
+    """Random packed sequences of random lengths; prints its seed."""
+    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    print("seed", seed)
+    generator = np.random.default_rng(seed)
+    torch.manual_seed(seed)
+    lengths = np.sort(generator.integers(1, 12, size=9))[::-1]
+    batch_sizes = torch.tensor([(lengths > t).sum() for t in range(lengths[0])])
+    return torch.randn(int(batch_sizes.sum()), num_inputs), batch_sizes
+
+
+def test_unrolled_outputs_and_all_gradients_are_those_of_torch():
+    inputs, batch_sizes = packed_inputs(4)
+    layer = lstm.LSTM(4, 100)
+    results = []
+    for unroll in (layer.unroll, lambda x, sizes: layer(torch.nn.utils.rnn.PackedSequence(x, sizes))[0].data):
+        layer.zero_grad()
+        x = inputs.clone().requires_grad_()
+        outputs = unroll(x, batch_sizes)
+        outputs.square().sum().backward()
+        results.append([outputs.detach(), x.grad, *(parameter.grad.clone() for parameter in layer.parameters())])
+    for ours, theirs in zip(*results, strict=True):
+        torch.testing.assert_close(ours, theirs, rtol=1e-4, atol=1e-5)
+
+
+def test_the_gradient_is_that_of_finite_differences():
+    inputs, batch_sizes = packed_inputs(2)
+    layer = lstm.LSTM(2, 3).double()
+    weight = layer.weight_hh_l0.detach().clone().requires_grad_()
+    projections = layer._project(inputs.double()).detach().requires_grad_()
+    assert torch.autograd.gradcheck(lambda p, w: lstm._Unroll.apply(p, w, batch_sizes.tolist()), (projections, weight))
+
+
+def test_a_step_is_a_step_of_torch():
+    layer = lstm.LSTM(4, 100)
+    inputs, state = torch.randn(7, 4), (torch.randn(1, 7, 100), torch.randn(1, 7, 100))
+    with torch.inference_mode():
+        outputs, (hidden, cell) = layer.step(inputs, state)
+        expected, (expected_hidden, expected_cell) = layer(inputs[None], state)
+    torch.testing.assert_close(outputs, expected[0], rtol=1e-5, atol=1e-6)
+    torch.testing.assert_close(hidden, expected_hidden, rtol=1e-5, atol=1e-6)
+    torch.testing.assert_close(cell, expected_cell, rtol=1e-5, atol=1e-6)
