@@ -7,8 +7,9 @@ import dataclasses
 
 from physexp.agents.a3c import config as a3c
 
-# Simulation is what a tower costs, not learning: smaller updates and more of them.
-_TOWERS = a3c.A3CConfig(discount=0.98, envs_per_worker=64, entropy_cost=0.04, final_entropy_cost=0.001)
+# Simulation is what a tower costs, not learning: smaller updates and more of them. Blocks move by their own size.
+_TOWERS = a3c.A3CConfig(discount=0.98, envs_per_worker=64, entropy_cost=0.04, final_entropy_cost=0.001,
+                        observation_scale=10.0)  # fmt: skip
 
 PRESETS = {
     ("which_is_heavier", "features"): a3c.A3CConfig(),

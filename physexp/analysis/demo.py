@@ -8,7 +8,7 @@ from physexp.analysis import curves, evaluation, progress, training
 from physexp.analysis import run as run_lib
 
 DIFFICULTY = 10.0
-FRAMES = 2_500_000
+FRAMES = 1_500_000
 EPISODES = 2000
 
 

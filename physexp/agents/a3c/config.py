@@ -20,24 +20,24 @@ class A3CConfig:
       baseline_cost: weight of the value loss.
       max_gradient_norm: gradients are scaled down to this norm.
       lstm_units: hidden units of the LSTM (paper: 100).
-      observation_scale: factor on features. They are in metres and what matters in them in tenths of one: ten brings
-        it to the order of one.
+      observation_scale: factor on features. They are in metres; what matters in them, a centimetre or a tenth of a
+        metre, should be of the order of one.
       checkpoint_seconds: time between checkpoints, s.
 
     """
 
     discount: float = 0.95
-    frames: int = 10_000_000
+    frames: int = 6_000_000
     seed: int = 0
     num_workers: int = 2
     envs_per_worker: int = 256
     learning_rate: float = 5e-3
     entropy_cost: float = 0.15
-    final_entropy_cost: float = 0.0005
+    final_entropy_cost: float = 0.0003
     baseline_cost: float = 0.5
     max_gradient_norm: float = 1.0
     lstm_units: int = 100
-    observation_scale: float = 10.0
+    observation_scale: float = 40.0
     checkpoint_seconds: float = 60.0
 
     def replace(self, **changes) -> "A3CConfig":
