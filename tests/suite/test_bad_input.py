@@ -113,6 +113,7 @@ def test_an_action_that_is_none_is_refused_and_nothing_moves(domain_name, task_n
     no_integers = [2**70, 0.0, 0.5, np.nan, True, np.bool_(True), None, "poke", "", (), {}, [0], np.zeros(2, int)]
     for message, bad in [(str(bad), bad) for bad in out_of_range] + [(repr(bad), bad) for bad in no_integers]:
         for each in (env, untold):
+            each.task.next_episode = 0
             each.reset()
         for _ in range(2):
             with _refuses("action", message, str(count - 1)):
@@ -159,7 +160,7 @@ def test_actions_of_a_wrong_shape_or_type_are_refused_and_nothing_moves(domain_n
     wrong_types = [[0.0, 0.0], [True, False], [0, None], [0, "a"], [2**70, 0], np.zeros(2, object)]
     for bad in wrong_shapes + wrong_types:
         for each in (batch, untold):
-            each.reset()
+            each.reset(episode=0)
         with _refuses("action", repr(bad), "(2,)", str(batch.action_spec().num_values - 1)):
             batch.step(bad)
         step, expected = batch.step([0, 1]), untold.step([0, 1])
@@ -172,7 +173,7 @@ def test_an_action_out_of_range_is_refused_and_no_environment_moves(domain_name,
     count, label = batch.action_spec().num_values, batch.task.num_interactions
     for bad in (-1, count, 2**62):
         for each in (batch, untold):
-            each.reset()
+            each.reset(episode=0)
             each.step([0, label, 1])
         with _refuses(f"action is {bad}", str(count - 1)):
             batch.step([0, 0, bad])  # The second environment's episode is over, and must not start anew.

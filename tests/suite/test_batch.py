@@ -35,9 +35,9 @@ def _load_both(domain_name, task_name, seed, size, num_threads=1, **task_kwargs)
 
 
 def _random_actions(rng, task, size):
-    """Interactions, and one label in twelve."""
+    """Interactions, and one label in fifteen."""
     labels = task.num_interactions + rng.integers(task.num_labels, size=size)
-    return np.where(rng.random(size) < 1 / 12, labels, rng.integers(task.num_interactions, size=size))
+    return np.where(rng.random(size) < 1 / 15, labels, rng.integers(task.num_interactions, size=size))
 
 
 def _assert_same(steps: dm_env.TimeStep, singles: list[dm_env.TimeStep]) -> None:
@@ -214,14 +214,12 @@ def test_two_batches_in_one_process_share_nothing(seed):
 
 
 def test_every_pattern_of_glue_is_played_alike_in_a_batch_and_alone(seed):
-    """One environment each, at the first of its episodes with that pattern, two pushes."""
-    batch, singles = _load_both("towers", "direct_features", seed, 16)
-    for pattern, single in enumerate(singles):
-        patterns = towers.draw_patterns(np.full(1000, single.task.options.random), np.arange(1000))
-        episode = int(np.flatnonzero(patterns == pattern)[0])
-        single.task.next_episode = episode
-        single.reset()
-        batch.reset(environments=np.array([pattern]), episode=episode)
-    np.testing.assert_array_equal(batch.hidden, np.arange(16))
-    for action in (4, 14):
-        _assert_same(batch.step(np.full(16, action)), [single.step(action) for single in singles])
+    """At the first episode with each pattern, two pushes."""
+    batch, (single,) = _load_both("towers", "direct_features", seed, 1)
+    patterns = towers.draw_patterns(np.full(1000, single.task.options.random), np.arange(1000))
+    for pattern in range(16):
+        single.task.next_episode = int(np.flatnonzero(patterns == pattern)[0])
+        _assert_same(batch.reset(episode=single.task.next_episode), [single.reset()])
+        assert batch.hidden == [pattern]
+        for action in (4, 14):
+            _assert_same(batch.step(np.array([action])), [single.step(action)])

@@ -1,5 +1,6 @@
 """Nothing tells of the hidden property before it is touched, and what hides it leaves the physics as it is."""
 
+import functools
 import os
 import secrets
 
@@ -15,12 +16,14 @@ EVERY_PATTERN = np.arange(16)
 INTO_THE_TOWER, AWAY, LEFT, RIGHT = range(4)  # The fist's actions: +x, -x, +y, -y. It starts at x = -0.32 m.
 
 
-@pytest.fixture
+SEED = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
+
+
+@pytest.fixture(autouse=True)
 def seed():
-    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure."""
-    value = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
-    print(f"PHYSEXP_TEST_SEED={value}")
-    return value
+    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure; one a module, see `_load_batch`."""
+    print(f"PHYSEXP_TEST_SEED={SEED}")
+    return SEED
 
 
 def _episode_with(pattern: int, environment_seed: int) -> int:
@@ -29,12 +32,18 @@ def _episode_with(pattern: int, environment_seed: int) -> int:
     return int(np.flatnonzero(patterns == pattern)[0])
 
 
-def _batch_of(task_name, patterns, seed, **task_kwargs):
+@functools.cache
+def _load_batch(task_name, size, control_timestep):
+    """Batches are built once: compiling sixteen towers takes a second."""
+    return suite.load_batch("towers", task_name, size, {"random": SEED, "control_timestep": control_timestep})
+
+
+def _batch_of(task_name, patterns, control_timestep=0.1):
     """A batch whose i-th environment starts with `patterns[i]`, and its first observation."""
-    batch = suite.load_batch("towers", task_name, len(patterns), {"random": seed, **task_kwargs})
+    batch = _load_batch(task_name, len(patterns), control_timestep)
     rows = []
     for i, pattern in enumerate(patterns):
-        episode = _episode_with(pattern, suite.environment_seed(seed, i))
+        episode = _episode_with(pattern, suite.environment_seed(SEED, i))
         rows.append(batch.reset(np.array([i]), episode).observation)
     np.testing.assert_array_equal(batch.hidden, patterns)
     return batch, {name: np.concatenate([row[name] for row in rows]) for name in rows[0]}
@@ -63,8 +72,8 @@ def _differences(observation, size: int) -> dict[str, float]:
 
 
 @pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
-def test_every_tower_looks_the_same_at_first(seed, task_name):
-    _, first = _batch_of(task_name, EVERY_PATTERN, seed)
+def test_every_tower_looks_the_same_at_first(task_name):
+    _, first = _batch_of(task_name, EVERY_PATTERN)
     assert _differences(first, 16) == {}
 
 
@@ -78,7 +87,7 @@ def test_an_untouched_tower_and_the_fist_look_the_same_whatever_the_glue(
 ):
     plans = _plans_that_miss(np.random.default_rng(seed), step_limit, control_timestep, num_random)
     size = len(patterns)
-    batch, first = _batch_of("fist_features", np.tile(patterns, len(plans)), seed, control_timestep=control_timestep)
+    batch, first = _batch_of("fist_features", np.tile(patterns, len(plans)), control_timestep)
     leaks = []
     for t in range(step_limit):
         step = batch.step(np.repeat(plans[:, t], size))
@@ -137,10 +146,15 @@ def test_a_poked_block_moves_the_same_whatever_the_others_weigh(seed):
 # The plain physics: the same compiled model, awake from the start, stepped by `mj_step` and never held.
 
 
-def _plain(batch):
+@functools.cache
+def _kits(task_name):
+    task = suite.load_task("towers", task_name)
+    return [task.build_apparatus(int(pattern)) for pattern in EVERY_PATTERN]
+
+
+def _plain(task_name):
     """The model of each pattern, and a state at rest."""
-    kits = [batch.task.build_apparatus(int(pattern)) for pattern in EVERY_PATTERN]
-    return [(kit, mujoco.MjData(kit.model)) for kit in kits]
+    return [(kit, mujoco.MjData(kit.model)) for kit in _kits(task_name)]
 
 
 def _positions(kit, data) -> np.ndarray:
@@ -151,9 +165,8 @@ def _positions(kit, data) -> np.ndarray:
 
 @pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
 def test_a_plain_awake_tower_settles_by_less_than_a_tenth_of_the_touch_tolerance(task_name):
-    batch, _ = _batch_of(task_name, EVERY_PATTERN, 0)
     settled = {}
-    for pattern, (kit, data) in enumerate(_plain(batch)):
+    for pattern, (kit, data) in enumerate(_plain(task_name)):
         worst = 0.0
         for _ in range(520):  # 2.6 s
             mujoco.mj_step(kit.model, data)
@@ -167,8 +180,8 @@ def test_a_plain_awake_tower_settles_by_less_than_a_tenth_of_the_touch_tolerance
 # 0.1 s; with steps of 0.01 s, where the tower may feel the first instant of the touch a step late, 1 mm in five.
 @pytest.mark.parametrize("control_timestep, num_steps, tolerance", [(0.1, 3, 1e-4), (0.01, 5, 1e-3)])
 def test_a_tower_hit_by_the_fist_moves_as_a_plain_awake_one(control_timestep, num_steps, tolerance):
-    batch, first = _batch_of("fist_features", EVERY_PATTERN, 0, control_timestep=control_timestep)
-    plain, since_touch = _plain(batch), 0
+    batch, first = _batch_of("fist_features", EVERY_PATTERN, control_timestep)
+    plain, since_touch = _plain("fist_features"), 0
     while since_touch < num_steps:
         positions = batch.step(np.full(16, INTO_THE_TOWER)).observation["positions"]
         since_touch += (np.abs(positions - first["positions"]).max(axis=(1, 2)) > 1e-3).all()
@@ -185,8 +198,8 @@ def test_a_tower_hit_by_the_fist_moves_as_a_plain_awake_one(control_timestep, nu
 def test_a_pushed_tower_moves_as_a_plain_awake_one(seed):
     """The first push finds both towers in the same state, so they stay together, up to a micrometre, for two."""
     rng = np.random.default_rng(seed)
-    batch, _ = _batch_of("direct_features", EVERY_PATTERN, seed)
-    plain = _plain(batch)
+    batch, _ = _batch_of("direct_features", EVERY_PATTERN)
+    plain = _plain("direct_features")
     for actions in rng.integers(20, size=(2, 16)):
         positions = batch.step(actions).observation["positions"]
         for pattern, (kit, data) in enumerate(plain):
@@ -197,9 +210,8 @@ def test_a_pushed_tower_moves_as_a_plain_awake_one(seed):
 
 def test_a_tower_at_rest_feels_every_contact_from_the_first_physics_step_on():
     """Each joint that is not glued, and the floor, has its four contact points: nothing falls before it is carried."""
-    batch, _ = _batch_of("direct_features", EVERY_PATTERN, 0)
     missing = {}
-    for pattern, (kit, data) in enumerate(_plain(batch)):
+    for pattern, (kit, data) in enumerate(_plain("direct_features")):
         mujoco.mj_forward(kit.model, data)
         expected = 4 * tower.num_bodies(tower.PATTERNS[pattern])
         if data.ncon < expected:

@@ -76,13 +76,13 @@ def test_environments_and_batches_that_are_dropped_give_their_memory_back(domain
         batch.reset()
         batch.step([0, 0, 0, 0])
 
-    for _ in range(3):
+    for _ in range(2):
         build_and_drop()
     before = _resident_bytes()
-    for _ in range(8):
+    for _ in range(6):
         build_and_drop()
     # Either one is megabytes large: an arena for contacts, for one, takes some.
-    assert _resident_bytes() - before < 8 * 200_000
+    assert _resident_bytes() - before < 6 * 300_000
 
 
 @every_feature_task

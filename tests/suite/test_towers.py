@@ -1,5 +1,6 @@
 """Towers: glue, pushes and the fist do what they say, and two pokes can tell the answer."""
 
+import functools
 import itertools
 import os
 import secrets
@@ -23,12 +24,14 @@ EVERY_PATTERN = np.arange(16)
 SEPARATE, WHOLE = 0, 15
 
 
-@pytest.fixture
+SEED = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
+
+
+@pytest.fixture(autouse=True)
 def seed():
-    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure."""
-    value = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
-    print(f"PHYSEXP_TEST_SEED={value}")
-    return value
+    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure; one a module, see `_load_batch`."""
+    print(f"PHYSEXP_TEST_SEED={SEED}")
+    return SEED
 
 
 def _episode_with(pattern: int, environment_seed: int) -> int:
@@ -37,12 +40,18 @@ def _episode_with(pattern: int, environment_seed: int) -> int:
     return int(np.flatnonzero(patterns == pattern)[0])
 
 
-def _batch_of(task_name, patterns, seed, **task_kwargs):
+@functools.cache
+def _load_batch(task_name, size, control_timestep):
+    """Batches are built once: compiling sixteen towers takes a second."""
+    return suite.load_batch("towers", task_name, size, {"random": SEED, "control_timestep": control_timestep})
+
+
+def _batch_of(task_name, patterns, control_timestep=0.1):
     """A batch whose i-th environment starts with `patterns[i]`, and its first positions, [N, 5, 3]."""
-    batch = suite.load_batch("towers", task_name, len(patterns), {"random": seed, **task_kwargs})
+    batch = _load_batch(task_name, len(patterns), control_timestep)
     positions = []
     for i, pattern in enumerate(patterns):
-        episode = _episode_with(pattern, suite.environment_seed(seed, i))
+        episode = _episode_with(pattern, suite.environment_seed(SEED, i))
         positions.append(batch.reset(np.array([i]), episode).observation["positions"][0])
     np.testing.assert_array_equal(batch.hidden, patterns)
     return batch, np.stack(positions)
@@ -89,28 +98,23 @@ def test_the_tower_starts_as_a_column_of_touching_cubes(task_name):
     np.testing.assert_allclose(positions, expected, atol=1e-5)
 
 
-@pytest.fixture(scope="module")
-def random_episodes():
-    """Whole episodes of two towers of each pattern: for each task, patterns [32] and positions [T, 32, 5, 3]."""
-    seed = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
-    print(f"PHYSEXP_TEST_SEED={seed}")
-    rng = np.random.default_rng(seed)
-    patterns, played = np.tile(EVERY_PATTERN, 2), {}
-    for task_name in ("direct_features", "fist_features"):
-        batch, _ = _batch_of(task_name, patterns, seed)
-        positions = []
-        for t in range(26):
-            actions = rng.integers(batch.task.num_interactions, size=32)
-            if task_name == "fist_features" and t < 4:
-                actions[:] = 0  # Into the tower.
-            positions.append(batch.step(actions).observation["positions"])
-        played[task_name] = patterns, np.stack(positions)
-    return played
+@functools.cache
+def _random_episodes(task_name):
+    """A whole episode of two towers of each pattern: patterns [32] and positions [T, 32, 5, 3]."""
+    rng = np.random.default_rng(SEED)
+    patterns, positions = np.tile(EVERY_PATTERN, 2), []
+    batch, _ = _batch_of(task_name, patterns)
+    for t in range(26):
+        actions = rng.integers(batch.task.num_interactions, size=32)
+        if task_name == "fist_features" and t < 4:
+            actions[:] = 0  # Into the tower.
+        positions.append(batch.step(actions).observation["positions"])
+    return patterns, np.stack(positions)
 
 
 @pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
-def test_glued_blocks_keep_their_distance(random_episodes, task_name):
-    patterns, positions = random_episodes[task_name]
+def test_glued_blocks_keep_their_distance(task_name):
+    patterns, positions = _random_episodes(task_name)
     for i, pattern in enumerate(patterns):
         for lower, upper in itertools.combinations(range(5), 2):
             if _glued(pattern, lower, upper):
@@ -118,8 +122,8 @@ def test_glued_blocks_keep_their_distance(random_episodes, task_name):
                 np.testing.assert_allclose(distances, EDGE * (upper - lower), rtol=0, atol=1e-6)
 
 
-def test_neighbours_that_are_not_glued_come_apart_when_pushed(random_episodes):
-    patterns, positions = random_episodes["direct_features"]
+def test_neighbours_that_are_not_glued_come_apart_when_pushed():
+    patterns, positions = _random_episodes("direct_features")
     for pattern in EVERY_PATTERN:
         for lower in range(4):
             if not _glued(pattern, lower, lower + 1):
@@ -127,26 +131,26 @@ def test_neighbours_that_are_not_glued_come_apart_when_pushed(random_episodes):
                 assert apart.max() > 0.02, f"joint {lower} of {tower.PATTERNS[pattern]}"
 
 
-def test_a_tower_of_several_bodies_comes_apart_when_the_fist_hits_it(random_episodes):
-    patterns, positions = random_episodes["fist_features"]
+def test_a_tower_of_several_bodies_comes_apart_when_the_fist_hits_it():
+    patterns, positions = _random_episodes("fist_features")
     for pattern in np.flatnonzero(COUNTS > 1):
         apart = [_distances(positions[:, patterns == pattern], k, k + 1).max() - EDGE for k in range(4)]
         assert max(apart) > 0.02, tower.PATTERNS[pattern]
 
 
 @pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
-def test_nothing_leaves_the_room_or_sinks_into_its_floor(random_episodes, task_name):
+def test_nothing_leaves_the_room_or_sinks_into_its_floor(task_name):
     # The walls are 0.75 m from the tower's middle. A cube's centre is at least half an edge from what the cube leans
     # on; contacts are soft, so a quarter of an edge is allowed.
-    _, positions = random_episodes[task_name]
+    _, positions = _random_episodes(task_name)
     assert np.abs(positions[..., :2]).max() < 0.75 - EDGE / 4
     assert positions[..., 2].min() > EDGE / 4
 
 
 @pytest.mark.parametrize("first, second", [(0, 2), (1, 3), (2, 1), (3, 0)])
-def test_two_pokes_tell_the_number_of_bodies(seed, first, second):
+def test_two_pokes_tell_the_number_of_bodies(first, second):
     """Block 1 in one direction, then block 3 across: patterns of different counts end up more than 2 cm apart."""
-    batch, _ = _batch_of("direct_features", EVERY_PATTERN, seed)
+    batch, _ = _batch_of("direct_features", EVERY_PATTERN)
     batch.step(np.full(16, 4 * 1 + first))
     positions = batch.step(np.full(16, 4 * 3 + second)).observation["positions"]
     for one, other in itertools.combinations(EVERY_PATTERN, 2):
@@ -155,8 +159,8 @@ def test_two_pokes_tell_the_number_of_bodies(seed, first, second):
             assert largest > 0.02, (tower.PATTERNS[one], tower.PATTERNS[other])
 
 
-def test_a_push_moves_its_own_block_in_its_own_direction(seed):
-    batch, before = _batch_of("direct_features", np.full(20, SEPARATE), seed)
+def test_a_push_moves_its_own_block_in_its_own_direction():
+    batch, before = _batch_of("direct_features", np.full(20, SEPARATE))
     moved = (batch.step(np.arange(20)).observation["positions"] - before)[..., :2]
     for action in range(20):
         block, direction = action // 4, DIRECTIONS[action % 4]
@@ -167,9 +171,9 @@ def test_a_push_moves_its_own_block_in_its_own_direction(seed):
 
 
 @pytest.mark.parametrize("control_timestep", [0.005, 0.1])
-def test_every_push_moves_every_tower(seed, control_timestep):
+def test_every_push_moves_every_tower(control_timestep):
     """Also in the shortest control step: a push that moved less than the tolerance would be undone each time."""
-    batch, before = _batch_of("direct_features", np.repeat(EVERY_PATTERN, 20), seed, control_timestep=control_timestep)
+    batch, before = _batch_of("direct_features", np.repeat(EVERY_PATTERN, 20), control_timestep)
     actions = np.tile(np.arange(20), 16)
     moved = (batch.step(actions).observation["positions"] - before)[np.arange(320), actions // 4, :2]
     along = (moved * DIRECTIONS[actions % 4]).sum(axis=1)
@@ -185,10 +189,10 @@ def test_the_fist_starts_clear_of_the_tower_at_the_height_of_its_middle():
     assert (y, z) == pytest.approx((0, 0), abs=1e-5)
 
 
-def test_exactly_one_held_action_takes_the_fist_into_the_tower(seed):
+def test_exactly_one_held_action_takes_the_fist_into_the_tower():
     hits = []
     for pattern in (SEPARATE, 5, WHOLE):
-        batch, before = _batch_of("fist_features", np.full(4, pattern), seed)
+        batch, before = _batch_of("fist_features", np.full(4, pattern))
         for _ in range(26):
             positions = batch.step(np.arange(4)).observation["positions"]
         hits.append(np.abs(positions - before).max(axis=(1, 2)) > 0.02)

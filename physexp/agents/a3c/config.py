@@ -27,13 +27,13 @@ class A3CConfig:
     """
 
     discount: float = 0.95
-    frames: int = 6_000_000
+    frames: int = 8_000_000
     seed: int = 0
     num_workers: int = 2
     envs_per_worker: int = 256
     learning_rate: float = 5e-3
     entropy_cost: float = 0.15
-    final_entropy_cost: float = 0.0003
+    final_entropy_cost: float = 0.0001
     baseline_cost: float = 0.5
     max_gradient_norm: float = 1.0
     lstm_units: int = 100
