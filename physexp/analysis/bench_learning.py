@@ -27,9 +27,11 @@ def run(runs_dir: Path) -> Iterator[dict]:
 
 def _figure(name: str, key: str, results: list[dict], target: float) -> dict:
     values = sorted(result[key] for result in results)
-    each = {f"seed_{seed}": result[key] for seed, result in zip(SEEDS[: len(results)], results, strict=True)}
-    return bench.row(name, values[min(1, len(values) - 1)], "", target, **each,
-                     million_frames=results[0]["frames"] / 1e6, minutes=results[0]["minutes"])  # fmt: skip
+    absolute = {}
+    for seed, result in zip(SEEDS, results, strict=False):  # Towers have fewer seeds.
+        absolute |= {f"seed_{seed}": result[key], f"greedy_{seed}": result["greedy"][key]}
+    absolute |= {"million_frames": results[0]["frames"] / 1e6, "minutes": results[0]["minutes"]}
+    return bench.row(name, values[min(1, len(values) - 1)], "", target, **absolute)
 
 
 def _result(runs_dir: Path, domain: str, task: str, difficulty: float | None, seed: int) -> dict:
@@ -48,4 +50,5 @@ def _result(runs_dir: Path, domain: str, task: str, difficulty: float | None, se
             training.train(run, display)
     last = run.metrics()[-1]
     figures = evaluation.evaluate(run, EPISODES).summary(agent.discount)
-    return {**figures, "frames": last["frames"], "minutes": last["seconds"] / 60}
+    greedy = evaluation.evaluate(run, EPISODES, greedy=True).summary(agent.discount)
+    return {**figures, "greedy": greedy, "frames": last["frames"], "minutes": last["seconds"] / 60}
