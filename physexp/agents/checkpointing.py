@@ -45,6 +45,8 @@ class Checkpointer:
           The path of the tensors; the facts lie beside it as JSON.
         """
         self._folder.mkdir(parents=True, exist_ok=True)
+        for litter in self._folder.glob(".*.tmp"):  # Of a process that was killed while it wrote.
+            litter.unlink()
         path = self._folder / f"{int(tensors['frames']):015d}.safetensors"
         contiguous = {name: value.detach().contiguous() for name, value in tensors.items()}
         # The JSON comes first: a checkpoint is there once its tensors are.

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from pathlib import Path
 import sys
+from typing import Any
 
 from physexp.analysis import bench, evaluation, progress, training
 from physexp.analysis import config as config_lib
@@ -27,7 +28,7 @@ def run(runs_dir: Path) -> Iterator[dict]:
 
 def _figure(name: str, key: str, results: list[dict], target: float) -> dict:
     values = sorted(result[key] for result in results)
-    absolute = {}
+    absolute: dict[str, Any] = {}
     for seed, result in zip(SEEDS, results, strict=False):  # Towers have fewer seeds.
         absolute |= {f"seed_{seed}": result[key], f"greedy_{seed}": result["greedy"][key]}
     absolute |= {"million_frames": results[0]["frames"] / 1e6, "minutes": results[0]["minutes"]}

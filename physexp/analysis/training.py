@@ -57,10 +57,15 @@ def _run(agent: agent_lib.A3C, recorder: "_Recorder") -> None:
                 recorder.add(update)
             if recorder.checkpoint_is_due():
                 recorder.snapshot(agent.save())
+        recorder.snapshot(agent.save())
     except agent_lib.WorkerError as error:
         where = recorder.save_failure(error)
         raise RuntimeError(f"training stopped: {error}{where}; the last checkpoint is whole, --resume it") from None
-    recorder.snapshot(agent.save())
+    except OSError as error:
+        raise RuntimeError(
+            f"training stopped: cannot write to {recorder.path}: {error.strerror}; the last checkpoint is whole, "
+            "make room and --resume it"
+        ) from None
 
 
 class _Recorder:
@@ -72,6 +77,7 @@ class _Recorder:
 
     def __init__(self, run: run_lib.Run, config: config_lib.TrainConfig, report: Callable[[dict], None]):
         self._run, self._config, self._report = run, config, report
+        self.path = run.path
         self._num_interactions = suite.load_task(config.domain, config.task, config.task_kwargs).num_interactions
         self._seeds = [agent_lib.worker_seed(config.agent.seed, worker) for worker in range(config.agent.num_workers)]
         self._frames = self._updates = self._episodes = 0

@@ -1,10 +1,12 @@
 """The agent: processes that act and learn asynchronously on shared variables (Mnih et al., 2016)."""
 
 from collections.abc import Callable, Iterator
+import contextlib
 import dataclasses
 import os
 import queue
 import signal
+import threading
 import time
 import traceback
 from typing import Any
@@ -88,9 +90,17 @@ class A3C:
         return int(self.variables.frames)
 
     def save(self) -> dict[str, torch.Tensor]:
-        """A consistent copy of the shared variables, between two updates."""
-        with self._lock:
+        """A consistent copy of the shared variables, between two updates.
+
+        Raises:
+          WorkerError: if a worker has died.
+        """
+        while not self._lock.acquire(timeout=1.0):
+            self._check_workers()  # One that was killed while it held the lock never gives it back.
+        try:
             return {name: value.clone() for name, value in self.variables.tensors().items()}
+        finally:
+            self._lock.release()
 
     def restore(self, tensors: dict[str, torch.Tensor]) -> None:
         """Takes up what `save` returned; call it before `updates`.
@@ -115,10 +125,10 @@ class A3C:
         try:
             while True:
                 running = any(worker.is_alive() for worker in self._workers)
+                self._check_workers()
                 try:
                     update = self._updates.get(timeout=poll_seconds if running else 0.01)
                 except queue.Empty:
-                    self._check_workers()
                     if not running:
                         return
                     yield None
@@ -143,16 +153,9 @@ class A3C:
                 daemon=True,
             )  # fmt: skip
             self._workers.append(worker)
-        previous = os.environ.get("OMP_NUM_THREADS")
-        os.environ["OMP_NUM_THREADS"] = "1"  # Read when a worker imports torch.
-        try:
+        with _inherited_by_workers():
             for worker in self._workers:
                 worker.start()
-        finally:
-            if previous is None:
-                del os.environ["OMP_NUM_THREADS"]
-            else:
-                os.environ["OMP_NUM_THREADS"] = previous
 
     def _check_workers(self) -> None:
         for index, worker in enumerate(self._workers):
@@ -176,9 +179,30 @@ class A3C:
         self._workers = []
 
 
+@contextlib.contextmanager
+def _inherited_by_workers():
+    """What processes inherit that are started here: one thread for torch, and no ear for Ctrl-C.
+
+    The terminal sends Ctrl-C to every process; it is the parent that asks the workers to stop.
+    """
+    threads = os.environ.get("OMP_NUM_THREADS")
+    os.environ["OMP_NUM_THREADS"] = "1"  # Read when a worker imports torch.
+    in_main = threading.current_thread() is threading.main_thread()
+    handler = signal.signal(signal.SIGINT, signal.SIG_IGN) if in_main else None
+    try:
+        yield
+    finally:
+        if in_main:
+            signal.signal(signal.SIGINT, handler)
+        if threads is None:
+            del os.environ["OMP_NUM_THREADS"]
+        else:
+            os.environ["OMP_NUM_THREADS"] = threads
+
+
 def _work(index, make_environment, config, shared, lock, stopping, updates) -> None:
     """A worker's process: updates until all frames are done or it is told to stop."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the parent, which asks to stop.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Also when it was started by another thread than the main one.
     torch.set_num_threads(1)
     parent = multiprocessing.parent_process()
     try:

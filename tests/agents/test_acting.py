@@ -1,0 +1,215 @@
+"""What an actor does is what a learner thinks it did; draws follow the policy; rounds depend on nothing but seeds."""
+
+import numpy as np
+import pytest
+from scipy import stats
+import torch
+
+from physexp import suite
+from physexp.agents import environment_loop, networks
+from physexp.agents.a3c import acting
+
+torch.set_num_threads(1)  # As a worker does; more of them only wait for each other.
+FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
+
+
+def fresh_seed() -> int:
+    seed = np.random.SeedSequence().entropy % 2**32
+    print("seed", seed)
+    return seed
+
+
+def make_network(environment, seed, kind=networks.RecurrentActorCritic):
+    torch.manual_seed(seed)
+    network = kind(
+        environment.observation_spec(), environment.action_spec().num_values, lstm_units=100, observation_scale=10.0
+    )
+    with torch.no_grad():  # A fresh policy is nearly uniform; make what it sees matter.
+        network.policy.weight.mul_(5)
+    return network
+
+
+class Recording(networks.RecurrentActorCritic):
+    """Keeps what each step returned."""
+
+    def step(self, observation, state):
+        logits, values, state = super().step(observation, state)
+        self.seen = [*getattr(self, "seen", []), (logits.clone(), values.clone())]
+        return logits, values, state
+
+
+@pytest.mark.parametrize(("domain", "task"), FEATURE_TASKS)
+def test_acting_logits_and_values_equal_those_of_training(domain, task):
+    seed = fresh_seed()
+    batch = suite.load_batch(domain, task, 24, {"random": seed})
+    network = make_network(batch, seed, Recording)
+    episodes = acting.play_round(network, batch, 0, np.random.default_rng(seed))
+    batch.close()
+    lengths = episodes.lengths
+    assert len(set(lengths)) > 2, "episodes of different lengths are what makes this hard"
+
+    order = np.argsort(-lengths, kind="stable")
+    alive = [order[lengths[order] > t] for t in range(lengths.max())]  # Longest first, as packing wants them.
+    batch_sizes = torch.tensor([len(rows) for rows in alive])
+    observations = {name: episodes.packed(value, order) for name, value in episodes.observations.items()}
+    with torch.no_grad():
+        logits, values = network.unroll(observations, batch_sizes)
+    start = 0
+    for t, rows in enumerate(alive):
+        acted_logits, acted_values = network.seen[t]
+        acted = np.flatnonzero(lengths > t)  # Environments step in increasing order.
+        where = np.searchsorted(acted, rows)
+        stop = start + len(rows)
+        torch.testing.assert_close(logits[start:stop], acted_logits[where], atol=1e-5, rtol=1e-5)
+        torch.testing.assert_close(values[start:stop], acted_values[where], atol=1e-5, rtol=1e-5)
+        start = stop
+    assert start == len(logits) == episodes.num_frames
+
+
+def test_packing_lays_out_all_first_steps_then_all_second_steps_in_the_given_order():
+    # Episode 0 has 1 action, 1 has 3, 2 has 2; the entry of step t of episode b is 10 b + t. From the longest to the
+    # shortest (1, 2, 0): first steps 10, 20, 0; second steps 11, 21; third step 12.
+    array = np.array([[0, 10, 20], [-1, 11, 21], [-1, 12, -1]])
+    zeros = np.zeros((3, 3))
+    episodes = acting.Round({}, zeros.astype(np.int64), zeros, np.array([1, 3, 2]), np.zeros(3, np.int64))
+    assert episodes.packed(array, np.array([1, 2, 0])).tolist() == [10, 20, 0, 11, 21, 12]
+    assert episodes.num_frames == 6
+
+
+def test_draws_follow_the_softmax_of_the_logits():
+    seed = fresh_seed()
+    generator = np.random.default_rng(seed)
+    logits = torch.from_numpy(generator.normal(size=6).astype(np.float32))
+    drawn = acting.sample(logits.expand(50_000, 6), generator)
+    expected = torch.softmax(logits.double(), 0).numpy() * len(drawn)
+    counts = np.bincount(drawn, minlength=6)
+    assert len(counts) == 6
+    # A right sampler fails this once in a million runs.
+    assert stats.chisquare(counts, expected * counts.sum() / expected.sum()).pvalue > 1e-6
+
+
+def test_an_action_of_probability_zero_is_never_drawn():
+    logits = torch.tensor([-np.inf, 0.0, -np.inf, 0.0, -np.inf]).expand(20_000, 5)
+    drawn = acting.sample(logits, np.random.default_rng(fresh_seed()))
+    assert set(drawn) == {1, 3}
+
+
+@pytest.mark.parametrize(("domain", "task"), [("which_is_heavier", "features"), ("towers", "fist_features")])
+def test_a_round_depends_on_its_number_and_its_generator_but_not_on_earlier_rounds(domain, task):
+    seed = fresh_seed()
+
+    def played(earlier):
+        batch = suite.load_batch(domain, task, 8, {"random": seed})
+        network = make_network(batch, seed)
+        for number in earlier:
+            acting.play_round(network, batch, number, np.random.default_rng(number))
+        episodes = acting.play_round(network, batch, 2, np.random.default_rng([seed, 2]))
+        batch.close()
+        return episodes
+
+    first, second = played([]), played([0, 1, 5])
+    for name in ("actions", "rewards", "lengths", "answers"):
+        np.testing.assert_array_equal(getattr(first, name), getattr(second, name), err_msg=name)
+    for name in first.observations:
+        np.testing.assert_array_equal(first.observations[name], second.observations[name])
+
+
+def test_rounds_of_another_number_are_other_episodes():
+    seed = fresh_seed()
+    batch = suite.load_batch("which_is_heavier", "features", 64, {"random": seed})
+    network = make_network(batch, seed)
+    answers = [acting.play_round(network, batch, n, np.random.default_rng(0)).answers for n in (0, 1)]
+    batch.close()
+    # Two independent sets of 64 answers out of 4 agree with probability 4^-64.
+    assert (answers[0] != answers[1]).any()
+
+
+def test_a_rounds_rewards_answers_and_lengths_fit_together():
+    seed = fresh_seed()
+    batch = suite.load_batch("which_is_heavier", "features", 64, {"random": seed})
+    network = make_network(batch, seed)
+    episodes = acting.play_round(network, batch, 3, np.random.default_rng(seed))
+    batch.close()
+    for b, length in enumerate(episodes.lengths):
+        last = episodes.actions[length - 1, b]
+        # Actions 4 to 7 are labels: +1 if it is the right one, else -1, and -1 too when time runs out after 100.
+        assert last >= 4 or length == 100
+        assert episodes.rewards[length - 1, b] == (1 if last - 4 == episodes.answers[b] else -1)
+        assert not episodes.rewards[: length - 1, b].any() and not episodes.rewards[length:, b].any()
+        assert (episodes.actions[: length - 1, b] < 4).all()
+
+
+def test_the_lstm_starts_every_episode_from_zero():
+    seed = fresh_seed()
+    environment = suite.load("which_is_heavier", "features", {"random": seed})
+    network = make_network(environment, seed, Recording)
+    actor = acting.A3CActor(network, seed=seed)
+    timestep = environment.reset()
+    for _ in range(2):
+        actor.observe_first(timestep)
+        for _ in range(4):
+            actor.select_action(timestep.observation)
+    environment.close()
+    logits = torch.cat([seen[0] for seen in network.seen])
+    torch.testing.assert_close(logits[:4], logits[4:], atol=0, rtol=0)
+    assert not torch.equal(logits[0], logits[1]), "the state has to move on within an episode"
+
+
+@pytest.mark.parametrize(("domain", "task"), FEATURE_TASKS)
+def test_an_actor_plays_any_environment_of_the_suite_in_a_loop(domain, task):
+    seed = fresh_seed()
+    environment = suite.load(domain, task, {"random": seed})
+    actor = acting.A3CActor(make_network(environment, seed), seed=seed)
+    limit = environment.task.rules.step_limit
+    metrics = environment_loop.EnvironmentLoop(environment, actor).run(3)
+    environment.close()
+    assert len(metrics) == 3
+    for episode in metrics:
+        assert 1 <= episode["episode_length"] <= limit
+        assert episode["episode_return"] in (-1, 1)
+
+
+def test_a_greedy_actor_takes_the_likeliest_action_whatever_its_seed():
+    seed = fresh_seed()
+    environment = suite.load("which_is_heavier", "features", {"random": seed})
+    network = make_network(environment, seed, Recording)
+    taken = []
+    for actor_seed in (0, 1):
+        environment.task.next_episode = 0
+        timestep = environment.reset()
+        actor = acting.A3CActor(network, seed=actor_seed, greedy=True)
+        actor.observe_first(timestep)
+        actions = []
+        while not timestep.last():
+            actions.append(actor.select_action(timestep.observation))
+            timestep = environment.step(actions[-1])
+        taken.append(actions)
+    environment.close()
+    assert taken[0] == taken[1] == [int(logits.argmax()) for logits, _ in network.seen[: len(taken[0])]]
+
+
+def test_actors_of_one_seed_draw_the_same_actions_and_of_two_seeds_others():
+    environment = suite.load("which_is_heavier", "features", {"random": 0})
+    network = make_network(environment, 0)
+    observation = environment.reset().observation
+    environment.close()
+
+    def draws(seed):
+        actor = acting.A3CActor(network, seed=seed)
+        return [actor.select_action(observation) for _ in range(200)]
+
+    assert draws(5) == draws(5)
+    assert draws(5) != draws(6)
+
+
+def test_interference_changes_what_the_environment_gets_and_what_is_recorded():
+    batch = suite.load_batch("which_is_heavier", "features", 8, {"random": fresh_seed()})
+    network = make_network(batch, 0)
+    # Whatever the policy wants, label 2 (action 6) is what is said: every episode is one action long.
+    episodes = acting.play_round(
+        network, batch, 0, np.random.default_rng(0), interference=lambda actions, generator: np.full_like(actions, 6)
+    )
+    batch.close()
+    assert episodes.lengths.tolist() == [1] * 8
+    assert episodes.actions.tolist() == [[6] * 8]
+    np.testing.assert_array_equal(episodes.rewards[0], np.where(episodes.answers == 2, 1, -1))

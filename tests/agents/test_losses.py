@@ -1,0 +1,93 @@
+"""Returns and losses agree with values derived by hand."""
+
+import math
+
+import numpy as np
+import pytest
+import torch
+
+from physexp import suite
+from physexp.agents import losses, networks
+from physexp.agents.a3c import acting, learning
+
+
+def test_returns_are_the_discounted_sums_of_what_follows():
+    # gamma = 0.5, one episode of three actions with rewards 1, 2, 4 and nothing after:
+    # G2 = 4, G1 = 2 + 0.5 * 4 = 4, G0 = 1 + 0.5 * 4 = 3.
+    returns = losses.discounted_returns(torch.tensor([[1.0], [2.0], [4.0]]), torch.tensor([[0.5], [0.5], [0.0]]))
+    assert returns[:, 0].tolist() == [3.0, 4.0, 4.0]
+
+
+def test_nothing_is_bootstrapped_past_an_episodes_end():
+    # gamma = 0.5. Episode a lasts 3 actions: rewards 0, 0, 1: G = 0.25, 0.5, 1.
+    # Episode b lasts 1 action with reward -1: G0 = -1. What is written behind its end (here 100 on purpose) has no
+    # way into G0, since the discount after its last action is 0.
+    rewards = torch.tensor([[0.0, -1.0], [0.0, 100.0], [1.0, 100.0]])
+    discounts = torch.tensor([[0.5, 0.0], [0.5, 0.0], [0.0, 0.0]])
+    returns = losses.discounted_returns(rewards, discounts)
+    assert returns[:, 0].tolist() == [0.25, 0.5, 1.0]
+    assert returns[0, 1].item() == -1.0
+
+
+def test_the_losses_of_two_steps_are_those_computed_by_hand():
+    # Logits (0, 0): pi = 1/2, 1/2; entropy ln 2. Logits (ln 3, 0): pi = 3/4, 1/4;
+    # entropy -(3/4 ln 3/4 + 1/4 ln 1/4) = ln 4 - 3/4 ln 3.
+    # Actions 0 and 1, returns 1 and -1, values 0.5 and 0: advantages 0.5 and -1.
+    # Policy loss: mean(-ln(1/2) * 0.5, -ln(1/4) * -1) = (0.5 ln 2 - 2 ln 2) / 2 = -0.75 ln 2.
+    # Baseline loss: 0.5 * mean(0.25, 1) = 0.3125.
+    policy_loss, baseline_loss, entropy = losses.actor_critic_losses(
+        torch.tensor([[0.0, 0.0], [math.log(3), 0.0]]),
+        torch.tensor([0.5, 0.0]),
+        torch.tensor([0, 1]),
+        torch.tensor([1.0, -1.0]),
+    )
+    assert policy_loss.item() == pytest.approx(-0.75 * math.log(2), abs=1e-6)
+    assert baseline_loss.item() == pytest.approx(0.3125, abs=1e-6)
+    assert entropy.item() == pytest.approx((math.log(2) + math.log(4) - 0.75 * math.log(3)) / 2, abs=1e-6)
+
+
+def test_the_losses_do_not_care_how_the_leading_axes_are_laid_out():
+    seed = np.random.SeedSequence().entropy % 2**32
+    print("seed", seed)
+    generator = torch.Generator().manual_seed(seed)
+    logits, values, returns = (torch.randn(shape, generator=generator) for shape in ((3, 2, 5), (3, 2), (3, 2)))
+    actions = torch.randint(5, (3, 2), generator=generator)
+    apart = losses.actor_critic_losses(logits, values, actions, returns)
+    flat = losses.actor_critic_losses(logits.flatten(0, 1), values.flatten(), actions.flatten(), returns.flatten())
+    torch.testing.assert_close(apart, flat)
+
+
+def test_gradients_of_each_loss_reach_what_they_should_and_nothing_else():
+    logits = torch.tensor([[0.0, 1.0]], requires_grad=True)
+    values = torch.tensor([0.5], requires_grad=True)
+    policy_loss, baseline_loss, entropy = losses.actor_critic_losses(
+        logits, values, torch.tensor([0]), torch.tensor([1.0])
+    )
+    # The policy loss is -log pi(0) * 0.5; its gradient on the logits is 0.5 * (pi - onehot).
+    (gradient,) = torch.autograd.grad(policy_loss, logits, retain_graph=True)
+    torch.testing.assert_close(gradient, 0.5 * (torch.softmax(logits, -1) - torch.tensor([[1.0, 0.0]])))
+    # 0.5 (G - V)^2 has the gradient V - G = -0.5 on the value.
+    assert torch.autograd.grad(baseline_loss, values, retain_graph=True)[0].tolist() == [-0.5]
+    for loss, stranger in ((policy_loss, values), (entropy, values), (baseline_loss, logits)):
+        assert torch.autograd.grad(loss, stranger, retain_graph=True, allow_unused=True)[0] is None
+
+
+def test_a_rounds_losses_are_means_over_the_steps_that_were_played_and_no_padding():
+    # Two episodes of 1 and 3 actions with a network whose heads are zero: uniform over 8 actions, values 0, so
+    # entropy = ln 8, and with gamma = 0.5 the returns are: a: 1; b: -0.25, -0.5, -1 (rewards 0, 0, -1).
+    # Policy loss: ln 8 * mean(1, -0.25, -0.5, -1) = ln 8 * -0.75 / 4.
+    # Baseline loss: 0.5 * (1 + 0.0625 + 0.25 + 1) / 4.
+    batch = suite.load_batch("which_is_heavier", "features", 2)
+    network = networks.RecurrentActorCritic(batch.observation_spec(), 8, lstm_units=4, observation_scale=10.0)
+    with torch.no_grad():
+        for head in (network.policy, network.value):
+            head.weight.zero_()
+            head.bias.zero_()
+    observations = {name: np.zeros((3, 2, *spec.shape), spec.dtype) for name, spec in batch.observation_spec().items()}
+    rewards = np.array([[1, 0], [0, 0], [0, -1]], np.float32)
+    episodes = acting.Round(observations, np.zeros((3, 2), np.int64), rewards, np.array([1, 3]), np.zeros(2, np.int64))
+    batch.close()
+    policy_loss, baseline_loss, entropy = learning.round_losses(network, episodes, 0.5)
+    assert policy_loss.item() == pytest.approx(math.log(8) * -0.75 / 4, abs=1e-6)
+    assert baseline_loss.item() == pytest.approx(0.5 * 2.3125 / 4, abs=1e-6)
+    assert entropy.item() == pytest.approx(math.log(8), abs=1e-6)

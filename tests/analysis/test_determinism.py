@@ -1,0 +1,97 @@
+"""One worker is deterministic, and a killed and resumed run ends as if nothing had happened."""
+
+import time
+
+import numpy as np
+import pandas as pd
+import pytest
+import torch
+import trainers
+
+from physexp import suite
+from physexp.analysis import run as run_lib
+from physexp.analysis import training
+
+FRAMES = 8_000
+
+
+@pytest.fixture(scope="module")
+def uninterrupted(tmp_path_factory):
+    run = trainers.create(tmp_path_factory.mktemp("uninterrupted") / "run", frames=FRAMES, seed=trainers.fresh_seed())
+    training.train(run)
+    return run
+
+
+def assert_same_weights(run, other):
+    tensors, expected = run.checkpointer.latest()[0], other.checkpointer.latest()[0]
+    assert set(tensors) == set(expected)
+    assert int(tensors["frames"]) >= FRAMES
+    for name, value in expected.items():
+        assert torch.equal(tensors[name], value), f"{name} differs"
+
+
+def assert_whole_records(run):
+    """The records have every frame once, in order, up to the last checkpoint, and each episode can be rebuilt."""
+    metrics = pd.read_csv(run.path / "metrics.csv")
+    assert list(metrics.columns) == list(run_lib.METRICS)
+    frames = metrics["frames"].to_numpy()
+    tensors, facts = run.checkpointer.latest()
+    assert (np.diff(frames) > 0).all()
+    assert frames[-1] == int(tensors["frames"])
+    assert metrics["updates"].iloc[-1] == int(tensors["updates"]) == int(tensors["rounds"].sum())
+    # Every update is one round of 32 episodes.
+    assert metrics["episodes"].iloc[-1] == facts["episodes"] == 32 * int(tensors["updates"])
+    assert (np.diff(metrics["seconds"]) > 0).all()
+
+    episodes = pd.read_parquet(run.path / "episodes.parquet")
+    assert list(episodes.columns) == run_lib.EPISODES.names
+    assert sorted(set(episodes["frames"])) == list(frames), "each row of metrics has the episodes of one update"
+    assert not episodes.duplicated(["seed", "episode"]).any()
+    generator = np.random.default_rng(trainers.fresh_seed())
+    for row in episodes.iloc[generator.choice(len(episodes), 5, replace=False)].itertuples():
+        assert_rebuildable(row, run.config)
+
+
+def assert_rebuildable(row, config):
+    task_kwargs = {**config.task_kwargs, "random": int(row.seed)}
+    environment = suite.load(config.domain, config.task, task_kwargs)
+    environment.task.next_episode = row.episode
+    timestep = environment.reset()
+    for action in row.actions:
+        assert not timestep.last()
+        timestep = environment.step(int(action))
+    assert timestep.last() and timestep.reward == row.reward
+    assert environment.task.correct_answer == row.answer
+    assert len(row.actions) == row.length
+    # Labels are actions 4 to 7; -1 stands for none.
+    assert row.label == (row.actions[-1] - 4 if row.actions[-1] >= 4 else -1)
+    assert row.reward == (1 if row.label == row.answer else -1)
+    environment.close()
+
+
+def test_training_records_everything_once_and_every_episode_can_be_rebuilt(uninterrupted):
+    assert_whole_records(uninterrupted)
+
+
+def test_the_same_seed_gives_the_same_weights_to_the_last_bit(uninterrupted, tmp_path):
+    agent = uninterrupted.config.agent
+    again = trainers.create(tmp_path / "run", frames=FRAMES, seed=agent.seed, checkpoint_seconds=1000.0)
+    training.train(again)
+    assert_same_weights(again, uninterrupted)
+
+
+def test_a_run_killed_at_any_moment_resumes_to_the_same_weights(uninterrupted, tmp_path):
+    run = trainers.create(tmp_path / "run", frames=FRAMES, seed=uninterrupted.config.agent.seed)
+    with trainers.trainer(run) as process:
+        trainers.wait_for_checkpoint(process, run, beyond=0)  # The first may be of no frames at all.
+        moment = np.random.default_rng(trainers.fresh_seed()).uniform(0, 1)
+        print("killed", moment, "s after the first checkpoint of an update")
+        time.sleep(moment)
+        assert process.poll() is None, "it has to be killed before it is done; give it more frames"
+    reached = int(run.checkpointer.latest()[0]["frames"])
+    assert 0 < reached < FRAMES
+    with trainers.trainer(run) as process:
+        _, errors = process.communicate(timeout=90)
+    assert process.returncode == 0, errors
+    assert_same_weights(run, uninterrupted)
+    assert_whole_records(run)

@@ -1,0 +1,126 @@
+"""Evaluation measures what it says: figures derived by hand, the paper's randomized interaction, and seeds."""
+
+import dataclasses
+import functools
+
+import numpy as np
+import pytest
+from scipy import stats
+import torch
+
+from physexp.agents.a3c import agent as agent_lib
+from physexp.agents.a3c import config as a3c
+from physexp.analysis import config as config_lib
+from physexp.analysis import evaluation, statistics, training
+from physexp.analysis import run as run_lib
+
+KEYS = ["episodes", "success_rate", "success_interval", "mean_return", "mean_interactions", "median_interactions",
+        "timeouts"]  # fmt: skip
+
+
+def fresh_seed() -> int:
+    seed = np.random.SeedSequence().entropy % 2**32
+    print("seed", seed)
+    return seed
+
+
+@pytest.fixture
+def untrained(tmp_path):
+    """A run whose checkpoint holds a network as it is before training."""
+    config = config_lib.TrainConfig(
+        domain="which_is_heavier", task="features", difficulty=10.0, agent=a3c.A3CConfig(num_workers=1)
+    )
+    run = run_lib.Run(tmp_path / "run")
+    run.create(config)
+    agent = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent)
+    run.checkpointer.save(agent.save(), {"episodes": 0, "seconds": 0.0, "versions": run_lib.versions()})
+    return run
+
+
+def test_the_summary_of_four_episodes_is_the_one_computed_by_hand():
+    # Right at once; wrong after two pokes; out of time after 100 pokes; right after one poke.
+    played = evaluation.Episodes(
+        rewards=np.array([1.0, -1.0, -1.0, 1.0]),
+        lengths=np.array([1, 3, 100, 2]),
+        interactions=np.array([0, 2, 100, 1]),
+    )
+    summary = played.summary(0.9)
+    assert list(summary) == KEYS
+    assert summary["episodes"] == 4
+    assert summary["success_rate"] == 0.5
+    # The reward of an episode of n actions is discounted n - 1 times: (1 - 0.9^2 - 0.9^99 + 0.9) / 4.
+    assert summary["mean_return"] == pytest.approx((1 - 0.81 - 0.9**99 + 0.9) / 4)
+    assert summary["mean_interactions"] == 25.75  # 103 / 4
+    assert summary["median_interactions"] == 1.5  # Between 1 and 2.
+    assert summary["timeouts"] == 1  # The only one that consists of pokes alone.
+    # Wilson's interval for 2 of 4 is centred on 1/2; its half width is z / (1 + z^2/4) * sqrt(1/16 + z^2/64)
+    # = z / (2 sqrt(4 + z^2)) with z = 1.959964: 0.349951.
+    assert summary["success_interval"] == pytest.approx([0.150049, 0.849951], abs=2e-5)
+
+
+def test_wilsons_interval_is_that_of_the_formula_at_its_edges_and_of_scipy_between():
+    # All of 10 right: from n / (n + z^2) = 10 / 13.841459 = 0.722467 to 1; none right: the mirror image.
+    assert statistics.wilson_interval(10, 10) == pytest.approx((0.722467, 1.0), abs=1e-6)
+    assert statistics.wilson_interval(0, 10) == pytest.approx((0.0, 1 - 0.722467), abs=1e-6)
+    generator = np.random.default_rng(fresh_seed())
+    for trials in generator.integers(1, 5000, 20):
+        successes = int(generator.integers(trials + 1))
+        expected = stats.binomtest(successes, int(trials)).proportion_ci(method="wilson")
+        assert statistics.wilson_interval(successes, int(trials)) == pytest.approx(tuple(expected), abs=1e-9)
+
+
+def test_randomized_interaction_passes_labels_and_draws_every_poke_anew():
+    seed = fresh_seed()
+    generator = np.random.default_rng(seed)
+    actions = generator.integers(0, 8, 40_000)
+    actions[:8_000] = 2  # Whatever was wanted, most of all one block.
+    replaced = evaluation.randomize(4, actions, generator)
+    labels = actions >= 4
+    np.testing.assert_array_equal(replaced[labels], actions[labels])
+    for wanted in range(4):  # Uniform over 0 to 3, given any poke that was wanted.
+        counts = np.bincount(replaced[actions == wanted], minlength=4)
+        assert len(counts) == 4
+        assert stats.chisquare(counts).pvalue > 1e-6
+
+
+def test_evaluation_repeats_with_its_seed_and_differs_with_another(untrained):
+    seed = fresh_seed()
+    first, again, other = (evaluation.evaluate(untrained, 300, seed=s) for s in (seed, seed, seed + 1))
+    for field in dataclasses.fields(evaluation.Episodes):
+        np.testing.assert_array_equal(getattr(first, field.name), getattr(again, field.name))
+        assert len(getattr(first, field.name)) == 300
+    assert not (np.array_equal(first.lengths, other.lengths) and np.array_equal(first.rewards, other.rewards))
+
+
+def test_an_untrained_agent_answers_by_chance_with_either_interaction(untrained):
+    for interaction in evaluation.INTERACTIONS:
+        played = evaluation.evaluate(untrained, 1000, interaction, seed=fresh_seed())
+        # Right with probability 1/4: the count stays within 6 standard deviations, 6 * sqrt(1000 * 3/16) = 82.
+        assert abs((played.rewards > 0).sum() - 250) < 83
+        assert set(np.unique(played.rewards)) == {-1.0, 1.0}
+        assert (played.interactions <= played.lengths).all()
+
+
+def test_evaluation_refuses_what_makes_no_sense(untrained, tmp_path):
+    with pytest.raises(ValueError, match="interaction is 'guessed'; choose from learned, random"):
+        evaluation.evaluate(untrained, 10, "guessed")
+    with pytest.raises(ValueError, match="episodes is 0; give a number >= 1"):
+        evaluation.evaluate(untrained, 0)
+    for path in untrained.checkpointer.paths():
+        path.unlink()
+    with pytest.raises(ValueError, match="holds no checkpoint"):
+        evaluation.evaluate(untrained, 10)
+    with pytest.raises(ValueError, match="holds no run"):
+        evaluation.evaluate(run_lib.Run(tmp_path / "nothing"), 10)
+
+
+def test_the_evaluated_network_is_that_of_the_last_checkpoint(untrained):
+    tensors, facts = untrained.checkpointer.latest()
+    # A policy that always says label 3 (action 7) at once is right exactly where the answer is 3.
+    tensors["network/policy.weight"].zero_()
+    tensors["network/policy.bias"].copy_(torch.tensor([0.0] * 7 + [100.0]))
+    tensors["frames"] += 1
+    untrained.checkpointer.save(tensors, facts)
+    played = evaluation.evaluate(untrained, 200, seed=fresh_seed())
+    assert (played.lengths == 1).all() and not played.interactions.any()
+    assert 0 < (played.rewards > 0).sum() < 200

@@ -1,0 +1,213 @@
+"""Whatever stops a run, it says so clearly, and nothing before the last checkpoint is lost."""
+
+import contextlib
+import functools
+import os
+import re
+import resource
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+
+import numpy as np
+import pytest
+import torch
+import trainers
+
+from physexp.agents.a3c import agent as agent_lib
+from physexp.analysis import run as run_lib
+from physexp.analysis import training
+
+ENDLESS = 10**9  # Frames that no test waits for.
+FEW = 10_000  # Frames that take seconds.
+
+
+def save_first_checkpoint(run, poison=False):
+    """Writes the checkpoint of an untrained agent, with a NaN among its weights if asked for."""
+    config = run.config
+    agent = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent)
+    tensors = agent.save()
+    if poison:
+        tensors["network/policy.bias"][0] = float("nan")
+    facts = {"episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
+    return run.checkpointer.save(tensors, facts)
+
+
+def assert_last_checkpoint_fits(run):
+    """The last checkpoint is whole, finite, and one that the agent takes up."""
+    tensors, facts = run.checkpointer.latest()
+    assert facts["versions"] == run_lib.versions()
+    assert all(value.isfinite().all() for value in tensors.values())
+    config = run.config
+    agent = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent)
+    agent.restore(tensors)
+    assert agent.frames == int(tensors["frames"])
+
+
+def test_a_loss_that_is_not_a_number_stops_training_and_leaves_the_batch(tmp_path):
+    run = trainers.create(tmp_path / "run", frames=ENDLESS)
+    checkpoint = save_first_checkpoint(run, poison=True)
+    content = checkpoint.read_bytes()
+    with pytest.raises(RuntimeError, match="worker 0.*nan.*failed_batch.npz.*last checkpoint") as caught:
+        training.train(run)
+    path = re.search(r"\S+failed_batch\.npz", str(caught.value)).group()
+    assert path == str(run.path / "failed_batch.npz")
+    with np.load(path) as batch:
+        # One round of 32 episodes: everything needed to compute the loss again.
+        assert {"actions", "rewards", "lengths"} < set(batch.files)
+        steps = len(batch["actions"])
+        assert batch["lengths"].shape == (32,) and batch["lengths"].max() == steps
+        for name in set(batch.files) - {"lengths"}:
+            assert batch[name].shape[:2] == (steps, 32), name
+    assert run.checkpointer.paths() == [checkpoint]
+    assert checkpoint.read_bytes() == content
+
+
+def test_a_killed_worker_stops_training_at_once_and_is_named(tmp_path):
+    run = trainers.create(tmp_path / "run", frames=ENDLESS, num_workers=2)
+    with trainers.trainer(run) as process:
+        # Both have to be at it: a worker that still imports would be the easier case.
+        trainers.wait_until(lambda: both_have_played(run), 60, "rounds of both workers")
+        victims = trainers.workers(process)
+        assert len(victims) == 2
+        victims[0].kill()
+        killed = time.monotonic()
+        try:
+            _, errors = process.communicate(timeout=20)
+        except subprocess.TimeoutExpired:
+            pytest.fail("the trainer goes on 20 s after one of its workers was killed")
+        print("stopped after", time.monotonic() - killed, "s")
+    assert process.returncode == 1
+    assert re.search(r"worker [01]\b.*(died|killed)", errors), errors
+    assert "Traceback" not in errors
+    assert_last_checkpoint_fits(run)
+
+
+def both_have_played(run):
+    try:
+        found = run.checkpointer.latest()
+    except OSError:  # Replaced while it was read.
+        return False
+    return found is not None and bool((found[0]["rounds"] > 0).all())
+
+
+KILL_WHILE_IT_HOLDS_THE_LOCK = """
+    import functools, os, pathlib, signal, sys, threading, time
+    from physexp.agents.a3c import agent as agent_lib
+    from physexp.analysis import run as run_lib, training
+
+    config = run_lib.Run(pathlib.Path(sys.argv[1])).config
+    agent = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent)
+
+    def kill():
+        while agent.frames == 0:
+            time.sleep(0.05)
+        pid = agent._workers[0].pid
+        while True:
+            os.kill(pid, signal.SIGSTOP)
+            time.sleep(0.001)
+            if not agent._lock.acquire(timeout=0.05):  # Only the stopped worker can be holding it.
+                print("killed", flush=True)
+                os.kill(pid, signal.SIGKILL)
+                return
+            agent._lock.release()
+            os.kill(pid, signal.SIGCONT)
+            time.sleep(0.005)
+
+    killer = threading.Thread(target=kill)
+    killer.start()
+    try:
+        for update in agent.updates():
+            if not killer.is_alive():
+                agent.save()  # As a checkpoint does.
+    except agent_lib.WorkerError as error:
+        print("stopped:", error, flush=True)
+"""
+
+
+def test_a_worker_killed_in_the_middle_of_its_update_does_not_hang_the_trainer(tmp_path):
+    run = trainers.create(tmp_path / "run", frames=ENDLESS, envs_per_worker=2)
+    script = textwrap.dedent(KILL_WHILE_IT_HOLDS_THE_LOCK)
+    process = subprocess.Popen(
+        [sys.executable, "-c", script, run.path], stdout=subprocess.PIPE, text=True, start_new_session=True
+    )
+    try:
+        assert process.stdout.readline() == "killed\n"
+        output, _ = process.communicate(timeout=20)
+    except subprocess.TimeoutExpired:
+        pytest.fail("the trainer hangs on the lock of a dead worker")
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        process.stdout.close()
+    assert output.startswith("stopped: worker 0 died"), output
+
+
+def test_workers_do_not_outlive_a_killed_trainer(tmp_path):
+    run = trainers.create(tmp_path / "run", frames=ENDLESS)
+    with trainers.trainer(run) as process:
+        trainers.wait_for_checkpoint(process, run)
+        assert trainers.workers(process)
+        process.kill()
+        process.wait()
+        trainers.wait_until(lambda: not trainers.workers(process), 15, "the end of the workers of a killed trainer")
+
+
+def test_a_full_disk_stops_training_with_a_message_and_keeps_the_last_checkpoint(tmp_path):
+    run = trainers.create(tmp_path / "run", frames=ENDLESS)
+    checkpoint = save_first_checkpoint(run)
+    content = checkpoint.read_bytes()
+    # A checkpoint is three times the parameters; the kernel refuses files of more than half of it.
+    limit = len(content) // 2
+    with trainers.trainer(run, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))) as process:
+        _, errors = process.communicate(timeout=90)
+    assert process.returncode in (1, 2)
+    assert "Traceback" not in errors
+    assert str(run.path) in errors.splitlines()[-1], errors
+    assert run.checkpointer.paths() == [checkpoint]
+    assert checkpoint.read_bytes() == content
+    assert_last_checkpoint_fits(run)
+    names = sorted(path.name for path in (run.path / "checkpoints").iterdir())
+    assert [name for name in names if name.endswith(".tmp")] == [], "a failed write leaves no litter"
+
+
+def test_ctrl_c_writes_a_checkpoint_and_resuming_finishes(tmp_path):
+    run = trainers.create(tmp_path / "run", frames=FEW, num_workers=2)
+    with trainers.trainer(run) as process:
+        trainers.wait_for_checkpoint(process, run, beyond=0)
+        before = int(run.checkpointer.paths()[-1].stem)
+        os.killpg(process.pid, signal.SIGINT)  # The terminal sends it to the whole group.
+        _, errors = process.communicate(timeout=20)
+    assert process.returncode == 130, errors
+    assert "Traceback" not in errors and "interrupted" in errors
+    tensors, _ = run.checkpointer.latest()
+    reached = int(tensors["frames"])
+    assert before < reached < FEW, "Ctrl-C writes what was learned since the last checkpoint"
+    assert run.metrics()[-1]["frames"] == reached
+    with trainers.trainer(run) as process:
+        output, errors = process.communicate(timeout=90)
+    assert process.returncode == 0, errors
+    assert output.splitlines()[-1] == str(run.path)
+    tensors, _ = run.checkpointer.latest()
+    assert int(tensors["frames"]) >= FEW
+    frames = [row["frames"] for row in run.metrics()]
+    assert frames == sorted(set(frames)) and frames[-1] == int(tensors["frames"])
+    assert reached in frames
+
+
+def test_a_checkpoint_of_another_network_is_refused(tmp_path):
+    run = trainers.create(tmp_path / "run", lstm_units=10)
+    save_first_checkpoint(run)
+    config = run.config
+    other = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent.replace(lstm_units=11))
+    with pytest.raises(ValueError, match="does not fit the configuration.*lstm"):
+        other.restore(run.checkpointer.latest()[0])
+    fewer = {name: value for name, value in run.checkpointer.latest()[0].items() if name != "rounds"}
+    same = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent)
+    with pytest.raises(ValueError, match="rounds"):
+        same.restore(fewer)
+    same.restore(run.checkpointer.latest()[0])
+    assert torch.equal(same.save()["rounds"], torch.tensor([0]))

@@ -1,0 +1,105 @@
+"""Real training processes for tests: starting them, finding their workers, waiting, and ending them for certain."""
+
+import contextlib
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+from physexp.agents.a3c import config as a3c
+from physexp.analysis import config as config_lib
+from physexp.analysis import run as run_lib
+
+PHYSEXP = Path(sys.executable).with_name("physexp")
+
+
+def fresh_seed() -> int:
+    seed = np.random.SeedSequence().entropy % 2**32
+    print("seed", seed)
+    return seed
+
+
+def create(path, **agent):
+    """A new run of Which is Heavier, small unless told otherwise."""
+    chosen = {"num_workers": 1, "envs_per_worker": 32, "checkpoint_seconds": 0.2, **agent}
+    config = config_lib.TrainConfig(
+        domain="which_is_heavier", task="features", difficulty=10.0, agent=a3c.A3CConfig(**chosen)
+    )
+    run = run_lib.Run(path)
+    run.create(config)
+    return run
+
+
+@contextlib.contextmanager
+def trainer(run, **kwargs):
+    """`physexp train --resume` on a run, in a process group of its own that is gone afterwards."""
+    command = [PHYSEXP, "train", "which_is_heavier", "features", "--run-dir", run.path, "--resume"]
+    process = subprocess.Popen(
+        list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+        **kwargs,
+    )  # fmt: skip
+    try:
+        yield process
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            process.send_signal(signal.SIGKILL)
+        for member in group(process.pid):
+            member.kill()
+        process.wait()
+        process.stdout.close()
+        process.stderr.close()
+
+
+class Member:
+    """A process found in /proc."""
+
+    def __init__(self, pid):
+        self.pid = pid
+
+    def kill(self, number=signal.SIGKILL):
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self.pid, number)
+
+
+def group(leader, words=""):
+    """The living processes of a group, those whose command line contains `words`."""
+    found = []
+    for entry in Path("/proc").iterdir():
+        if not entry.name.isdigit():
+            continue
+        try:
+            state, _, members_of = (entry / "stat").read_text().rpartition(")")[2].split()[:3]
+            command = (entry / "cmdline").read_bytes().decode()
+        except (FileNotFoundError, ProcessLookupError):
+            continue
+        if int(members_of) == leader and state != "Z" and words in command:
+            found.append(Member(int(entry.name)))
+    return found
+
+
+def workers(process):
+    """The worker processes of a trainer."""
+    return group(process.pid, "spawn_main")
+
+
+def wait_until(condition, seconds, what):
+    """Waits for something to come true, or fails."""
+    deadline = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < deadline, f"not within {seconds} s: {what}"
+        time.sleep(0.02)
+
+
+def wait_for_checkpoint(process, run, beyond=-1):
+    """Waits until a trainer has written a checkpoint of more than some frames."""
+
+    def there():
+        assert process.poll() is None, process.stderr.read()
+        paths = run.checkpointer.paths()
+        return bool(paths) and int(paths[-1].stem) > beyond
+
+    wait_until(there, 90, "a checkpoint")
