@@ -82,7 +82,8 @@ class _Recorder:
         self._seeds = [agent_lib.worker_seed(config.agent.seed, worker) for worker in range(config.agent.num_workers)]
         self._frames = self._updates = self._episodes = 0
         self._seconds = 0.0
-        self._started = self._row_started = self._checkpointed = time.monotonic()
+        self._started = self._checkpointed = time.monotonic()
+        self._row_started = 0.0  # Set by the first update: the workers take a while to start.
         self._frames_at_row = 0
         self._window: list[agent_lib.Update] = []
         self._snapshot: dict | None = None
@@ -107,6 +108,8 @@ class _Recorder:
         if self._snapshot is not None and update.metrics["updates"] > int(self._snapshot["updates"]):
             self._later.append(update)
             return
+        if not self._row_started:
+            self._row_started = time.monotonic()
         self._window.append(update)
         self._updates += 1
         self._frames += update.episodes.num_frames
@@ -158,7 +161,7 @@ class _Recorder:
         now = time.monotonic()
         row = {"frames": self._frames, "updates": self._updates, "episodes": self._episodes,
                "seconds": self._elapsed()}  # fmt: skip
-        row["frames_per_second"] = (self._frames - self._frames_at_row) / (now - self._row_started)
+        row["frames_per_second"] = (self._frames - self._frames_at_row) / max(1e-3, now - self._row_started)
         row.update(self._summary())
         self._run.append_metrics(row)
         self._records.append(self._columns(self._window[-1]))

@@ -8,7 +8,7 @@ from physexp.analysis import evaluation, training
 def test_a_short_run_finds_the_heaviest_block_far_more_often_than_chance(tmp_path):
     # Small updates and an entropy cost that stays high: few frames suffice, and the agent does not learn to be silent.
     run = trainers.create(
-        tmp_path / "run", frames=500_000, num_workers=2, envs_per_worker=64, seed=trainers.fresh_seed(),
+        tmp_path / "run", frames=400_000, num_workers=2, envs_per_worker=64, seed=trainers.fresh_seed(),
         entropy_cost=0.15, final_entropy_cost=0.03, checkpoint_seconds=60.0,
     )  # fmt: skip
     training.train(run)
@@ -16,7 +16,7 @@ def test_a_short_run_finds_the_heaviest_block_far_more_often_than_chance(tmp_pat
     random = evaluation.evaluate(run, 1000, "random").summary(0.95)
     print(learned, random)
     # One of four blocks: chance is 0.25, and 1000 guesses stay below 0.25 + 6 * sqrt(0.25 * 0.75 / 1000) = 0.33.
-    assert learned["success_rate"] > 0.5
+    assert learned["success_rate"] > 0.6
     # Pokes that somebody else chose serve it worse.
     assert learned["success_rate"] > random["success_rate"]
     assert learned["median_interactions"] >= 2
