@@ -200,12 +200,9 @@ class BatchEnvironment:
         diverged = []
         for group, members in self._by_structure(chosen):
             rows = chosen[members]
-            untouched = rows[~self._touched[rows]]
-            lost = group.step(rows, self._controls[actions[members]], untouched, self._task.options.substeps)
-            still = group.hold(untouched)
-            self._touched[untouched] = True
-            self._touched[still] = False
-            for name, value in group.read(rows).items():
+            lost = group.step(rows, self._controls[actions[members]], self._task.options.substeps)
+            self._touched[rows] |= group.moved(rows)
+            for name, value in group.observe(rows, self._touched[rows]).items():
                 self._observations[name][rows] = value
             if len(lost):
                 diverged.append(lost)
@@ -229,12 +226,12 @@ class _Group:
         self._batch = Batch(kit.model, size, num_threads)
         self._batch.reset(stage=mujoco.mjtStage.mjSTAGE_NONE)
         self._rest = self._batch.state[0].copy()
-        self._qpos, self._qvel, self._control, self._warmstart, self._sensordata = (
-            self._batch.bind(name) for name in ("qpos", "qvel", "ctrl", "qacc_warmstart", "sensordata")
+        self._qpos, self._control, self._sensordata = (
+            self._batch.bind(name) for name in ("qpos", "ctrl", "sensordata")
         )
-        data = mujoco.MjData(kit.model)
-        mujoco.mj_forward(kit.model, data)
-        self.first_observation = {name: kit.read(name, data.sensordata) for name in kit.readings}
+        untouched = np.zeros(1, bool)
+        first = kit.observe(kit.rest_sensordata[None], untouched)
+        self.first_observation = {name: value[0] for name, value in first.items()}
 
     def reset(self, rows, hidden) -> None:
         self._batch.state[rows] = self._rest
@@ -242,28 +239,17 @@ class _Group:
             for field, (addresses, values) in self._kit.mass_fields(self._task.hidden_masses(hidden)).items():
                 self._batch.expand(field)[rows[:, None], addresses] = values
 
-    def step(self, rows, controls, untouched, substeps) -> np.ndarray:
+    def step(self, rows, controls, substeps) -> np.ndarray:
         """Simulates a control step; returns the rows that diverged."""
         self._control[rows] = controls
-        # Forward passes after a reset or a hold leave their own warm start in a single environment: begin afresh.
-        self._warmstart[untouched] = 0
         before = self._batch.warning[rows].copy()
         self._batch.step(ids=rows, nstep=substeps, stage=mujoco.mjtStage.mjSTAGE_POS)
         changed = self._batch.warning[rows] != before
         return rows[changed.any(axis=tuple(range(1, changed.ndim)))]
 
-    def hold(self, untouched) -> np.ndarray:
-        """Puts held parts that nothing has moved back to rest; returns the rows that are still untouched."""
-        kit = self._kit
-        if not kit.held_qpos.size or not len(untouched):
-            return untouched[:0]
-        still = untouched[~kit.moved(self._qpos[untouched], task_lib.TOUCH_TOLERANCE)]
-        if len(still):
-            self._qpos[still[:, None], kit.held_qpos] = kit.rest_qpos[kit.held_qpos]
-            self._qvel[still[:, None], kit.held_qvel] = 0
-            self._batch.forward(ids=still, stage=mujoco.mjtStage.mjSTAGE_POS)
-        return still
+    def moved(self, rows) -> np.ndarray:
+        """Whether held parts have moved: bool [number of rows]."""
+        return self._kit.moved(self._qpos[rows], task_lib.TOUCH_TOLERANCE)
 
-    def read(self, rows) -> dict[str, np.ndarray]:
-        values = self._sensordata[rows]
-        return {name: self._kit.read(name, values) for name in self._kit.readings}
+    def observe(self, rows, touched) -> dict[str, np.ndarray]:
+        return self._kit.observe(self._sensordata[rows], touched)

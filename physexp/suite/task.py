@@ -14,8 +14,8 @@ import numpy as np
 from physexp.suite import apparatus as apparatus_lib
 from physexp.suite import rules, seeding
 
-# Held parts count as untouched until a control step moves them by more than this. Contacts at rest settle by
-# less than a tenth of it, and the weakest touch moves a block by several times as much.
+# Held parts look exactly as at the start until they have moved by more than this. Contacts at rest settle by less than
+# a tenth of it, and the weakest touch moves a block by several times as much.
 TOUCH_TOLERANCE = 1e-4  # m, or the same in a quaternion's components
 
 _OK_RGBA, _WRONG_RGBA = (0.45, 0.75, 0.45, 1.0), (0.80, 0.45, 0.40, 1.0)
@@ -105,9 +105,9 @@ class QuestionTask(composer.Task):
         self._hidden: np.ndarray | None = None
         self._actions = np.zeros(1, np.int64)
         self._steps = np.zeros(1, np.int64)
-        self._touched = False
+        self._touched = np.zeros(1, bool)
         self._observables = {
-            name: observable.Generic(lambda physics, name=name: self.apparatus.read(name, physics.data.sensordata))
+            name: observable.Generic(lambda physics, name=name: self._observe(physics)[name][0])
             for name in self.sensors
         }
         for reading in self._observables.values():
@@ -130,7 +130,12 @@ class QuestionTask(composer.Task):
 
     @property
     def held_joints(self) -> Sequence:
-        """Joints held at rest until something moves them by more than TOUCH_TOLERANCE."""
+        """Joints that look at rest until they have moved by more than TOUCH_TOLERANCE."""
+        return ()
+
+    @property
+    def held_sensors(self) -> Sequence:
+        """The sensors that show them."""
         return ()
 
     @abc.abstractmethod
@@ -205,7 +210,12 @@ class QuestionTask(composer.Task):
     def build_apparatus(self, structure: int) -> apparatus_lib.Apparatus:
         """Arranges the MJCF and compiles it."""
         self.arrange(structure)
-        return apparatus_lib.build(self.root_entity.mjcf_model, self.sensors, self.held_joints, self.hidden_joints)
+        return apparatus_lib.build(
+            self.root_entity.mjcf_model, self.sensors, self.held_joints, self.held_sensors, self.hidden_joints
+        )
+
+    def _observe(self, physics) -> dict[str, np.ndarray]:
+        return self.apparatus.observe(physics.data.sensordata[None], self._touched)
 
     def initialize_episode_mjcf(self, random_state):
         hidden = self.draw(np.array([self.options.random]), np.array([self.next_episode]))
@@ -219,7 +229,7 @@ class QuestionTask(composer.Task):
             getattr(physics.model, field)[addresses] = values[0]
         self._steps[0] = 0
         self._actions[0] = 0
-        self._touched = False
+        self._touched[0] = False
         if self.options.visualize_reward:
             physics.bind(self._arena.floor).rgba = self._arena.floor.rgba
 
@@ -228,8 +238,8 @@ class QuestionTask(composer.Task):
         self._steps[0] += 1
         if not self.answered:
             physics.data.ctrl[:] = self.controls[self._actions[0]]
-            if not self._touched:
-                physics.data.qacc_warmstart[:] = 0  # What a batch does: see BatchEnvironment.
+            if self._steps[0] == 1:
+                physics.data.qacc_warmstart[:] = 0  # A batch resets its rows without a forward pass.
 
     def _checked(self, action) -> int:
         checked = self.rules.check_type(action, ())
@@ -237,22 +247,10 @@ class QuestionTask(composer.Task):
         return int(checked)
 
     def after_step(self, physics, random_state):
-        if not self.answered and not self._touched:
-            self._touched = self._hold(physics.data)
-            if not self._touched:
-                physics.forward()
+        self._touched |= self.apparatus.moved(physics.data.qpos[None], TOUCH_TOLERANCE)
         self._rewards, self._last = self.rules.judge(self._actions, self._answers, self._steps)
         if self.options.visualize_reward and self._last[0]:
             physics.bind(self._arena.floor).rgba = _OK_RGBA if self._rewards[0] > 0 else _WRONG_RGBA
-
-    def _hold(self, data) -> bool:
-        """Puts untouched parts back to rest; returns whether they were touched after all."""
-        kit = self.apparatus
-        if not kit.held_qpos.size or kit.moved(data.qpos[None], TOUCH_TOLERANCE)[0]:
-            return True
-        data.qpos[kit.held_qpos] = kit.rest_qpos[kit.held_qpos]
-        data.qvel[kit.held_qvel] = 0
-        return False
 
     def get_reward(self, physics):
         return float(self._rewards[0])

@@ -69,6 +69,10 @@ class Towers(task.QuestionTask):
     def held_joints(self):
         return self.tower.joints
 
+    @property
+    def held_sensors(self):
+        return self.tower.position_sensors
+
     def draw(self, seeds, episodes):
         """Indices of glue patterns in `tower.PATTERNS`, int64 [N]."""
         return draw_patterns(seeds, episodes)

@@ -130,14 +130,15 @@ def test_a_label_moves_nothing(env, task_name):
 
 
 # The limit is a time. Towers: 2.6 s / 0.01 s = 260 and 2.6 / 1.0 rounded up = 3. Heavier: 10 s / 0.025 s = 400. Given
-# limits are rounded up to whole control steps: 0.25 s / 0.1 s gives 3, 0.3 / 0.1 exactly 3, though 0.3 < 3 * 0.1 in
-# binary, and 0.01 s at least 1.
+# limits are rounded up to whole control steps: 0.25 s / 0.1 s gives 3, and 0.01 s at least 1; but 0.07 / 0.01 is 7,
+# though it is 7.000000000000001 in binary.
 @pytest.mark.parametrize(
     "domain_name, task_name, task_kwargs, steps",
     [
         ("towers", "direct_features", {"control_timestep": 0.01}, 260),
         ("towers", "fist_features", {"control_timestep": 0.01}, 260),
         ("towers", "fist_features", {"control_timestep": 1.0}, 3),
+        ("towers", "fist_features", {"control_timestep": 0.01, "time_limit": 0.07}, 7),
         ("which_is_heavier", "features", {"control_timestep": 0.025}, 400),
         ("which_is_heavier", "features", {"time_limit": 0.25}, 3),
         ("which_is_heavier", "features", {"time_limit": 0.3}, 3),
