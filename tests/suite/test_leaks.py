@@ -160,7 +160,7 @@ def _plain(task_name):
 def _positions(kit, data) -> np.ndarray:
     mujoco.mj_kinematics(kit.model, data)
     mujoco.mj_sensorPos(kit.model, data)
-    return kit.read("positions", data.sensordata)
+    return data.sensordata[kit.readings["positions"]].astype(np.float32)
 
 
 @pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
