@@ -41,6 +41,7 @@ class BatchEnvironment:
                 raise ValueError(f"{name} is {value!r}; give an integer >= 1")
         self.num_environments = int(num_environments)
         self.num_divergences = 0
+        self._closed = False
         self._task = task
         self._num_threads = int(num_threads)
         self._controls = task.controls
@@ -83,7 +84,7 @@ class BatchEnvironment:
     @property
     def correct_answers(self) -> np.ndarray:
         """Indices of the right labels in the current episodes, int64 [B]; never observable."""
-        return self._answers.copy()
+        return self._task.answers(self.hidden)
 
     @property
     def hidden(self) -> np.ndarray:
@@ -109,7 +110,7 @@ class BatchEnvironment:
         """
         chosen = self._choose(environments)
         if episode is not None:
-            self._next_episodes[chosen] = episode
+            self._next_episodes[chosen] = _checked_episode(episode)
         self._reset(chosen)
         return self._time_step(chosen, np.full(len(chosen), _FIRST), np.zeros(len(chosen)), np.ones(len(chosen)))
 
@@ -150,18 +151,21 @@ class BatchEnvironment:
     def close(self) -> None:
         """Frees the simulations. Closing twice does nothing."""
         self._groups = {}
+        self._closed = True
 
     def _choose(self, environments) -> np.ndarray:
+        if self._closed:
+            raise RuntimeError("the batch is closed; load another")
         if environments is None:
             return self._everyone
         chosen = np.asarray(environments)
-        if not np.issubdtype(chosen.dtype, np.integer) or chosen.ndim != 1 or (np.diff(chosen) <= 0).any() or (
-            chosen.size and not 0 <= chosen[0] <= chosen[-1] < self.num_environments
-        ):  # fmt: skip
-            raise ValueError(
-                f"environments is {environments!r}; give increasing indices from 0 to {self.num_environments - 1}"
-            )
-        return chosen
+        if chosen.ndim == 1 and np.issubdtype(chosen.dtype, np.integer):
+            inside = chosen.size and chosen.min() >= 0 and chosen.max() < self.num_environments
+            if inside and (np.diff(chosen.astype(np.int64)) > 0).all():
+                return chosen.astype(np.int64)
+        raise ValueError(
+            f"environments is {environments!r}; give increasing indices from 0 to {self.num_environments - 1}"
+        )
 
     def _group(self, structure: int) -> "_Group":
         if structure not in self._groups:
@@ -201,11 +205,12 @@ class BatchEnvironment:
         for group, members in self._by_structure(chosen):
             rows = chosen[members]
             lost = group.step(rows, self._controls[actions[members]], self._task.options.substeps)
+            if len(lost):  # Their last observation stays the one before, as in composer.
+                diverged.append(lost)
+                rows = np.setdiff1d(rows, lost)
             self._touched[rows] |= group.moved(rows)
             for name, value in group.observe(rows, self._touched[rows]).items():
                 self._observations[name][rows] = value
-            if len(lost):
-                diverged.append(lost)
         if not diverged:
             return np.zeros(0, np.int64)
         lost = np.concatenate(diverged)
@@ -216,6 +221,12 @@ class BatchEnvironment:
     def _time_step(self, chosen, step_types, rewards, discounts) -> dm_env.TimeStep:
         observation = {name: value[chosen] for name, value in self._observations.items()}
         return dm_env.TimeStep(step_types, rewards, discounts, observation)
+
+
+def _checked_episode(episode) -> int:
+    if not isinstance(episode, (int, np.integer)) or isinstance(episode, bool) or not 0 <= episode < 2**63:
+        raise ValueError(f"episode is {episode!r}; give the index of an episode, an integer >= 0")
+    return int(episode)
 
 
 class _Group:
@@ -242,10 +253,9 @@ class _Group:
     def step(self, rows, controls, substeps) -> np.ndarray:
         """Simulates a control step; returns the rows that diverged."""
         self._control[rows] = controls
-        before = self._batch.warning[rows].copy()
+        self._batch.warning[rows] = 0  # A row that diverges is reset by MuJoCo, its counters too.
         self._batch.step(ids=rows, nstep=substeps, stage=mujoco.mjtStage.mjSTAGE_POS)
-        changed = self._batch.warning[rows] != before
-        return rows[changed.any(axis=tuple(range(1, changed.ndim)))]
+        return rows[(self._batch.warning[rows] != 0).reshape(len(rows), -1).any(axis=1)]
 
     def moved(self, rows) -> np.ndarray:
         """Whether held parts have moved: bool [number of rows]."""

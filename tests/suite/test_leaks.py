@@ -176,23 +176,23 @@ def test_a_plain_awake_tower_settles_by_less_than_a_tenth_of_the_touch_tolerance
     assert not settled
 
 
-# The impact multiplies whatever differed before it, the more the longer: 0.1 mm in the first three control steps of
-# 0.1 s; with steps of 0.01 s, where the tower may feel the first instant of the touch a step late, 1 mm in five.
-@pytest.mark.parametrize("control_timestep, num_steps, tolerance", [(0.1, 3, 1e-4), (0.01, 5, 1e-3)])
-def test_a_tower_hit_by_the_fist_moves_as_a_plain_awake_one(control_timestep, num_steps, tolerance):
+@pytest.mark.parametrize("control_timestep", [0.1, 0.01])
+def test_a_tower_hit_by_the_fist_moves_as_a_plain_awake_one(control_timestep):
+    """Until the touch it looks at rest, exactly; from then on it is where the plain one is, through the whole fall."""
     batch, first = _batch_of("fist_features", EVERY_PATTERN, control_timestep)
-    plain, since_touch = _plain("fist_features"), 0
-    while since_touch < num_steps:
+    plain, touched, since_touch = _plain("fist_features"), np.zeros(16, bool), 0
+    while since_touch < 1.0 / control_timestep:
         positions = batch.step(np.full(16, INTO_THE_TOWER)).observation["positions"]
-        since_touch += (np.abs(positions - first["positions"]).max(axis=(1, 2)) > 1e-3).all()
-        far = {}
+        touched |= (positions != first["positions"]).any(axis=(1, 2))
+        since_touch += touched.all()
         for pattern, (kit, data) in enumerate(plain):
             data.ctrl[:] = batch.task.controls[INTO_THE_TOWER]
             mujoco.mj_step(kit.model, data, batch.task.options.substeps)
+            # A block whose coordinates have moved by up to the tolerance is out of place by up to twice as much.
+            tolerance = 1e-6 if touched[pattern] else 2 * task_lib.TOUCH_TOLERANCE
             difference = np.abs(_positions(kit, data) - positions[pattern]).max()
-            if difference > tolerance:
-                far[pattern] = float(difference)
-        assert not far, f"in control step {since_touch} of the touch, these patterns are so many m away: {far}"
+            assert difference <= tolerance, (tower.PATTERNS[pattern], touched[pattern], since_touch)
+    assert np.abs(positions - first["positions"]).max(axis=(1, 2)).min() > 0.1, "a tower did not fall"
 
 
 def test_a_pushed_tower_moves_as_a_plain_awake_one(seed):
