@@ -10,14 +10,14 @@ from physexp.analysis import config as config_lib
 from physexp.analysis import run as run_lib
 
 EPISODES = 10_000
-SEEDS = (0, 1, 2)
+SEEDS = (0, 1)  # All must reach the target; the towers, which take longer, are trained once.
 # Mean discounted return to be reached at each difficulty; an ideal experimenter has 0.8385, 0.8692 and 0.8908.
 HEAVIER = {3.0: 0.79, 5.0: 0.83, 10.0: 0.86}
 TOWERS = {"fist_features": 0.98, "direct_features": 0.95}
 
 
 def run(runs_dir: Path) -> Iterator[dict]:
-    """Yields a figure for each condition: what all but one of its seeds reach."""
+    """Yields a figure for each condition: what all of its seeds reach."""
     for difficulty, target in HEAVIER.items():
         results = [_result(runs_dir, "which_is_heavier", "features", difficulty, seed) for seed in SEEDS]
         yield _figure(f"return: heavier, difficulty {difficulty:g}", "mean_return", results, target)
@@ -27,12 +27,12 @@ def run(runs_dir: Path) -> Iterator[dict]:
 
 
 def _figure(name: str, key: str, results: list[dict], target: float) -> dict:
-    values = sorted(result[key] for result in results)
+    values = [result[key] for result in results]
     absolute: dict[str, Any] = {}
     for seed, result in zip(SEEDS, results, strict=False):  # Towers have fewer seeds.
         absolute |= {f"seed_{seed}": result[key], f"greedy_{seed}": result["greedy"][key]}
     absolute |= {"million_frames": results[0]["frames"] / 1e6, "minutes": results[0]["minutes"]}
-    return bench.row(name, values[min(1, len(values) - 1)], "", target, **absolute)
+    return bench.row(name, min(values), "", target, **absolute)
 
 
 def _result(runs_dir: Path, domain: str, task: str, difficulty: float | None, seed: int) -> dict:
