@@ -160,7 +160,7 @@ class BatchEnvironment:
             return self._everyone
         chosen = np.asarray(environments)
         if chosen.ndim == 1 and np.issubdtype(chosen.dtype, np.integer):
-            inside = chosen.size and chosen.min() >= 0 and chosen.max() < self.num_environments
+            inside = not chosen.size or (chosen.min() >= 0 and chosen.max() < self.num_environments)
             if inside and (np.diff(chosen.astype(np.int64)) > 0).all():
                 return chosen.astype(np.int64)
         raise ValueError(
