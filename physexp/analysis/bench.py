@@ -9,10 +9,11 @@ from pathlib import Path
 import statistics
 import time
 
-from dm_control import composer
 import numpy as np
 
-from physexp import suite
+from physexp import suite  # Before dm_control, for which it chooses the GL backend.
+
+from dm_control import composer  # isort: skip
 
 BATCH = 256
 THREADS = 2
