@@ -19,8 +19,8 @@ TIMESTEP, SUBSTEPS, FORCE, STIFFNESS, DAMPING = 0.025, 4, 20.0, 6.25, 5.0
 LIGHTEST, HEAVIEST, CEILING = 0.2, 1.0, 0.4
 
 TOLERANCE_AT_REST = 1e-5  # m
-# m. The end of the rail is felt once a block has passed it, which takes it at most one simulation step of 0.025 s at the
-# highest speed there is, where the poke meets the damper; and a centimetre more while it is stopped.
+# m. The end of the rail is felt once a block has passed it, which takes it at most one simulation step of 0.025 s at
+# the highest speed there is, where the poke meets the damper; and a centimetre more while it is stopped.
 TOLERANCE_AT_CEILING = FORCE / DAMPING * TIMESTEP + 0.01
 
 
