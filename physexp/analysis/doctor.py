@@ -23,5 +23,5 @@ def examine() -> dict:
         "omp_num_threads": os.environ.get("OMP_NUM_THREADS", "not set"),
         "gpu": torch.cuda.get_device_name() if torch.cuda.is_available() else "none",
         "gl_backend": rendering.choose_backend(),
-        "gl_renderer": rendering.renderer(),
+        "gl_renderer": rendering.renderer_name(),
     }

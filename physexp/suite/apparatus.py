@@ -16,11 +16,11 @@ class Apparatus:
 
     Attributes:
       model: the compiled model.
-      readings: for each observation, the sensor addresses that make it up, int of the observation's shape.
+      readings: for each feature, the sensor addresses that make it up, int of the feature's shape.
       rest_qpos: `qpos` of the initial state, float64 [nq].
-      rest_sensordata: sensor values of the initial state, float64 [nsensordata].
+      rest: fields of `MjData` in the initial state, float64, by name.
       held_qpos: addresses in `qpos` of the coordinates that look at rest until they are moved.
-      held_sensors: addresses of the sensors that show them.
+      held: for each field in `rest`, the addresses of what shows them.
       hidden_bodies: the bodies whose masses differ from episode to episode.
       hidden_dofs: the degree of freedom, a slide, of each of them.
     """
@@ -28,25 +28,26 @@ class Apparatus:
     model: mujoco.MjModel
     readings: dict[str, np.ndarray]
     rest_qpos: np.ndarray
-    rest_sensordata: np.ndarray
+    rest: dict[str, np.ndarray]
     held_qpos: np.ndarray
-    held_sensors: np.ndarray
+    held: dict[str, np.ndarray]
     hidden_bodies: np.ndarray
     hidden_dofs: np.ndarray
 
-    def observe(self, sensordata: np.ndarray, touched: np.ndarray) -> dict[str, np.ndarray]:
-        """What there is to see: where nothing has been touched, held parts look exactly as they did at the start.
+    def shown(self, field: str, values: np.ndarray, touched: np.ndarray) -> np.ndarray:
+        """A field as it may be seen: where nothing has been touched, held parts are exactly as they were at the start.
 
         Args:
-          sensordata: sensor values, float64 [N, nsensordata].
+          field: name of the field, one in `rest`.
+          values: its values, float64 [N, ...].
           touched: whether held parts have been touched, bool [N].
 
         Returns:
-          The observations, float32 [N, ...].
+          A copy, float64 [N, ...].
         """
-        shown = sensordata.copy()
-        shown[np.ix_(~touched, self.held_sensors)] = self.rest_sensordata[self.held_sensors]
-        return {name: shown[:, addresses].astype(np.float32) for name, addresses in self.readings.items()}
+        shown = values.copy()
+        shown[np.ix_(~touched, self.held[field])] = self.rest[field][self.held[field]]
+        return shown
 
     def moved(self, qpos: np.ndarray, tolerance: float) -> np.ndarray:
         """Whether any held coordinate has left its rest value by more than `tolerance`: bool [N] from [N, nq]."""
@@ -71,28 +72,29 @@ def compile_xml(xml: str) -> mujoco.MjModel:
     return mujoco.MjModel.from_xml_string(xml)
 
 
-def build(mjcf_model, sensors: dict[str, tuple], held_joints, held_sensors, hidden_joints) -> Apparatus:
+def build(mjcf_model, sensors: dict[str, tuple], held_joints, held_sensors, held_geoms, hidden_joints) -> Apparatus:
     """Compiles an MJCF model.
 
     Args:
       mjcf_model: a `dm_control.mjcf.RootElement`.
-      sensors: for each observation, the sensor elements that make it up and the observation's shape.
+      sensors: for each feature, the sensor elements that make it up and the feature's shape.
       held_joints: joint elements that look at rest until something moves them.
-      held_sensors: sensor elements that show them.
+      held_sensors, held_geoms: sensor and geom elements that show them.
       hidden_joints: slides whose bodies' masses differ from episode to episode.
     """
     model = compile_xml(mjcf_model.to_xml_string())
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     held = [model.joint(joint.full_identifier) for joint in held_joints]
+    geoms = np.array([model.geom(geom.full_identifier).id for geom in held_geoms], np.intp)
     hidden = [model.joint(joint.full_identifier) for joint in hidden_joints]
     return Apparatus(
         model=model,
         readings={name: _sensors(model, elements).reshape(shape) for name, (elements, shape) in sensors.items()},
         rest_qpos=model.qpos0.copy(),
-        rest_sensordata=data.sensordata.copy(),
+        rest={field: getattr(data, field).copy() for field in ("sensordata", "geom_xpos", "geom_xmat")},
         held_qpos=_addresses(joint.qposadr[0] + np.arange(joint.qpos0.size) for joint in held),
-        held_sensors=_sensors(model, held_sensors),
+        held={"sensordata": _sensors(model, held_sensors), "geom_xpos": geoms, "geom_xmat": geoms},
         hidden_bodies=_addresses(joint.bodyid for joint in hidden),
         hidden_dofs=_addresses(joint.dofadr for joint in hidden),
     )

@@ -5,8 +5,9 @@ import numpy as np
 
 from physexp.suite import material
 
-FLOOR_HALF_SIZE = 1.5  # m
-FLOOR_RGBA = (0.82, 0.82, 0.80, 1.0)
+FLOOR_HALF_SIZE = 8.0  # m: the floor fills the view
+FLOOR_RGBA = (0.72, 0.72, 0.70, 1.0)
+MAT_RGBA = (0.86, 0.86, 0.84, 1.0)
 
 
 class Laboratory(composer.Arena):
@@ -15,10 +16,11 @@ class Laboratory(composer.Arena):
     The visible floor is a box, much cheaper to draw than a plane; a plane that is not drawn carries the contacts.
     """
 
-    def _build(self, camera_pos, camera_target, fovy, name="laboratory"):
+    def _build(self, mat_size, camera_pos, camera_target, fovy, name="laboratory"):
         """Builds the room.
 
         Args:
+          mat_size: half the sizes in x and y of a mat, a brighter part of the floor, where everything happens, m (2,).
           camera_pos: position of the camera, m (3,).
           camera_target: the point that it looks at, m (3,).
           fovy: vertical field of view, degrees.
@@ -37,21 +39,29 @@ class Laboratory(composer.Arena):
         world.add("light", name="lamp", directional=True, castshadow=False, pos=[0, 0, 3], dir=[-0.3, 0.5, -0.8],
                   diffuse=[0.5] * 3, specular=[0.0] * 3)  # fmt: skip
         self.floor = world.add("geom", name="floor", type="box", size=[FLOOR_HALF_SIZE, FLOOR_HALF_SIZE, 0.01],
-                               pos=[0, 0, -0.01], rgba=FLOOR_RGBA, contype=0, conaffinity=0)  # fmt: skip
+                               pos=[0, 0, -0.015], rgba=FLOOR_RGBA, contype=0, conaffinity=0)  # fmt: skip
+        world.add("geom", name="mat", type="box", size=[*mat_size, 0.001], pos=[0, 0, 0], rgba=MAT_RGBA,
+                  contype=0, conaffinity=0)  # fmt: skip
         self.ground = world.add("geom", name="ground", type="plane", size=[1, 1, 0.1], group=4, **material.solid())
         self.camera = world.add("camera", name="observer", pos=camera_pos, fovy=fovy,
                                 xyaxes=_looking_at(camera_pos, camera_target))  # fmt: skip
 
-    def add_walls(self, distance: float) -> None:
-        """Adds four walls that are not drawn, `distance` (m) from the centre, so that nothing leaves the view.
+    def add_walls(self, distance: float, height: float) -> None:
+        """Adds four walls and a ceiling that are not drawn, so that nothing leaves the view.
 
         They are boxes, not planes: the broad phase skips a box that is far away, which a plane never is.
+
+        Args:
+          distance: of the walls from the centre, m.
+          height: of the ceiling above the floor, m.
         """
-        half = 0.25
-        for axis, (x, y) in enumerate(((1, 0), (-1, 0), (0, 1), (0, -1))):
-            size = [half if x else distance + 2 * half, half if y else distance + 2 * half, 2.0]
-            pos = [x * (distance + half), y * (distance + half), 2.0]
-            self.mjcf_model.worldbody.add("geom", name=f"wall_{axis}", type="box", size=size, pos=pos, group=4,
+        half, side = 0.25, distance + 0.5
+        boxes = [([half if x else side, half if y else side, height],
+                  [x * (distance + half), y * (distance + half), height])
+                 for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))]  # fmt: skip
+        boxes.append(([side, side, half], [0, 0, height + half]))
+        for number, (size, pos) in enumerate(boxes):
+            self.mjcf_model.worldbody.add("geom", name=f"wall_{number}", type="box", size=size, pos=pos, group=4,
                                           **material.solid(material.WALL_FRICTION))  # fmt: skip
 
 

@@ -1,5 +1,6 @@
 """Many environments of one task that step together in C++ threads."""
 
+import functools
 import logging
 
 import dm_env
@@ -7,7 +8,7 @@ import mujoco
 from mujoco.batch import Batch
 import numpy as np
 
-from physexp.suite import seeding
+from physexp.suite import seeding, senses
 from physexp.suite import task as task_lib
 
 _LOG = logging.getLogger(__name__)
@@ -55,10 +56,7 @@ class BatchEnvironment:
         self._touched = np.zeros(self.num_environments, bool)
         self._hidden: np.ndarray | None = None
         self._groups: dict[int, _Group] = {}
-        first = self._group(0).first_observation
-        self._observations = {
-            name: np.repeat(value[None], self.num_environments, axis=0) for name, value in first.items()
-        }
+        self._observations = senses.blank(task.sense.spec(self._group(0).kit), self.num_environments)
 
     # Specs are those of the single environment.
 
@@ -151,6 +149,7 @@ class BatchEnvironment:
     def close(self) -> None:
         """Frees the simulations. Closing twice does nothing."""
         self._groups = {}
+        self._task.close()
         self._closed = True
 
     def _choose(self, environments) -> np.ndarray:
@@ -209,8 +208,7 @@ class BatchEnvironment:
                 diverged.append(lost)
                 rows = np.setdiff1d(rows, lost)
             self._touched[rows] |= group.moved(rows)
-            for name, value in group.observe(rows, self._touched[rows]).items():
-                self._observations[name][rows] = value
+            self._task.look(group.kit, group.state(rows), self._touched[rows], rows, self._observations)
         if not diverged:
             return np.zeros(0, np.int64)
         lost = np.concatenate(diverged)
@@ -233,21 +231,25 @@ class _Group:
     """The simulations of one structure: row `i` serves environment `i` whenever it has this structure."""
 
     def __init__(self, task, kit, size, num_threads):
-        self._task, self._kit = task, kit
+        self._task, self.kit = task, kit
         self._batch = Batch(kit.model, size, num_threads)
         self._batch.reset(stage=mujoco.mjtStage.mjSTAGE_NONE)
         self._rest = self._batch.state[0].copy()
-        self._qpos, self._control, self._sensordata = (
-            self._batch.bind(name) for name in ("qpos", "ctrl", "sensordata")
-        )
-        untouched = np.zeros(1, bool)
-        first = kit.observe(kit.rest_sensordata[None], untouched)
-        self.first_observation = {name: value[0] for name, value in first.items()}
+        self._qpos, self._control = (self._batch.bind(name) for name in ("qpos", "ctrl"))
+        self._looked_at = {field: self._batch.bind(field) for field in task.sense.fields}
+
+    @functools.cached_property
+    def first_observation(self) -> dict[str, np.ndarray]:
+        """What there is to see at the start of every episode."""
+        first = senses.blank(self._task.sense.spec(self.kit), 1)
+        rest = {field: self.kit.rest[field][None] for field in self._task.sense.fields}
+        self._task.look(self.kit, rest, np.zeros(1, bool), np.zeros(1, np.intp), first)
+        return {name: value[0] for name, value in first.items()}
 
     def reset(self, rows, hidden) -> None:
         self._batch.state[rows] = self._rest
-        if self._kit.hidden_bodies.size:
-            for field, (addresses, values) in self._kit.mass_fields(self._task.hidden_masses(hidden)).items():
+        if self.kit.hidden_bodies.size:
+            for field, (addresses, values) in self.kit.mass_fields(self._task.hidden_masses(hidden)).items():
                 self._batch.expand(field)[rows[:, None], addresses] = values
 
     def step(self, rows, controls, substeps) -> np.ndarray:
@@ -259,7 +261,8 @@ class _Group:
 
     def moved(self, rows) -> np.ndarray:
         """Whether held parts have moved: bool [number of rows]."""
-        return self._kit.moved(self._qpos[rows], task_lib.TOUCH_TOLERANCE)
+        return self.kit.moved(self._qpos[rows], task_lib.TOUCH_TOLERANCE)
 
-    def observe(self, rows, touched) -> dict[str, np.ndarray]:
-        return self._kit.observe(self._sensordata[rows], touched)
+    def state(self, rows) -> dict[str, np.ndarray]:
+        """The fields that the sense looks at, float64 [number of rows, ...]."""
+        return {field: values[rows] for field, values in self._looked_at.items()}

@@ -46,6 +46,7 @@ class Environment(composer.Environment):
         for _, physics in self._compiled.values():
             physics.free()
         self._compiled = {}
+        self._task.close()
         self._physics = self._physics_proxy = None
 
     def _check_open(self):
@@ -72,5 +73,5 @@ class Environment(composer.Environment):
         try:
             super()._substep(action)
         except control.PhysicsError:
-            self._task.num_divergences += 1
+            self._task.note_divergence()
             raise

@@ -1,36 +1,198 @@
-"""The choice of a GL backend, made before dm_control is imported, which picks its own at import otherwise."""
+"""Rendering: the choice of a GL backend, and images of a scene."""
 
+import atexit
+import copy
 import ctypes.util
+import functools
+import glob
 import os
+import threading
+import warnings
+import weakref
+
+import numpy as np
+
+SIZE = 84  # pixels, the edge of an image (paper, Section 4)
+DEBIAN_PACKAGES = "Debian's libegl1 and libgl1-mesa-dri, or libosmesa6"
 
 _LIBRARIES = {"egl": "EGL", "osmesa": "OSMesa"}  # In order of preference.
+_OFF = ("disable", "disabled", "off", "false", "0")  # What MuJoCo understands as no GL.
+_SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software rasterizer")
 
 
 def choose_backend() -> str:
     """Settles MUJOCO_GL: as the user set it, or the first backend whose library is here, or `disable`.
 
-    Feature tasks need none.
+    To be called before mujoco and dm_control are imported, which look at it once. Feature tasks need no backend.
     """
+    # Mesa's software renderer hands small images to threads at a greater cost than drawing them.
+    os.environ.setdefault("LP_NUM_THREADS", "0")
     if not os.environ.get("MUJOCO_GL"):
         found = (backend for backend, library in _LIBRARIES.items() if ctypes.util.find_library(library))
         os.environ["MUJOCO_GL"] = next(found, "disable")
     return os.environ["MUJOCO_GL"]
 
 
-def renderer() -> str:
-    """What draws: the GL renderer's own name, or why there is none."""
-    backend = choose_backend()
-    if backend not in ("egl", "osmesa", "glfw"):
-        return "none: install Debian's libegl1 and libgl1-mesa-dri, or libosmesa6 (feature tasks need none)"
+class Renderer:
+    """Draws images of one scene, whatever the poses of its geoms, in a GL context of its own.
+
+    Only the thread that made a renderer can use it.
+    """
+
+    def __init__(self, model, camera: str = "observer", size: int = SIZE):
+        """Makes a context and uploads the scene.
+
+        Args:
+          model: a compiled model; its geoms in group 4 are not drawn.
+          camera: name of the camera.
+          size: edge of an image, pixels.
+
+        Raises:
+          RuntimeError: if no GL backend works; it says what to install.
+        """
+        import mujoco  # Here, so that the module that chooses the backend comes before mujoco.
+
+        self._context = _make_context(size)
+        self._thread = threading.get_ident()
+        self._exit_hook = functools.partial(_close, weakref.ref(self))
+        atexit.register(self._exit_hook)  # A context that outlives the backend's own exit hook cannot be freed.
+        self._context.make_current()
+        drawn = _with_buffer(model, size)
+        self._buffers = mujoco.MjrContext(drawn, mujoco.mjtFontScale.mjFONTSCALE_50)
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._buffers)
+        self._render, self._read = mujoco.mjr_render, mujoco.mjr_readPixels
+        self._rectangle = mujoco.MjrRect(0, 0, size, size)
+        self._upside_down = np.zeros((size, size, 3), np.uint8)  # As GL reads it: the lowest row first.
+        self._scene = _make_scene(drawn, camera)
+        # Views of the poses of what can move, in the scene that MuJoCo draws.
+        self._moving = [
+            (geom.objid, geom.pos, geom.mat)
+            for geom in self._scene.geoms[: self._scene.ngeom]
+            if model.body_weldid[model.geom_bodyid[geom.objid]] != 0
+        ]
+        warn_if_software(gl_renderer_name())
+
+    def render(self, geom_xpos: np.ndarray, geom_xmat: np.ndarray, rows: np.ndarray, images: np.ndarray) -> None:
+        """Draws one image for each pose of the scene.
+
+        Args:
+          geom_xpos, geom_xmat: positions (m) and rotation matrices of the model's geoms, [N, number of geoms, 3 and 9].
+          rows: where each image goes, int [N].
+          images: uint8 [B, size, size, 3]; written to, straight from the frame buffer.
+
+        Raises:
+          RuntimeError: if the renderer is closed, or was made by another thread.
+        """
+        if self._context is None:
+            raise RuntimeError("the renderer is closed")
+        if threading.get_ident() != self._thread:
+            raise RuntimeError("an environment's images are drawn by the thread that drew its first; use that one")
+        self._context.make_current()  # Another renderer may have been at work since.
+        matrices = geom_xmat.reshape(len(geom_xmat), -1, 3, 3)
+        for row, positions, rotations in zip(rows, geom_xpos, matrices, strict=True):
+            for geom, position, rotation in self._moving:
+                position[:] = positions[geom]
+                rotation[:] = rotations[geom]
+            self._render(self._rectangle, self._scene, self._buffers)
+            self._read(self._upside_down, None, self._rectangle, self._buffers)
+            images[row] = self._upside_down[::-1]
+
+    def close(self) -> None:
+        """Frees the context. Closing twice does nothing."""
+        if self._context is not None:
+            self._context.make_current()
+            self._buffers.free()
+            self._context.free()
+            self._context = None
+            atexit.unregister(self._exit_hook)
+
+
+def _close(reference) -> None:
+    renderer = reference()
+    if renderer is not None:
+        renderer.close()
+
+
+def _with_buffer(model, size: int):
+    """A copy of a model whose off-screen buffer is as large as the image: software GL clears the whole buffer."""
+    drawn = copy.copy(model)
+    drawn.vis.global_.offwidth = drawn.vis.global_.offheight = size
+    return drawn
+
+
+def _make_scene(model, camera: str):
+    """The abstract scene that MuJoCo draws, in the initial state, without the effects that cost and show nothing."""
     import mujoco
 
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    scene = mujoco.MjvScene(model, maxgeom=64)
+    for effect in ("SHADOW", "REFLECTION", "SKYBOX", "HAZE"):
+        scene.flags[getattr(mujoco.mjtRndFlag, f"mjRND_{effect}")] = False
+    option = mujoco.MjvOption()
+    option.geomgroup[4] = False
+    option.sitegroup[:] = False
+    view = mujoco.MjvCamera()
+    view.type = mujoco.mjtCamera.mjCAMERA_FIXED
+    view.fixedcamid = model.camera(camera).id
+    mujoco.mjv_updateScene(
+        model, data, option, mujoco.MjvPerturb(), view, mujoco.mjtCatBit.mjCAT_ALL.value, scene
+    )
+    return scene
+
+
+def _make_context(size: int):
+    import mujoco
+
+    backend = choose_backend()
+    if backend.lower() in _OFF:
+        raise RuntimeError(f"no GL library is here to draw pixels with; install {DEBIAN_PACKAGES} (features need none)")
     try:
-        context = mujoco.GLContext(8, 8)
+        return mujoco.GLContext(size, size)
     except Exception as error:  # Whatever the driver raises is what the user wants to read.
-        return f"none: {backend} does not work here ({error})"
-    context.make_current()
+        raise RuntimeError(
+            f"the GL backend {backend} (MUJOCO_GL) does not work here: {error}; install {DEBIAN_PACKAGES}, "
+            "or set MUJOCO_GL to egl, osmesa or glfw"
+        ) from error
+
+
+def gl_renderer_name() -> str:
+    """What the current GL context is drawn by, in its own words."""
     from OpenGL import GL
 
-    name = GL.glGetString(GL.GL_RENDERER).decode()
+    return GL.glGetString(GL.GL_RENDERER).decode()
+
+
+@functools.cache
+def renderer_name() -> str:
+    """What draws images in this process: the GL renderer's own name, or why there is none."""
+    try:
+        context = _make_context(8)
+    except RuntimeError as error:
+        return f"none: {error}"
+    context.make_current()
+    name = gl_renderer_name()
     context.free()
     return name
+
+
+def is_software(name: str) -> bool:
+    """Whether a GL renderer of this name draws on the processor."""
+    return any(software in name.lower() for software in _SOFTWARE)
+
+
+@functools.cache
+def warn_if_software(name: str) -> None:
+    """Says once that images are drawn on the processor although the machine has a GPU."""
+    if is_software(name) and gpu_is_present():
+        warnings.warn(
+            f"PIXELS ARE DRAWN BY THE PROCESSOR ({name}) although this machine has a GPU: "
+            "its EGL driver is not visible; install it, or set MUJOCO_GL",
+            RuntimeWarning,
+            stacklevel=2,
+        )
+
+
+def gpu_is_present() -> bool:
+    """Whether the system lists a GPU's device."""
+    return bool(glob.glob("/dev/nvidia[0-9]*") + glob.glob("/dev/dri/renderD*"))

@@ -3,6 +3,7 @@
 import abc
 from collections.abc import Sequence
 import dataclasses
+import functools
 import math
 from typing import Any, ClassVar
 
@@ -13,6 +14,7 @@ import numpy as np
 
 from physexp.suite import apparatus as apparatus_lib
 from physexp.suite import rules, seeding
+from physexp.suite import senses as senses_lib
 
 # Held parts look exactly as at the start until they have moved by more than this. Contacts at rest settle by less than
 # a tenth of it, and the weakest touch moves a block by several times as much.
@@ -81,18 +83,20 @@ class QuestionTask(composer.Task):
       controls: what each interaction action sends to the actuators, float64 [num_interactions, nu].
       next_episode: index of the episode that the next reset starts; set it to rebuild any episode.
       num_divergences: episodes that ended because the simulation diverged.
+      sense: how the state is shown.
       apparatus: the compiled model in use; the environment sets it.
     """
 
     apparatus: apparatus_lib.Apparatus
     options: Options
 
-    def __init__(self, arena, options: Options, num_interactions: int, num_labels: int):
+    def __init__(self, arena, options: Options, sense: senses_lib.Sense, num_interactions: int, num_labels: int):
         """Sets what all tasks share.
 
         Args:
           arena: the arena, with the entities attached.
           options: what the user chose.
+          sense: how the state is shown.
           num_interactions, num_labels: numbers of actions.
         """
         self._arena = arena
@@ -106,10 +110,10 @@ class QuestionTask(composer.Task):
         self._actions = np.zeros(1, np.int64)
         self._steps = np.zeros(1, np.int64)
         self._touched = np.zeros(1, bool)
-        self._observables = {
-            name: observable.Generic(lambda physics, name=name: self._observe(physics)[name][0])
-            for name in self.sensors
-        }
+        self._diverged = False
+        self.sense = sense
+        self._seen = senses_lib.blank(sense.spec(self.build_apparatus(0)), 1)
+        self._observables = {name: observable.Generic(functools.partial(self._recall, name)) for name in self._seen}
         for reading in self._observables.values():
             reading.enabled = True
 
@@ -126,7 +130,7 @@ class QuestionTask(composer.Task):
     @property
     @abc.abstractmethod
     def sensors(self) -> dict[str, tuple]:
-        """For each observation, the MJCF sensors that make it up and its shape."""
+        """For each feature, the MJCF sensors that make it up and its shape."""
 
     @property
     def held_joints(self) -> Sequence:
@@ -136,6 +140,11 @@ class QuestionTask(composer.Task):
     @property
     def held_sensors(self) -> Sequence:
         """The sensors that show them."""
+        return ()
+
+    @property
+    def held_geoms(self) -> Sequence:
+        """The geoms that show them."""
         return ()
 
     @abc.abstractmethod
@@ -211,11 +220,42 @@ class QuestionTask(composer.Task):
         """Arranges the MJCF and compiles it."""
         self.arrange(structure)
         return apparatus_lib.build(
-            self.root_entity.mjcf_model, self.sensors, self.held_joints, self.held_sensors, self.hidden_joints
+            self.root_entity.mjcf_model,
+            self.sensors,
+            self.held_joints,
+            self.held_sensors,
+            self.held_geoms,
+            self.hidden_joints,
         )
 
-    def _observe(self, physics) -> dict[str, np.ndarray]:
-        return self.apparatus.observe(physics.data.sensordata[None], self._touched)
+    def look(self, kit: apparatus_lib.Apparatus, state, touched, rows, observations) -> None:
+        """Writes what there is to see of some simulations.
+
+        Args:
+          kit: what is simulated.
+          state: the fields that the sense looks at, float64 [N, ...].
+          touched: whether held parts have been touched, bool [N].
+          rows: where the observations go, int [N].
+          observations: arrays with a leading axis that `rows` index; written to.
+        """
+        shown = {field: kit.shown(field, values, touched) for field, values in state.items()}
+        self.sense.look(kit, shown, rows, observations)
+
+    def close(self) -> None:
+        """Frees what the sense holds. A closed task can be played again."""
+        self.sense.close()
+
+    def note_divergence(self) -> None:
+        """Tells the task that the simulation has diverged: nothing more is seen of this episode."""
+        self.num_divergences += 1
+        self._diverged = True
+
+    def _look(self, state) -> None:
+        self.look(self.apparatus, state, self._touched, np.zeros(1, np.intp), self._seen)
+
+    def _recall(self, name: str, physics) -> np.ndarray:
+        """What was last seen: composer may ask many times, and it is looked at once for each control step."""
+        return self._seen[name][0].copy()
 
     def initialize_episode_mjcf(self, random_state):
         hidden = self.draw(np.array([self.options.random]), np.array([self.next_episode]))
@@ -230,11 +270,13 @@ class QuestionTask(composer.Task):
         self._steps[0] = 0
         self._actions[0] = 0
         self._touched[0] = False
+        self._look({field: self.apparatus.rest[field][None] for field in self.sense.fields})
         if self.options.visualize_reward:
             physics.bind(self._arena.floor).rgba = self._arena.floor.rgba
 
     def before_step(self, physics, action, random_state):
         self._actions[0] = self._checked(action)
+        self._diverged = False
         self._steps[0] += 1
         if not self.answered:
             physics.data.ctrl[:] = self.controls[self._actions[0]]
@@ -247,7 +289,9 @@ class QuestionTask(composer.Task):
         return int(checked)
 
     def after_step(self, physics, random_state):
-        self._touched |= self.apparatus.moved(physics.data.qpos[None], TOUCH_TOLERANCE)
+        if not (self.answered or self._diverged):
+            self._touched |= self.apparatus.moved(physics.data.qpos[None], TOUCH_TOLERANCE)
+            self._look({field: getattr(physics.data, field)[None] for field in self.sense.fields})
         self._rewards, self._last = self.rules.judge(self._actions, self._answers, self._steps)
         if self.options.visualize_reward and self._last[0]:
             physics.bind(self._arena.floor).rgba = _OK_RGBA if self._rewards[0] > 0 else _WRONG_RGBA

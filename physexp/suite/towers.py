@@ -6,12 +6,13 @@ import math
 from dm_control.utils import containers
 import numpy as np
 
-from physexp.suite import arena, block, fist, seeding, task, tower
+from physexp.suite import arena, block, fist, seeding, senses, task, tower
 
 SUITE = containers.TaggedTasks()
 
 PHYSICS_TIMESTEP = 0.005  # s
-WALL_DISTANCE = 0.75  # m, from the tower: a tower that falls as one piece fits inside
+WALL_DISTANCE = 0.6  # m, from the tower: a tower that falls as one piece fits inside
+CEILING = 0.7  # m, above the floor
 
 # The lowest cube alone is held by friction of 0.3 * (4 + 5) * 9.81 = 26.5 N: twice that moves it, and slides a cube
 # from the middle out by a good part of its edge in one control step.
@@ -22,7 +23,8 @@ FIST_SPEED = 1.0  # m/s
 _FIST_REACH = WALL_DISTANCE - fist.RADIUS - 2 * block.HALF_SIZE  # m: leaves room for a block at the wall
 _DIRECTIONS = np.array([(1, 0), (-1, 0), (0, 1), (0, -1)], float)  # +x, -x, +y, -y
 
-_CAMERA = dict(camera_pos=[0.4, -2.5, 1.4], camera_target=[-0.05, -0.1, 0.15], fovy=41)
+_ROOM = dict(mat_size=[WALL_DISTANCE] * 2, camera_pos=[0.35, -3.4, 2.0], camera_target=[-0.03, 0, 0.17],
+             fovy=21.5)  # fmt: skip
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -39,17 +41,17 @@ class Towers(task.QuestionTask):
 
     num_structures = len(tower.PATTERNS)
 
-    def __init__(self, options: Options, actuator):
+    def __init__(self, options: Options, actuator, sense: senses.Sense):
         """Builds the scene around an actuator, a `DirectActuator` or a `FistActuator`."""
-        room = arena.Laboratory(**_CAMERA)
-        room.add_walls(WALL_DISTANCE)
+        room = arena.Laboratory(**_ROOM)
+        room.add_walls(WALL_DISTANCE, CEILING)
         self._actuator = actuator
         self._tower: tower.Tower | None = None
         self._towers: dict[int, tower.Tower] = {}  # Built when first needed, one for each pattern.
         actuator.attach_to(room)
         self._arena = room
         self.arrange(0)
-        super().__init__(room, options, len(actuator.controls), tower.NUM_BLOCKS)
+        super().__init__(room, options, sense, len(actuator.controls), tower.NUM_BLOCKS)
 
     @property
     def tower(self) -> tower.Tower:
@@ -72,6 +74,10 @@ class Towers(task.QuestionTask):
     @property
     def held_sensors(self):
         return self.tower.position_sensors
+
+    @property
+    def held_geoms(self):
+        return [cube.geom for cube in self.tower.blocks]
 
     def draw(self, seeds, episodes):
         """Indices of glue patterns in `tower.PATTERNS`, int64 [N]."""
@@ -160,10 +166,22 @@ class FistActuator:
 @SUITE.add("features", "direct")
 def direct_features(options):
     """Observes `positions`, float32 (5, 3): the blocks' centres, m."""
-    return Towers(options, DirectActuator())
+    return Towers(options, DirectActuator(), senses.Features())
 
 
 @SUITE.add("features", "fist")
 def fist_features(options):
     """Observes `positions`, float32 (5, 3), and `fist_position`, float32 (3,), m."""
-    return Towers(options, FistActuator())
+    return Towers(options, FistActuator(), senses.Features())
+
+
+@SUITE.add("pixels", "direct")
+def direct_pixels(options):
+    """Observes `pixels`, uint8 (84, 84, 3): the room from above its front wall."""
+    return Towers(options, DirectActuator(), senses.Pixels())
+
+
+@SUITE.add("pixels", "fist")
+def fist_pixels(options):
+    """Observes `pixels`, uint8 (84, 84, 3): the room from above its front wall."""
+    return Towers(options, FistActuator(), senses.Pixels())

@@ -5,7 +5,7 @@ import dataclasses
 from dm_control.utils import containers
 import numpy as np
 
-from physexp.suite import arena, block, seeding, task
+from physexp.suite import arena, block, seeding, senses, task
 
 SUITE = containers.TaggedTasks()
 
@@ -24,7 +24,7 @@ DAMPING = 5.0  # N s/m
 POKE_FORCE = 20.0  # N
 CEILING = 0.4  # m, highest displacement from rest
 
-_CAMERA = dict(camera_pos=[0, -1.5, 0.45], camera_target=[0, 0, 0.28], fovy=26)
+_ROOM = dict(mat_size=[0.36, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.28], fovy=14.5)
 _MAX_DRAWS = 16
 
 
@@ -51,9 +51,9 @@ class WhichIsHeavier(task.QuestionTask):
 
     options: Options
 
-    def __init__(self, options: Options):
+    def __init__(self, options: Options, sense: senses.Sense):
         """Builds the scene."""
-        room = arena.Laboratory(**_CAMERA)
+        room = arena.Laboratory(**_ROOM)
         room.mjcf_model.option.gravity = [0, 0, 0]
         room.mjcf_model.option.flag.contact = "disable"
         self.blocks, self._joints, motors = [], [], room.mjcf_model.actuator
@@ -69,7 +69,7 @@ class WhichIsHeavier(task.QuestionTask):
             room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=joint)
             for k, joint in enumerate(self._joints)
         ]
-        super().__init__(room, options, num_interactions=NUM_BLOCKS, num_labels=NUM_BLOCKS)
+        super().__init__(room, options, sense, num_interactions=NUM_BLOCKS, num_labels=NUM_BLOCKS)
 
     @property
     def controls(self):
@@ -134,4 +134,10 @@ def _masses(draws: np.ndarray, difficulty: float) -> np.ndarray:
 @SUITE.add("features")
 def features(options):
     """Observes `heights`, float32 (4,): how far each block is above its rest, m."""
-    return WhichIsHeavier(options)
+    return WhichIsHeavier(options, senses.Features())
+
+
+@SUITE.add("pixels")
+def pixels(options):
+    """Observes `pixels`, uint8 (84, 84, 3): the blocks from the front."""
+    return WhichIsHeavier(options, senses.Pixels())

@@ -1,0 +1,79 @@
+"""The senses: how a task shows its state, as features or as pixels.
+
+One environment and a batch look through the same sense, which is why they see the same.
+"""
+
+import abc
+from collections.abc import Mapping
+from typing import ClassVar
+
+import numpy as np
+
+from physexp.suite import apparatus as apparatus_lib
+from physexp.suite import rendering
+
+
+class Sense(abc.ABC):
+    """Turns fields of the simulation's state into observations."""
+
+    fields: ClassVar[tuple[str, ...]]
+    """The fields of `MjData` that are looked at."""
+
+    @abc.abstractmethod
+    def spec(self, apparatus: apparatus_lib.Apparatus) -> dict[str, tuple[tuple[int, ...], type]]:
+        """Shape and type of each observation."""
+
+    @abc.abstractmethod
+    def look(self, apparatus: apparatus_lib.Apparatus, state: Mapping[str, np.ndarray], rows: np.ndarray,
+             observations: Mapping[str, np.ndarray]) -> None:  # fmt: skip
+        """Writes what there is to see.
+
+        Args:
+          apparatus: what is looked at.
+          state: the fields, float64 [N, ...].
+          rows: where the observations go, int [N].
+          observations: arrays with a leading axis that `rows` index; written to.
+        """
+
+    def close(self) -> None:
+        """Frees what the sense holds."""
+
+
+class Features(Sense):
+    """Sensor values as float32 arrays."""
+
+    fields = ("sensordata",)
+
+    def spec(self, apparatus):
+        return {name: (addresses.shape, np.float32) for name, addresses in apparatus.readings.items()}
+
+    def look(self, apparatus, state, rows, observations):
+        for name, addresses in apparatus.readings.items():
+            observations[name][rows] = state["sensordata"][:, addresses]
+
+
+class Pixels(Sense):
+    """One image, `pixels`, from the task's camera. The GL context is made when the first image is drawn."""
+
+    fields = ("geom_xpos", "geom_xmat")
+
+    def __init__(self):
+        self._renderer: rendering.Renderer | None = None
+
+    def spec(self, apparatus):
+        return {"pixels": ((rendering.SIZE, rendering.SIZE, 3), np.uint8)}
+
+    def look(self, apparatus, state, rows, observations):
+        if self._renderer is None:  # All structures of a task have the same geoms: one renderer draws them all.
+            self._renderer = rendering.Renderer(apparatus.model)
+        self._renderer.render(state["geom_xpos"], state["geom_xmat"], rows, observations["pixels"])
+
+    def close(self):
+        if self._renderer is not None:
+            self._renderer.close()
+            self._renderer = None
+
+
+def blank(spec: Mapping[str, tuple[tuple[int, ...], type]], size: int) -> dict[str, np.ndarray]:
+    """Arrays for the observations of `size` environments."""
+    return {name: np.zeros((size, *shape), dtype) for name, (shape, dtype) in spec.items()}
