@@ -85,6 +85,7 @@ class Evaluate:
       episodes: how many to play.
       interaction: learned, or random: interaction actions are replaced by uniformly drawn ones (paper, Section 5.3).
       greedy: take the likeliest action instead of drawing one.
+      device: where convolutions are computed: cpu, cuda, or auto for the GPU where there is one.
       seed: of the environments and the actions; by default one that training never uses.
       json: print JSON.
     """
@@ -93,6 +94,7 @@ class Evaluate:
     episodes: int = 1000
     interaction: Literal["learned", "random"] = "learned"
     greedy: bool = False
+    device: config_lib.a3c.Device = "auto"
     seed: int | None = None
     json: bool = False
 
@@ -102,8 +104,31 @@ class Evaluate:
 
         run = run_lib.Run(self.run_dir)
         seed = evaluation.SEED if self.seed is None else self.seed
-        played = evaluation.evaluate(run, self.episodes, self.interaction, self.greedy, seed)
+        played = evaluation.evaluate(run, self.episodes, self.interaction, self.greedy, seed,
+                                     device=self.device)  # fmt: skip
         _show(played.summary(run.config.agent.discount), self.json)
+
+
+@dataclasses.dataclass
+class Publish:
+    """Keep a run's agent, in half precision, as one that `physexp.agents.load_pretrained` returns.
+
+    Attributes:
+      run_dir: the folder of a run.
+      output_dir: where the agent and its card go; by default into the package.
+      episodes: how many to play for the evaluation on the card.
+    """
+
+    run_dir: Positional[Path]
+    output_dir: Path | None = None
+    episodes: int = 10_000
+
+    def run(self) -> None:
+        from physexp.agents import pretrained
+        from physexp.analysis import publishing
+        from physexp.analysis import run as run_lib
+
+        print(publishing.publish(run_lib.Run(self.run_dir), self.output_dir or pretrained.FOLDER, self.episodes))
 
 
 @dataclasses.dataclass
@@ -116,8 +141,8 @@ class Bench:
       json: print JSON.
     """
 
-    sections: Positional[tuple[Literal["reset", "batch", "training", "peers", "learning"], ...]] = (
-        "reset", "batch", "training", "peers",
+    sections: Positional[tuple[Literal["reset", "batch", "training", "peers", "pixels", "learning"], ...]] = (
+        "reset", "batch", "training", "peers", "pixels",
     )  # fmt: skip
     runs_dir: Path = Path("runs")
     json: bool = False
@@ -190,6 +215,7 @@ def _parse(arguments: list[str]):
         Annotated[Tasks, tyro.conf.subcommand("tasks")],
         Annotated[Train, tyro.conf.subcommand("train", default=train)],
         Annotated[Evaluate, tyro.conf.subcommand("evaluate")],
+        Annotated[Publish, tyro.conf.subcommand("publish")],
         Annotated[Bench, tyro.conf.subcommand("bench")],
         Annotated[Doctor, tyro.conf.subcommand("doctor")],
         Annotated[Demo, tyro.conf.subcommand("demo")],

@@ -23,41 +23,46 @@ class LSTM(nn.LSTM):
     def __init__(self, num_inputs: int, num_units: int):
         super().__init__(num_inputs, num_units)
 
-    def step(self, inputs: torch.Tensor, state: State) -> tuple[torch.Tensor, State]:
+    def project(self, inputs: torch.Tensor) -> torch.Tensor:
+        """What `step` and `unroll` take: on a processor what inputs [N, F] and biases add to the gates, [N, 4 H].
+
+        It depends on no state, so what is known of a time step when it is acted on need not be computed again to learn.
+        """
+        if inputs.is_cuda:  # torch's kernels there want the inputs themselves.
+            return inputs
+        return torch.addmm(self.bias_ih_l0 + self.bias_hh_l0, inputs, self.weight_ih_l0.t())
+
+    def step(self, projected: torch.Tensor, state: State) -> tuple[torch.Tensor, State]:
         """One time step, not to be differentiated.
 
         Args:
-          inputs: [N, F].
+          projected: what `project` returned for N inputs.
           state: hidden and cell state, each [1, N, H].
 
         Returns:
           Outputs [N, H] and the next state.
         """
-        if inputs.is_cuda:
-            outputs, state = self(inputs[None], state)
+        if projected.is_cuda:
+            outputs, state = self(projected[None], state)
             return outputs[0], state
         hidden, cell = state[0][0], state[1][0]
-        gates = self._project(inputs).addmm_(hidden, self.weight_hh_l0.t())
-        hidden, cell, _ = _advance(gates, cell)
+        hidden, cell, _ = _advance(torch.addmm(projected, hidden, self.weight_hh_l0.t()), cell)
         return hidden, (hidden[None], cell[None])
 
-    def unroll(self, inputs: torch.Tensor, batch_sizes: torch.Tensor) -> torch.Tensor:
+    def unroll(self, projected: torch.Tensor, batch_sizes: torch.Tensor) -> torch.Tensor:
         """Whole sequences from a state of zeros, with gradients.
 
         Args:
-          inputs: packed sequences, the longest first: all first steps, then all second steps, ..., [N, F].
+          projected: what `project` returned for N inputs, packed: the longest sequence first, all first steps, then
+            all second steps, and so on.
           batch_sizes: how many sequences have a t-th step, int64 [T]; they sum to N.
 
         Returns:
           Outputs, packed alike, [N, H].
         """
-        if inputs.is_cuda:
-            return self(nn.utils.rnn.PackedSequence(inputs, batch_sizes))[0].data
-        return _Unroll.apply(self._project(inputs), self.weight_hh_l0, batch_sizes.tolist())
-
-    def _project(self, inputs: torch.Tensor) -> torch.Tensor:
-        """What the inputs and the biases add to the gates, [N, 4 H]."""
-        return torch.addmm(self.bias_ih_l0 + self.bias_hh_l0, inputs, self.weight_ih_l0.t())
+        if projected.is_cuda:
+            return self(nn.utils.rnn.PackedSequence(projected, batch_sizes))[0].data
+        return _Unroll.apply(projected, self.weight_hh_l0, batch_sizes.tolist())
 
 
 def _advance(gates: torch.Tensor, cell: torch.Tensor | None):

@@ -7,7 +7,7 @@ import numpy as np
 import torch
 from torch import nn
 
-from physexp.agents import lstm
+from physexp.agents import devices, lstm
 
 Observation = Mapping[str, torch.Tensor]
 
@@ -22,9 +22,60 @@ class FeatureTorso(nn.Module):
         self._scale = scale
         self.num_outputs = sum(int(np.prod(observation_spec[name].shape)) for name in self._names)
 
+    def calibrate(self, first: Observation) -> None:
+        """Needs nothing: features are what they are."""
+
     def forward(self, observation: Observation) -> torch.Tensor:
         """Maps arrays [N, ...] to inputs of the LSTM, [N, num_outputs]."""
         return self._scale * torch.cat([observation[name].flatten(1) for name in self._names], dim=1)
+
+
+class PixelTorso(nn.Module):
+    """The paper's convolutions (Section 4): 32@8x8/4, 64@4x4/2 and 64@3x3/1 with ReLU.
+
+    Pixels are taken relative to a reference image and scaled. Images that are the same bytes, as all first images are,
+    pass the convolutions once.
+    """
+
+    reference: torch.Tensor
+
+    def __init__(self, observation_spec: Mapping[str, specs.Array], scale: float):
+        """Builds the torso for one image; `scale` is a factor on pixels in [0, 1].
+
+        The reference image is black, as in the paper, until `calibrate` is called.
+        """
+        super().__init__()
+        ((self._name, spec),) = observation_spec.items()
+        height, width, channels = spec.shape
+        self._scale = scale / 255
+        layers = nn.Sequential(nn.Conv2d(channels, 32, 8, 4), nn.ReLU(), nn.Conv2d(32, 64, 4, 2), nn.ReLU(),
+                               nn.Conv2d(64, 64, 3), nn.ReLU())  # fmt: skip
+        self.convolutions = layers.to(memory_format=torch.channels_last)  # type: ignore[call-overload]
+        self.register_buffer("reference", torch.zeros(height, width, channels, dtype=torch.uint8))
+        with torch.no_grad():
+            self.num_outputs = self.convolutions(torch.zeros(1, channels, height, width)).numel()
+
+    def calibrate(self, first: Observation) -> None:
+        """Makes the first of these images, uint8 [N, height, width, 3], the reference."""
+        self.reference.copy_(first[self._name][0])
+
+    def forward(self, observation: Observation) -> torch.Tensor:
+        """Maps images, uint8 [N, height, width, 3], to inputs of the LSTM, [N, num_outputs]."""
+        images = observation[self._name]
+        distinct, places = _distinct(images)
+        device = self.reference.device
+        pixels = (images[distinct].to(device).float() - self.reference.float()).mul_(self._scale)
+        # [N, height, width, 3] read as [N, 3, height, width] is what torch calls channels last.
+        outputs = self.convolutions(pixels.permute(0, 3, 1, 2)).flatten(1)
+        return outputs if len(distinct) == len(images) else outputs[places.to(device)]
+
+
+def _distinct(images: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
+    """Indices of one of each of the images that are the same bytes, and for each image its place among them."""
+    numbers: dict[bytes, int] = {}
+    places = [numbers.setdefault(image.tobytes(), len(numbers)) for image in images.numpy()]
+    first = np.unique(places, return_index=True)[1]
+    return torch.from_numpy(first), torch.tensor(places)
 
 
 class RecurrentActorCritic(nn.Module):
@@ -40,7 +91,8 @@ class RecurrentActorCritic(nn.Module):
           lstm_units, observation_scale: see `A3CConfig`.
         """
         super().__init__()
-        self.torso = FeatureTorso(observation_spec, observation_scale)
+        self.sees_images = all(spec.dtype == np.uint8 for spec in observation_spec.values())
+        self.torso = (PixelTorso if self.sees_images else FeatureTorso)(observation_spec, observation_scale)
         self.lstm = lstm.LSTM(self.torso.num_outputs, lstm_units)
         self.policy = nn.Linear(lstm_units, num_actions)
         self.value = nn.Linear(lstm_units, 1)
@@ -48,32 +100,46 @@ class RecurrentActorCritic(nn.Module):
     def initial_state(self, batch_size: int) -> lstm.State:
         """The state at an episode's start: zeros, hidden and cell each [1, batch_size, units]."""
         shape = (1, batch_size, self.lstm.hidden_size)
-        return torch.zeros(shape), torch.zeros(shape)
+        return torch.zeros(shape, device=self.device), torch.zeros(shape, device=self.device)
 
-    def step(self, observation: Observation, state: lstm.State) -> tuple[torch.Tensor, torch.Tensor, lstm.State]:
+    @property
+    def device(self) -> torch.device:
+        """Where the network computes."""
+        return self.value.weight.device
+
+    def calibrate(self, first: Observation) -> None:
+        """Tells the torso what an episode's first observation looks like, arrays [N, ...]; it is always the same."""
+        self.torso.calibrate(first)
+
+    def encode(self, observation: Observation) -> torch.Tensor:
+        """Maps observations, arrays [N, ...], to what the LSTM takes, float32 [N, F]."""
+        with devices.autocast(self.device):
+            return self.lstm.project(self.torso(observation).to(self.device)).float()
+
+    def step(self, inputs: torch.Tensor, state: lstm.State) -> tuple[torch.Tensor, torch.Tensor, lstm.State]:
         """One time step of many episodes.
 
         Args:
-          observation: arrays [N, ...].
+          inputs: what `encode` returned, [N, F].
           state: hidden and cell state, each [1, N, units].
 
         Returns:
           Logits [N, A], values [N] and the next state.
         """
-        outputs, state = self.lstm.step(self.torso(observation), state)
+        outputs, state = self.lstm.step(inputs, state)
         return *self._heads(outputs), state
 
-    def unroll(self, observation: Observation, batch_sizes: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
+    def unroll(self, inputs: torch.Tensor, batch_sizes: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
         """Whole episodes from their first steps, packed: sorted from the longest to the shortest, no padding.
 
         Args:
-          observation: arrays [N, ...]: all first steps, then all second steps, and so on.
+          inputs: what `encode` returned, [N, F]: all first steps, then all second steps, and so on.
           batch_sizes: how many episodes have a t-th step, int64 [T]; they sum to N.
 
         Returns:
           Logits [N, A] and values [N].
         """
-        return self._heads(self.lstm.unroll(self.torso(observation), batch_sizes))
+        return self._heads(self.lstm.unroll(inputs, batch_sizes))
 
     def _heads(self, outputs):
         return self.policy(outputs), self.value(outputs).squeeze(-1)

@@ -47,7 +47,9 @@ def run(sections: Sequence[str], runs_dir: Path) -> Iterator[dict]:
 
             yield from bench_learning.run(runs_dir)
         else:
-            yield from {"reset": _reset, "batch": _batch, "training": _training, "peers": _peers}[section]()
+            yield from {"reset": _reset, "batch": _batch, "training": _training, "peers": _peers, "pixels": _pixels}[
+                section
+            ]()
 
 
 def rates(*sides: Callable[[], int], seconds: float = 1.0) -> list[float]:
@@ -80,13 +82,13 @@ def _batch() -> Iterator[dict]:
     targets = {"heavier": (60, 200, 0.7), "direct": (6, 15, 0.85), "fist": (6, 15, 0.85)}
     for name, (loop_target, recompile_target, bare_target) in targets.items():
         batch, loop, recompiling = rates(
-            random_batch(name), random_loop(_environment(name)), random_loop(_recompiling(name))
+            random_batch(TASKS[name]), random_loop(_environment(name)), random_loop(_recompiling(name))
         )
         yield row(f"batch of {BATCH} / loop over suite.load: {name}", batch / loop, "x", loop_target, batch=batch,
                   loop=loop)  # fmt: skip
         yield row(f"batch of {BATCH} / composer that recompiles: {name}", batch / recompiling, "x", recompile_target,
                   batch=batch, recompiling=recompiling)  # fmt: skip
-        batch, bare = rates(random_batch(name, only_interactions=True), bare_batch(name), seconds=3.0)
+        batch, bare = rates(random_batch(TASKS[name], only_interactions=True), bare_batch(name), seconds=3.0)
         yield row(f"batch / bare mujoco Batch.step: {name}", batch / bare, "x", bare_target, batch=batch, bare=bare)
 
 
@@ -126,17 +128,17 @@ def random_loop(environment) -> Callable[[], int]:
     return play
 
 
-def random_batch(name: str, only_interactions: bool = False) -> Callable[[], int]:
+def random_batch(task: tuple[str, str], size: int = BATCH, only_interactions: bool = False) -> Callable[[], int]:
     """Uniformly random actions in a batch."""
-    environment = suite.load_batch(*TASKS[name], BATCH, {"random": 0}, THREADS)
+    environment = suite.load_batch(*task, size, {"random": 0}, THREADS)
     generator = np.random.default_rng(0)
     rules = environment.task.rules
     num_actions = rules.num_interactions if only_interactions else rules.num_actions
     environment.reset()
 
     def play() -> int:
-        environment.step(generator.integers(num_actions, size=BATCH))
-        return BATCH
+        environment.step(generator.integers(num_actions, size=size))
+        return size
 
     return play
 
@@ -169,18 +171,18 @@ def bare_batch(name: str) -> Callable[[], int]:
 
 def _training() -> Iterator[dict]:
     for name, target in (("heavier", 0.35), ("direct", 0.8), ("fist", 0.8)):
-        trained, random = _training_rate(name, 20.0), rates(random_batch(name), seconds=2.0)[0]
+        trained, random = training_rate(TASKS[name], 20.0), rates(random_batch(TASKS[name]), seconds=2.0)[0]
         yield row(f"training / random policy in the batch: {name}", trained / random, "x", target, training=trained,
                   random=random)  # fmt: skip
 
 
-def _training_rate(name: str, seconds: float) -> float:
+def training_rate(task: tuple[str, str], seconds: float) -> float:
     """Frames per second of the default agent on two workers, from scratch, once all workers are under way."""
     from physexp.agents.a3c import agent as agent_lib
     from physexp.analysis import config as config_lib
     from physexp.analysis import training
 
-    config = config_lib.TrainConfig(domain=TASKS[name][0], task=TASKS[name][1], agent=config_lib.preset(*TASKS[name]))
+    config = config_lib.TrainConfig(domain=task[0], task=task[1], agent=config_lib.preset(*task))
     agent = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent)
     heard: set[int] = set()
     start, frames, at_start = None, 0, 0
@@ -201,5 +203,12 @@ def _peers() -> Iterator[dict]:
     from physexp.analysis import bench_peers
 
     peer = bench_peers.recurrent_ppo_rate(*TASKS["heavier"], seconds=30.0)
-    ours = _training_rate("heavier", 20.0)
+    ours = training_rate(TASKS["heavier"], 20.0)
     yield row("training / sb3-contrib RecurrentPPO: heavier", ours / peer, "x", 50, training=ours, peer=peer)
+
+
+def _pixels() -> Iterator[dict]:
+    from physexp.analysis import bench_pixels
+
+    yield from bench_pixels.rendering_figures()
+    yield from bench_pixels.training_figures()

@@ -10,11 +10,17 @@ from physexp.agents.a3c import config as a3c
 # Simulation is what a tower costs, not learning: smaller updates and more of them. Blocks move by their own size.
 _TOWERS = a3c.A3CConfig(discount=0.98, envs_per_worker=64, entropy_cost=0.04, final_entropy_cost=0.001,
                         observation_scale=10.0)  # fmt: skip
+# Every frame passes the convolutions, which is what pixels cost: small updates, and no frame more than is needed.
+_HEAVIER_PIXELS = a3c.A3CConfig(frames=800_000, envs_per_worker=64, learning_rate=1e-3, observation_scale=4.0)
+_TOWERS_PIXELS = _TOWERS.replace(envs_per_worker=32, learning_rate=1e-3, observation_scale=16.0)
 
 PRESETS = {
     ("which_is_heavier", "features"): a3c.A3CConfig(),
+    ("which_is_heavier", "pixels"): _HEAVIER_PIXELS,
     ("towers", "direct_features"): _TOWERS.replace(frames=3_000_000),
     ("towers", "fist_features"): _TOWERS.replace(frames=2_000_000),
+    ("towers", "direct_pixels"): _TOWERS_PIXELS.replace(frames=2_000_000),
+    ("towers", "fist_pixels"): _TOWERS_PIXELS.replace(frames=1_000_000),
 }
 """The default configuration of each task's agent; `docs/performance.md` says how they were found."""
 

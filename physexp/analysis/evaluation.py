@@ -6,9 +6,10 @@ import functools
 import numpy as np
 import torch
 
-from physexp.agents import networks
+from physexp.agents import devices, networks
 from physexp.agents.a3c import acting
 from physexp.agents.a3c import agent as agent_lib
+from physexp.analysis import config as config_lib
 from physexp.analysis import run as run_lib
 from physexp.analysis import statistics, training
 
@@ -63,17 +64,26 @@ def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
 
 
 def evaluate(run: run_lib.Run, num_episodes: int, interaction: str = "learned", greedy: bool = False,
-             seed: int = SEED, num_threads: int = 2) -> Episodes:  # fmt: skip
-    """Plays episodes with a run's agent.
+             seed: int = SEED, num_threads: int = 2, device: str = "auto") -> Episodes:  # fmt: skip
+    """Plays episodes with the agent of a run that has a checkpoint; otherwise as `play`."""
+    return play(load_network(run), run.config, num_episodes, interaction, greedy, seed, num_threads, device)
+
+
+def play(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig, num_episodes: int,
+         interaction: str = "learned", greedy: bool = False, seed: int = SEED, num_threads: int = 2,
+         device: str = "auto") -> Episodes:  # fmt: skip
+    """Plays episodes with a network.
 
     Args:
-      run: a run with a checkpoint.
+      network: the agent's network.
+      config: says what it plays.
       num_episodes: how many.
       interaction: `learned`, or `random` for the paper's randomized interaction (Section 5.3): labeling actions pass,
         an interaction action is replaced by one drawn uniformly.
       greedy: take the likeliest action instead of drawing one.
       seed: of the environments and the actions.
       num_threads: threads that simulate.
+      device: where convolutions are computed, as in `A3CConfig`.
 
     Raises:
       ValueError: for an unknown interaction or a number of episodes below one.
@@ -83,8 +93,8 @@ def evaluate(run: run_lib.Run, num_episodes: int, interaction: str = "learned", 
     if num_episodes < 1:
         raise ValueError(f"episodes is {num_episodes}; give a number >= 1")
     torch.set_num_threads(1)
-    network = load_network(run)
-    environment = training.make_environment(run.config, seed, min(num_episodes, _BATCH), num_threads)
+    network.to(devices.choose(device, network.sees_images))
+    environment = training.make_environment(config, seed, min(num_episodes, _BATCH), num_threads)
     num_interactions = environment.task.num_interactions
     interference = functools.partial(randomize, num_interactions) if interaction == "random" else None
     rewards, lengths, interactions = [], [], []

@@ -13,6 +13,8 @@ import io
 import json
 from pathlib import Path
 import platform
+import shutil
+import subprocess
 from typing import Any
 
 import pyarrow
@@ -88,7 +90,8 @@ class Run:
         if (self.path / "config.json").exists():
             raise ValueError(f"{self.path} already holds a run; add --resume to continue it, or choose another folder")
         self.path.mkdir(parents=True, exist_ok=True)
-        content = {"format": FORMAT, "train": config.to_json(), "versions": versions()}
+        content = {"format": FORMAT, "train": config.to_json(), "versions": versions(), "commit": commit(),
+                   "renderer": renderer(config)}  # fmt: skip
         checkpointing.write_atomically(self.path / "config.json", (json.dumps(content, indent=1) + "\n").encode())
 
     def lock(self) -> None:
@@ -146,6 +149,27 @@ class Run:
         for part in (self.path / "episodes.parquet").glob("part-*.parquet"):
             if int(part.stem.removeprefix("part-")) > frames:
                 part.unlink()
+
+
+def renderer(config: config_lib.TrainConfig) -> str:
+    """What draws the images of a run, or that none are drawn."""
+    from physexp import suite
+    from physexp.suite import rendering
+
+    task = suite.load_task(config.domain, config.task, config.task_kwargs)
+    return rendering.renderer_name() if task.sense.needs_gl else "none is needed"
+
+
+def commit() -> str:
+    """The commit of the source that is running, with `+` where files differ from it; `unknown` outside a checkout."""
+    if shutil.which("git") is None:
+        return "unknown"
+    git = ["git", "-C", str(Path(__file__).parent)]
+    found = subprocess.run([*git, "rev-parse", "HEAD"], capture_output=True, text=True, check=False)
+    if found.returncode:
+        return "unknown"
+    changed = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", ".."], check=False).returncode
+    return found.stdout.strip() + ("+" if changed else "")
 
 
 def versions() -> dict[str, str]:

@@ -132,8 +132,7 @@ class _Recorder:
         if error.round is None:
             return ""
         path = self._run.path / "failed_batch.npz"
-        names = ("actions", "rewards", "lengths")
-        arrays: dict[str, Any] = {name: getattr(error.round, name) for name in names} | error.round.observations
+        arrays: dict[str, Any] = {name: np.asarray(value) for name, value in vars(error.round).items()}
         np.savez_compressed(path, **arrays)
         return f" (the batch is in {path})"
 

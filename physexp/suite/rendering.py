@@ -37,6 +37,10 @@ class Renderer:
     """Draws images of one scene, whatever the poses of its geoms, in a GL context of its own.
 
     Only the thread that made a renderer can use it.
+
+    Attributes:
+      context: its GL context.
+      scene, buffers: what MuJoCo draws, and with what.
     """
 
     def __init__(self, model, camera: str = "observer", size: int = SIZE):
@@ -52,22 +56,22 @@ class Renderer:
         """
         import mujoco  # Here, so that the module that chooses the backend comes before mujoco.
 
-        self._context = _make_context(size)
+        self.context = _make_context(size)
         self._thread = threading.get_ident()
         self._exit_hook = functools.partial(_close, weakref.ref(self))
         atexit.register(self._exit_hook)  # A context that outlives the backend's own exit hook cannot be freed.
-        self._context.make_current()
+        self.context.make_current()
         drawn = _with_buffer(model, size)
-        self._buffers = mujoco.MjrContext(drawn, mujoco.mjtFontScale.mjFONTSCALE_50)
-        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self._buffers)
+        self.buffers = mujoco.MjrContext(drawn, mujoco.mjtFontScale.mjFONTSCALE_50)
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self.buffers)
         self._render, self._read = mujoco.mjr_render, mujoco.mjr_readPixels
         self._rectangle = mujoco.MjrRect(0, 0, size, size)
         self._upside_down = np.zeros((size, size, 3), np.uint8)  # As GL reads it: the lowest row first.
-        self._scene = _make_scene(drawn, camera)
+        self.scene = _make_scene(drawn, camera)
         # Views of the poses of what can move, in the scene that MuJoCo draws.
         self._moving = [
             (geom.objid, geom.pos, geom.mat)
-            for geom in self._scene.geoms[: self._scene.ngeom]
+            for geom in self.scene.geoms[: self.scene.ngeom]
             if model.body_weldid[model.geom_bodyid[geom.objid]] != 0
         ]
         warn_if_software(gl_renderer_name())
@@ -83,27 +87,27 @@ class Renderer:
         Raises:
           RuntimeError: if the renderer is closed, or was made by another thread.
         """
-        if self._context is None:
+        if self.context is None:
             raise RuntimeError("the renderer is closed")
         if threading.get_ident() != self._thread:
             raise RuntimeError("an environment's images are drawn by the thread that drew its first; use that one")
-        self._context.make_current()  # Another renderer may have been at work since.
+        self.context.make_current()  # Another renderer may have been at work since.
         matrices = geom_xmat.reshape(len(geom_xmat), -1, 3, 3)
         for row, positions, rotations in zip(rows, geom_xpos, matrices, strict=True):
             for geom, position, rotation in self._moving:
                 position[:] = positions[geom]
                 rotation[:] = rotations[geom]
-            self._render(self._rectangle, self._scene, self._buffers)
-            self._read(self._upside_down, None, self._rectangle, self._buffers)
+            self._render(self._rectangle, self.scene, self.buffers)
+            self._read(self._upside_down, None, self._rectangle, self.buffers)
             images[row] = self._upside_down[::-1]
 
     def close(self) -> None:
         """Frees the context. Closing twice does nothing."""
-        if self._context is not None:
-            self._context.make_current()
-            self._buffers.free()
-            self._context.free()
-            self._context = None
+        if self.context is not None:
+            self.context.make_current()
+            self.buffers.free()
+            self.context.free()
+            self.context = None
             atexit.unregister(self._exit_hook)
 
 
@@ -135,9 +139,7 @@ def _make_scene(model, camera: str):
     view = mujoco.MjvCamera()
     view.type = mujoco.mjtCamera.mjCAMERA_FIXED
     view.fixedcamid = model.camera(camera).id
-    mujoco.mjv_updateScene(
-        model, data, option, mujoco.MjvPerturb(), view, mujoco.mjtCatBit.mjCAT_ALL.value, scene
-    )
+    mujoco.mjv_updateScene(model, data, option, mujoco.MjvPerturb(), view, mujoco.mjtCatBit.mjCAT_ALL.value, scene)
     return scene
 
 

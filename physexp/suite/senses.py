@@ -19,6 +19,9 @@ class Sense(abc.ABC):
     fields: ClassVar[tuple[str, ...]]
     """The fields of `MjData` that are looked at."""
 
+    needs_gl: ClassVar[bool]
+    """Whether images are drawn."""
+
     @abc.abstractmethod
     def spec(self, apparatus: apparatus_lib.Apparatus) -> dict[str, tuple[tuple[int, ...], type]]:
         """Shape and type of each observation."""
@@ -35,6 +38,7 @@ class Sense(abc.ABC):
           observations: arrays with a leading axis that `rows` index; written to.
         """
 
+    @abc.abstractmethod
     def close(self) -> None:
         """Frees what the sense holds."""
 
@@ -43,6 +47,7 @@ class Features(Sense):
     """Sensor values as float32 arrays."""
 
     fields = ("sensordata",)
+    needs_gl = False
 
     def spec(self, apparatus):
         return {name: (addresses.shape, np.float32) for name, addresses in apparatus.readings.items()}
@@ -51,11 +56,15 @@ class Features(Sense):
         for name, addresses in apparatus.readings.items():
             observations[name][rows] = state["sensordata"][:, addresses]
 
+    def close(self):
+        """Needs nothing: features hold nothing."""
+
 
 class Pixels(Sense):
     """One image, `pixels`, from the task's camera. The GL context is made when the first image is drawn."""
 
     fields = ("geom_xpos", "geom_xmat")
+    needs_gl = True
 
     def __init__(self):
         self._renderer: rendering.Renderer | None = None

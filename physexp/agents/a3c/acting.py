@@ -18,14 +18,15 @@ class Round:
     """Whole episodes, one in each environment of a batch, padded to the longest.
 
     Attributes:
-      observations: what was seen before each action, arrays [T, B, ...].
+      inputs: the network's encoding of what was seen before each action, all first steps, then all second steps, and
+        so on, [N, F]; with the graph that made it where the round is to be learned from; None in records.
       actions: actions taken, int64 [T, B].
       rewards: rewards that followed, float32 [T, B].
       lengths: actions in each episode, int64 [B].
       answers: the right labels, int64 [B]: for records, not for learning.
     """
 
-    observations: dict[str, np.ndarray]
+    inputs: torch.Tensor | None
     actions: np.ndarray
     rewards: np.ndarray
     lengths: np.ndarray
@@ -34,6 +35,17 @@ class Round:
     @property
     def num_frames(self) -> int:
         return int(self.lengths.sum())
+
+    def detached(self) -> "Round":
+        """The same round, to be looked at but not to be learned from."""
+        return dataclasses.replace(self, inputs=None if self.inputs is None else self.inputs.detach().cpu())
+
+    def packed_inputs(self, order: np.ndarray) -> torch.Tensor:
+        """The inputs, episodes in the given order: [N, F]."""
+        assert self.inputs is not None
+        played = np.arange(len(self.actions))[:, None] < self.lengths
+        places = played.ravel().cumsum().reshape(played.shape) - 1
+        return self.inputs[self.packed(places, order).to(self.inputs.device)]
 
     def packed(self, array: np.ndarray, order: np.ndarray) -> torch.Tensor:
         """The steps of an array [T, B, ...] that were played, episodes in the given order: [N, ...]."""
@@ -48,14 +60,15 @@ def as_tensors(observation) -> dict[str, torch.Tensor]:
 
 def sample(logits: torch.Tensor, generator: np.random.Generator) -> np.ndarray:
     """Draws actions, int64 [N], from logits [N, A]."""
-    cumulative = torch.softmax(logits, dim=-1).numpy().cumsum(axis=1)
+    cumulative = torch.softmax(logits, dim=-1).cpu().numpy().cumsum(axis=1)
     thresholds = generator.random((len(cumulative), 1)) * cumulative[:, -1:]
     return (cumulative <= thresholds).sum(axis=1).clip(max=cumulative.shape[1] - 1)
 
 
-@torch.inference_mode()
+@torch.no_grad()
 def play_round(network: networks.RecurrentActorCritic, environment, episode: int, generator: np.random.Generator,
-               greedy: bool = False, interference: Interference | None = None) -> Round:  # fmt: skip
+               greedy: bool = False, interference: Interference | None = None,
+               differentiable: bool = False) -> Round:  # fmt: skip
     """Plays one whole episode in each environment of a batch.
 
     Args:
@@ -65,6 +78,8 @@ def play_round(network: networks.RecurrentActorCritic, environment, episode: int
       generator: source of the actions.
       greedy: take the likeliest action instead of drawing one.
       interference: changes the chosen actions on their way to the environment.
+      differentiable: keep what it takes to differentiate the inputs. A round is learned from with the parameters that
+        it is played with, so what is seen passes the torso only once.
     """
     timestep = environment.reset(episode=episode)
     active = np.arange(environment.num_environments)
@@ -72,33 +87,33 @@ def play_round(network: networks.RecurrentActorCritic, environment, episode: int
     steps, lengths = [], np.zeros(len(active), np.int64)
     while len(active):
         observation = timestep.observation
-        logits, _, state = network.step(as_tensors(observation), state)
-        actions = logits.numpy().argmax(axis=1) if greedy else sample(logits, generator)
+        with torch.set_grad_enabled(differentiable):
+            inputs = network.encode(as_tensors(observation))
+        logits, _, state = network.step(inputs, state)
+        actions = logits.cpu().numpy().argmax(axis=1) if greedy else sample(logits, generator)
         if interference is not None:
             actions = interference(actions, generator)
         timestep = environment.step(actions, active)
-        steps.append((active, observation, actions, timestep.reward))
+        steps.append((active, inputs, actions, timestep.reward))
         lengths[active] += 1
         going = timestep.step_type != dm_env.StepType.LAST
         if not going.all():
-            kept = torch.from_numpy(np.flatnonzero(going))
+            kept = torch.from_numpy(np.flatnonzero(going)).to(logits.device)
             active, state = active[going], (state[0][:, kept], state[1][:, kept])
             timestep = timestep._replace(observation={k: v[going] for k, v in timestep.observation.items()})
-    return _collect(steps, lengths, environment.correct_answers)
+    with torch.set_grad_enabled(differentiable):
+        return _collect(steps, lengths, environment.correct_answers)
 
 
 def _collect(steps, lengths, answers) -> Round:
     """Joins the steps of a round into padded arrays."""
     shape = (len(steps), len(lengths))
-    first = steps[0][1]
-    observations = {name: np.zeros(shape + value.shape[1:], value.dtype) for name, value in first.items()}
     actions, rewards = np.zeros(shape, np.int64), np.zeros(shape, np.float32)
-    for t, (active, observation, taken, reward) in enumerate(steps):
-        for name, value in observation.items():
-            observations[name][t, active] = value
+    for t, (active, _, taken, reward) in enumerate(steps):
         actions[t, active] = taken
         rewards[t, active] = reward
-    return Round(observations, actions, rewards, lengths, answers)
+    inputs = torch.cat([inputs for _, inputs, _, _ in steps])
+    return Round(inputs, actions, rewards, lengths, answers)
 
 
 class A3CActor(core.Actor):
@@ -113,7 +128,7 @@ class A3CActor(core.Actor):
     @torch.inference_mode()
     def select_action(self, observation) -> int:
         tensors = {name: torch.as_tensor(value)[None] for name, value in observation.items()}
-        logits, _, self._state = self._network.step(tensors, self._state)
+        logits, _, self._state = self._network.step(self._network.encode(tensors), self._state)
         if self._greedy:
             return int(logits.argmax())
         return int(sample(logits, self._generator)[0])

@@ -15,7 +15,7 @@ import numpy as np
 import torch
 from torch import multiprocessing
 
-from physexp.agents import networks
+from physexp.agents import devices, networks
 from physexp.agents.a3c import acting, learning
 from physexp.agents.a3c import config as config_lib
 
@@ -53,11 +53,13 @@ def make_network(environment, config: config_lib.A3CConfig) -> networks.Recurren
     with torch.random.fork_rng():
         torch.manual_seed(config.seed)
         return networks.RecurrentActorCritic(
-            environment.observation_spec(),
-            environment.action_spec().num_values,
-            lstm_units=config.lstm_units,
-            observation_scale=config.observation_scale,
+            environment.observation_spec(), environment.action_spec().num_values, **hyperparameters(config)
         )
+
+
+def hyperparameters(config: config_lib.A3CConfig) -> dict[str, Any]:
+    """What a configuration says of the network, as its keyword arguments."""
+    return {"lstm_units": config.lstm_units, "observation_scale": config.observation_scale}
 
 
 class A3C:
@@ -80,7 +82,10 @@ class A3C:
         self._lock = self._context.Lock()
         self._stopping = self._context.Event()
         self._updates = self._context.Queue()
-        self.variables = learning.SharedVariables(make_network(environment, config), config.num_workers)
+        network = make_network(environment, config)
+        if config.relative_pixels:
+            network.calibrate(acting.as_tensors(environment.reset().observation))
+        self.variables = learning.SharedVariables(network, config.num_workers)
         environment.close()
         self._workers: list[Any] = []
 
@@ -208,6 +213,7 @@ def _work(index, make_environment, config, shared, lock, stopping, updates) -> N
     try:
         environment = make_environment(worker_seed(config.seed, index), config.envs_per_worker, 1)
         network = make_network(environment, config)
+        network.to(devices.choose(config.device, network.sees_images))
         rounds = _rounds(index, network, environment, config, shared)
         learner = learning.A3CLearner(network, shared, lock, rounds, index, config)
         while not stopping.is_set() and int(shared.frames) < config.frames:
@@ -215,7 +221,7 @@ def _work(index, make_environment, config, shared, lock, stopping, updates) -> N
             if parent is not None and not parent.is_alive():  # Killed: nobody is left to stop this worker.
                 updates.cancel_join_thread()
                 return
-            updates.put(Update(index, metrics, dataclasses.replace(learner.last_round, observations={})))
+            updates.put(Update(index, metrics, dataclasses.replace(learner.last_round, inputs=None)))
     except learning.DivergedError as error:
         updates.put(WorkerError(f"worker {index}: {error}", error.round))
     except Exception as error:
@@ -227,7 +233,7 @@ def _rounds(index, network, environment, config, shared) -> Iterator[acting.Roun
     while True:
         number = int(shared.rounds[index])
         generator = np.random.default_rng([config.seed, index, number])
-        yield acting.play_round(network, environment, number, generator)
+        yield acting.play_round(network, environment, number, generator, differentiable=True)
 
 
 def worker_seed(seed: int, index: int) -> int:

@@ -2,6 +2,9 @@
 
 import dataclasses
 import math
+from typing import Literal, get_args
+
+Device = Literal["auto", "cpu", "cuda"]
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -22,6 +25,8 @@ class A3CConfig:
       lstm_units: hidden units of the LSTM (paper: 100).
       observation_scale: factor on features. They are in metres; what matters in them, a centimetre or a tenth of a
         metre, should be of the order of one.
+      relative_pixels: show the network how pixels differ from those at an episode's start; False is the paper's.
+      device: where convolutions are computed: `cpu`, `cuda`, or `auto` for the GPU where there is one.
       checkpoint_seconds: time between checkpoints, s.
 
     """
@@ -38,6 +43,8 @@ class A3CConfig:
     max_gradient_norm: float = 1.0
     lstm_units: int = 100
     observation_scale: float = 40.0
+    relative_pixels: bool = True
+    device: Device = "auto"
     checkpoint_seconds: float = 60.0
 
     def replace(self, **changes) -> "A3CConfig":
@@ -55,5 +62,7 @@ class A3CConfig:
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0) or (name in positive and value == 0):
                 raise ValueError(f"{name} is {value!r}; give a finite number {'> 0' if name in positive else '>= 0'}")
+        if self.device not in get_args(Device):
+            raise ValueError(f"device is {self.device!r}; choose from {', '.join(get_args(Device))}")
         if not 0 < self.discount <= 1:
             raise ValueError(f"discount is {self.discount!r}; give a number in (0, 1]")

@@ -92,7 +92,7 @@ class A3CLearner(core.Learner):
         loss.backward()
         norm = torch.nn.utils.clip_grad_norm_(self._network.parameters(), config.max_gradient_norm)
         if not (torch.isfinite(loss) and torch.isfinite(norm)):
-            raise DivergedError(f"loss {loss.item()} with gradient norm {norm.item()}", episodes)
+            raise DivergedError(f"loss {loss.item()} with gradient norm {norm.item()}", episodes.detached())
         return {
             "policy_loss": policy_loss.item(),
             "baseline_loss": baseline_loss.item(),
@@ -105,7 +105,8 @@ class A3CLearner(core.Learner):
     def _apply_gradients(self, num_frames: int, progress: float) -> None:
         shared = self._shared
         for target, own in zip(shared.network.parameters(), self._network.parameters(), strict=True):
-            target.grad = own.grad
+            assert own.grad is not None  # Every parameter takes part in the loss.
+            target.grad = own.grad.to(target.device)
         for group in shared.optimizer.param_groups:
             group["lr"] = self._config.learning_rate * (1 - progress)
         shared.optimizer.step()
@@ -133,10 +134,8 @@ def round_losses(network: networks.RecurrentActorCritic, episodes: acting.Round,
     lengths = episodes.lengths[order]
     times = np.arange(len(episodes.actions))[:, None]
     batch_sizes = torch.from_numpy((times < lengths).sum(axis=1))
-    observations = {name: episodes.packed(value, order) for name, value in episodes.observations.items()}
-    logits, values = network.unroll(observations, batch_sizes)
+    logits, values = network.unroll(episodes.packed_inputs(order), batch_sizes)
     discounts = (discount * (times < episodes.lengths - 1)).astype(np.float32)
     returns = losses.discounted_returns(torch.from_numpy(episodes.rewards), torch.from_numpy(discounts))
-    return losses.actor_critic_losses(
-        logits, values, episodes.packed(episodes.actions, order), episodes.packed(returns.numpy(), order)
-    )
+    actions, packed_returns = (episodes.packed(array, order) for array in (episodes.actions, returns.numpy()))
+    return losses.actor_critic_losses(logits, values, actions.to(logits.device), packed_returns.to(logits.device))

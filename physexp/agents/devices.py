@@ -1,0 +1,39 @@
+"""Where a network computes, and how precisely."""
+
+import contextlib
+import functools
+from pathlib import Path
+
+import torch
+
+
+def choose(device: str, sees_images: bool) -> torch.device:
+    """The device to compute on.
+
+    Args:
+      device: `cpu`, `cuda`, or `auto`: the GPU where there is one and convolutions to compute. Without them a processor
+        is quicker.
+      sees_images: whether there are convolutions.
+
+    Raises:
+      RuntimeError: for `cuda` where torch finds no GPU.
+    """
+    if device == "cuda" and not torch.cuda.is_available():
+        raise RuntimeError("device is cuda, but torch finds no GPU here; choose cpu or auto")
+    wanted = device == "cuda" or (device == "auto" and sees_images)
+    return torch.device("cuda" if wanted and torch.cuda.is_available() else "cpu")
+
+
+def autocast(device: torch.device):
+    """A context in which convolutions and products are computed in bf16, where the hardware is made for it."""
+    if _has_fast_bfloat16(device.type):
+        return torch.autocast(device.type, torch.bfloat16)
+    return contextlib.nullcontext()
+
+
+@functools.cache
+def _has_fast_bfloat16(device_type: str) -> bool:
+    if device_type == "cuda":
+        return torch.cuda.is_bf16_supported(including_emulation=False)
+    cpuinfo = Path("/proc/cpuinfo")
+    return cpuinfo.exists() and " amx_bf16 " in cpuinfo.read_text()
