@@ -22,14 +22,39 @@ def discounted_returns(rewards: torch.Tensor, discounts: torch.Tensor) -> torch.
     return returns
 
 
-def actor_critic_losses(logits: torch.Tensor, values: torch.Tensor, actions: torch.Tensor, returns: torch.Tensor):
+def generalized_advantages(rewards: torch.Tensor, discounts: torch.Tensor, values: torch.Tensor, trace: float):
+    """Advantages of whole episodes (Schulman et al., 2016, equation 16).
+
+    A_t = delta_t + d_t trace A_{t+1}, where delta_t = r_t + d_t V_{t+1} - V_t. With a trace of 1 they are
+    `discounted_returns` minus the values: without bias, but every action pays for the luck of the answer at the end.
+
+    Args:
+      rewards, discounts: as for `discounted_returns`, [T, B].
+      values: estimates of the return at each action, [T, B]; anything where an episode is over.
+      trace: lambda, in [0, 1].
+
+    Returns:
+      Advantages, [T, B].
+    """
+    advantages = torch.zeros_like(rewards)
+    following, next_value = torch.zeros_like(rewards[0]), torch.zeros_like(rewards[0])
+    for t in reversed(range(len(rewards))):
+        delta = rewards[t] + discounts[t] * next_value - values[t]
+        advantages[t] = following = delta + discounts[t] * trace * following
+        next_value = values[t]
+    return advantages
+
+
+def actor_critic_losses(logits: torch.Tensor, values: torch.Tensor, actions: torch.Tensor, returns: torch.Tensor,
+                        advantages: torch.Tensor):  # fmt: skip
     """The three losses of advantage actor-critic (Mnih et al., 2016, Section 4), averaged over all leading axes.
 
     Args:
       logits: unnormalised log probabilities of the actions, [..., A].
       values: estimates of the return, [...].
       actions: actions taken, int64 [...].
-      returns: returns that followed, [...].
+      returns: returns that followed, the targets of the values, [...].
+      advantages: by how much each action was better than expected, [...]; constants.
 
     Returns:
       Policy loss, -log pi(a) times the advantage; baseline loss, half the squared error of the values; and the mean
@@ -37,8 +62,7 @@ def actor_critic_losses(logits: torch.Tensor, values: torch.Tensor, actions: tor
     """
     log_probabilities = torch.log_softmax(logits, dim=-1)
     taken = log_probabilities.gather(-1, actions[..., None]).squeeze(-1)
-    advantages = returns - values
     policy_loss = -(taken * advantages.detach()).mean()
-    baseline_loss = 0.5 * advantages.square().mean()
+    baseline_loss = 0.5 * (returns - values).square().mean()
     entropy = -(log_probabilities.exp() * log_probabilities).sum(-1).mean()
     return policy_loss, baseline_loss, entropy

@@ -1,6 +1,6 @@
 """The networks: a torso for each kind of observation, and the paper's recurrent actor-critic on top (Section 4)."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from dm_env import specs
 import numpy as np
@@ -110,6 +110,17 @@ class RecurrentActorCritic(nn.Module):
     def calibrate(self, first: Observation) -> None:
         """Tells the torso what an episode's first observation looks like, arrays [N, ...]; it is always the same."""
         self.torso.calibrate(first)
+
+    def prefer(self, logits: Sequence[float]) -> None:
+        """Makes the policy start from these logits, one for each action; none leave it as it is.
+
+        Raises:
+          ValueError: if there are some, but not as many as actions.
+        """
+        if logits and len(logits) != self.policy.out_features:
+            raise ValueError(f"action_prior has {len(logits)} logits; give {self.policy.out_features}, or none")
+        if logits:
+            self.policy.bias.data += torch.tensor(logits)
 
     def encode(self, observation: Observation) -> torch.Tensor:
         """Maps observations, arrays [N, ...], to what the LSTM takes, float32 [N, F]."""

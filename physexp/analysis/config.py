@@ -65,4 +65,14 @@ class TrainConfig:
 
     @classmethod
     def from_json(cls, fields: dict) -> "TrainConfig":
-        return cls(**{**fields, "agent": a3c.A3CConfig(**fields["agent"])})
+        return cls(
+            **{
+                **fields,
+                "agent": a3c.A3CConfig(
+                    **{
+                        name: tuple(value) if isinstance(value, list) else value
+                        for name, value in fields["agent"].items()
+                    }
+                ),
+            }
+        )

@@ -26,6 +26,9 @@ BAD = [
     ("baseline_cost", math.nan),
     ("max_gradient_norm", 0.0),
     ("observation_scale", -1.0),
+    ("trace", -0.1),
+    ("trace", 1.1),
+    ("trace", math.nan),
     ("checkpoint_seconds", 0.0),
 ]
 

@@ -10,7 +10,6 @@ from physexp.agents import environment_loop, networks
 from physexp.agents.a3c import acting
 
 torch.set_num_threads(1)  # As a worker does; more of them only wait for each other.
-FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
 
 
 def fresh_seed() -> int:
@@ -32,17 +31,18 @@ def make_network(environment, seed, kind=networks.RecurrentActorCritic):
 class Recording(networks.RecurrentActorCritic):
     """Keeps what each step returned."""
 
-    def step(self, observation, state):
-        logits, values, state = super().step(observation, state)
+    def step(self, inputs, state):
+        logits, values, state = super().step(inputs, state)
         self.seen = [*getattr(self, "seen", []), (logits.clone(), values.clone())]
         return logits, values, state
 
 
-@pytest.mark.parametrize(("domain", "task"), FEATURE_TASKS)
+@pytest.mark.parametrize(("domain", "task"), suite.ALL_TASKS)
 def test_acting_logits_and_values_equal_those_of_training(domain, task):
     seed = fresh_seed()
     batch = suite.load_batch(domain, task, 24, {"random": seed})
     network = make_network(batch, seed, Recording)
+    network.calibrate(acting.as_tensors(batch.reset().observation))
     episodes = acting.play_round(network, batch, 0, np.random.default_rng(seed))
     batch.close()
     lengths = episodes.lengths
@@ -51,9 +51,8 @@ def test_acting_logits_and_values_equal_those_of_training(domain, task):
     order = np.argsort(-lengths, kind="stable")
     alive = [order[lengths[order] > t] for t in range(lengths.max())]  # Longest first, as packing wants them.
     batch_sizes = torch.tensor([len(rows) for rows in alive])
-    observations = {name: episodes.packed(value, order) for name, value in episodes.observations.items()}
     with torch.no_grad():
-        logits, values = network.unroll(observations, batch_sizes)
+        logits, values = network.unroll(episodes.packed_inputs(order), batch_sizes)
     start = 0
     for t, rows in enumerate(alive):
         acted_logits, acted_values = network.seen[t]
@@ -66,12 +65,43 @@ def test_acting_logits_and_values_equal_those_of_training(domain, task):
     assert start == len(logits) == episodes.num_frames
 
 
+@pytest.mark.parametrize("task", ["features", "pixels"])
+def test_what_was_encoded_to_act_is_what_there_is_to_learn_from(task):
+    # Played and learned from with the same parameters, a frame passes the torso once; computed anew, from episodes that
+    # are rebuilt step by step in the single environment, its encoding and its gradient are the same.
+    seed = fresh_seed()
+    batch = suite.load_batch("which_is_heavier", task, 6, {"random": seed})
+    network = make_network(batch, seed)
+    episodes = acting.play_round(network, batch, 3, np.random.default_rng(seed), differentiable=True)
+    batch.close()
+    order = np.argsort(-episodes.lengths, kind="stable")
+    seen = [[] for _ in episodes.lengths]
+    for i, length in enumerate(episodes.lengths):
+        environment = suite.load("which_is_heavier", task, {"random": suite.environment_seed(seed, i)})
+        environment.task.next_episode = 3
+        timestep = environment.reset()
+        for action in episodes.actions[:length, i]:
+            seen[i].append(next(iter(timestep.observation.values())))
+            timestep = environment.step(action)
+        environment.close()
+    packed = [seen[i][t] for t in range(episodes.lengths.max()) for i in order if t < episodes.lengths[i]]
+    name = {"features": "heights", "pixels": "pixels"}[task]
+    anew = network.encode({name: torch.from_numpy(np.stack(packed))})
+    acted = episodes.packed_inputs(order)
+    torch.testing.assert_close(acted, anew, rtol=1e-4, atol=1e-5)
+    weights = torch.randn_like(anew)
+    parameters = [parameter for parameter in (*network.torso.parameters(), network.lstm.weight_ih_l0)]
+    for ours, theirs in zip(torch.autograd.grad((acted * weights).sum(), parameters),
+                            torch.autograd.grad((anew * weights).sum(), parameters), strict=True):  # fmt: skip
+        torch.testing.assert_close(ours, theirs, rtol=1e-3, atol=1e-4)
+
+
 def test_packing_lays_out_all_first_steps_then_all_second_steps_in_the_given_order():
     # Episode 0 has 1 action, 1 has 3, 2 has 2; the entry of step t of episode b is 10 b + t. From the longest to the
     # shortest (1, 2, 0): first steps 10, 20, 0; second steps 11, 21; third step 12.
     array = np.array([[0, 10, 20], [-1, 11, 21], [-1, 12, -1]])
     zeros = np.zeros((3, 3))
-    episodes = acting.Round({}, zeros.astype(np.int64), zeros, np.array([1, 3, 2]), np.zeros(3, np.int64))
+    episodes = acting.Round(None, zeros.astype(np.int64), zeros, np.array([1, 3, 2]), np.zeros(3, np.int64))
     assert episodes.packed(array, np.array([1, 2, 0])).tolist() == [10, 20, 0, 11, 21, 12]
     assert episodes.num_frames == 6
 
@@ -110,8 +140,7 @@ def test_a_round_depends_on_its_number_and_its_generator_but_not_on_earlier_roun
     first, second = played([]), played([0, 1, 5])
     for name in ("actions", "rewards", "lengths", "answers"):
         np.testing.assert_array_equal(getattr(first, name), getattr(second, name), err_msg=name)
-    for name in first.observations:
-        np.testing.assert_array_equal(first.observations[name], second.observations[name])
+    assert torch.equal(first.inputs, second.inputs)
 
 
 def test_rounds_of_another_number_are_other_episodes():
@@ -155,7 +184,7 @@ def test_the_lstm_starts_every_episode_from_zero():
     assert not torch.equal(logits[0], logits[1]), "the state has to move on within an episode"
 
 
-@pytest.mark.parametrize(("domain", "task"), FEATURE_TASKS)
+@pytest.mark.parametrize(("domain", "task"), suite.ALL_TASKS)
 def test_an_actor_plays_any_environment_of_the_suite_in_a_loop(domain, task):
     seed = fresh_seed()
     environment = suite.load(domain, task, {"random": seed})

@@ -29,6 +29,29 @@ def test_nothing_is_bootstrapped_past_an_episodes_end():
     assert returns[0, 1].item() == -1.0
 
 
+def test_advantages_with_a_trace_of_one_are_returns_minus_values():
+    seed = np.random.SeedSequence().entropy % 2**32
+    print("seed", seed)
+    generator = torch.Generator().manual_seed(seed)
+    rewards, values = (torch.randn(6, 4, generator=generator) for _ in range(2))
+    lengths = torch.tensor([1, 3, 5, 6])
+    discounts = 0.9 * (torch.arange(6)[:, None] < lengths - 1)
+    advantages = losses.generalized_advantages(rewards, discounts, values, 1.0)
+    expected = losses.discounted_returns(rewards, discounts) - values
+    played = torch.arange(6)[:, None] < lengths
+    torch.testing.assert_close(advantages[played], expected[played])
+
+
+def test_advantages_look_as_far_as_their_trace():
+    # Two steps, rewards 0 and 1, values 0.5 and 0.2, discount 0.5, then the end. The errors of one step are
+    # 0 + 0.5 * 0.2 - 0.5 = -0.4 and 1 - 0.2 = 0.8; with a trace of 0.25 the first adds 0.5 * 0.25 * 0.8 = 0.1.
+    rewards, values = torch.tensor([[0.0], [1.0]]), torch.tensor([[0.5], [0.2]])
+    discounts = torch.tensor([[0.5], [0.0]])
+    for trace, first in ((0.0, -0.4), (0.25, -0.3)):
+        advantages = losses.generalized_advantages(rewards, discounts, values, trace)
+        torch.testing.assert_close(advantages, torch.tensor([[first], [0.8]]))
+
+
 def test_the_losses_of_two_steps_are_those_computed_by_hand():
     # Logits (0, 0): pi = 1/2, 1/2; entropy ln 2. Logits (ln 3, 0): pi = 3/4, 1/4;
     # entropy -(3/4 ln 3/4 + 1/4 ln 1/4) = ln 4 - 3/4 ln 3.
@@ -40,6 +63,7 @@ def test_the_losses_of_two_steps_are_those_computed_by_hand():
         torch.tensor([0.5, 0.0]),
         torch.tensor([0, 1]),
         torch.tensor([1.0, -1.0]),
+        torch.tensor([0.5, -1.0]),
     )
     assert policy_loss.item() == pytest.approx(-0.75 * math.log(2), abs=1e-6)
     assert baseline_loss.item() == pytest.approx(0.3125, abs=1e-6)
@@ -50,10 +74,13 @@ def test_the_losses_do_not_care_how_the_leading_axes_are_laid_out():
     seed = np.random.SeedSequence().entropy % 2**32
     print("seed", seed)
     generator = torch.Generator().manual_seed(seed)
-    logits, values, returns = (torch.randn(shape, generator=generator) for shape in ((3, 2, 5), (3, 2), (3, 2)))
+    shapes = ((3, 2, 5), (3, 2), (3, 2), (3, 2))
+    logits, values, returns, advantages = (torch.randn(shape, generator=generator) for shape in shapes)
     actions = torch.randint(5, (3, 2), generator=generator)
-    apart = losses.actor_critic_losses(logits, values, actions, returns)
-    flat = losses.actor_critic_losses(logits.flatten(0, 1), values.flatten(), actions.flatten(), returns.flatten())
+    apart = losses.actor_critic_losses(logits, values, actions, returns, advantages)
+    flat = losses.actor_critic_losses(
+        logits.flatten(0, 1), values.flatten(), actions.flatten(), returns.flatten(), advantages.flatten()
+    )
     torch.testing.assert_close(apart, flat)
 
 
@@ -61,7 +88,7 @@ def test_gradients_of_each_loss_reach_what_they_should_and_nothing_else():
     logits = torch.tensor([[0.0, 1.0]], requires_grad=True)
     values = torch.tensor([0.5], requires_grad=True)
     policy_loss, baseline_loss, entropy = losses.actor_critic_losses(
-        logits, values, torch.tensor([0]), torch.tensor([1.0])
+        logits, values, torch.tensor([0]), torch.tensor([1.0]), torch.tensor([0.5])
     )
     # The policy loss is -log pi(0) * 0.5; its gradient on the logits is 0.5 * (pi - onehot).
     (gradient,) = torch.autograd.grad(policy_loss, logits, retain_graph=True)
@@ -83,9 +110,9 @@ def test_a_rounds_losses_are_means_over_the_steps_that_were_played_and_no_paddin
         for head in (network.policy, network.value):
             head.weight.zero_()
             head.bias.zero_()
-    observations = {name: np.zeros((3, 2, *spec.shape), spec.dtype) for name, spec in batch.observation_spec().items()}
+    inputs = network.encode({"heights": torch.zeros(4, 4)}).detach()
     rewards = np.array([[1, 0], [0, 0], [0, -1]], np.float32)
-    episodes = acting.Round(observations, np.zeros((3, 2), np.int64), rewards, np.array([1, 3]), np.zeros(2, np.int64))
+    episodes = acting.Round(inputs, np.zeros((3, 2), np.int64), rewards, np.array([1, 3]), np.zeros(2, np.int64))
     batch.close()
     policy_loss, baseline_loss, entropy = learning.round_losses(network, episodes, 0.5)
     assert policy_loss.item() == pytest.approx(math.log(8) * -0.75 / 4, abs=1e-6)

@@ -21,7 +21,10 @@ def test_unrolled_outputs_and_all_gradients_are_those_of_torch():
     inputs, batch_sizes = packed_inputs(4)
     layer = lstm.LSTM(4, 100)
     results = []
-    for unroll in (layer.unroll, lambda x, sizes: layer(torch.nn.utils.rnn.PackedSequence(x, sizes))[0].data):
+    for unroll in (
+        lambda x, sizes: layer.unroll(layer.project(x), sizes),
+        lambda x, sizes: layer(torch.nn.utils.rnn.PackedSequence(x, sizes))[0].data,
+    ):
         layer.zero_grad()
         x = inputs.clone().requires_grad_()
         outputs = unroll(x, batch_sizes)
@@ -35,7 +38,7 @@ def test_the_gradient_is_that_of_finite_differences():
     inputs, batch_sizes = packed_inputs(2)
     layer = lstm.LSTM(2, 3).double()
     weight = layer.weight_hh_l0.detach().clone().requires_grad_()
-    projections = layer._project(inputs.double()).detach().requires_grad_()
+    projections = layer.project(inputs.double()).detach().requires_grad_()
     assert torch.autograd.gradcheck(lambda p, w: lstm._Unroll.apply(p, w, batch_sizes.tolist()), (projections, weight))
 
 
@@ -43,7 +46,7 @@ def test_a_step_is_a_step_of_torch():
     layer = lstm.LSTM(4, 100)
     inputs, state = torch.randn(7, 4), (torch.randn(1, 7, 100), torch.randn(1, 7, 100))
     with torch.inference_mode():
-        outputs, (hidden, cell) = layer.step(inputs, state)
+        outputs, (hidden, cell) = layer.step(layer.project(inputs), state)
         expected, (expected_hidden, expected_cell) = layer(inputs[None], state)
     torch.testing.assert_close(outputs, expected[0], rtol=1e-5, atol=1e-6)
     torch.testing.assert_close(hidden, expected_hidden, rtol=1e-5, atol=1e-6)

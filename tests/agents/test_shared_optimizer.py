@@ -37,7 +37,7 @@ def learn_once(shared, lock, worker, results):
 
     def rounds():
         while True:
-            yield acting.play_round(network, batch, 0, np.random.default_rng(worker))
+            yield acting.play_round(network, batch, 0, np.random.default_rng(worker), differentiable=True)
 
     learner = learning.A3CLearner(network, shared, lock, rounds(), worker, CONFIG)
     metrics = learner.step()
@@ -104,7 +104,7 @@ def test_a_learner_restores_what_it_saved():
     def rounds():
         while True:
             number = int(shared.rounds[0])
-            yield acting.play_round(network, batch, number, np.random.default_rng(number))
+            yield acting.play_round(network, batch, number, np.random.default_rng(number), differentiable=True)
 
     learner = learning.A3CLearner(network, shared, multiprocessing.get_context("spawn").Lock(), rounds(), 0, config)
     learner.run(2)

@@ -56,11 +56,11 @@ def test_a_loss_that_is_not_a_number_stops_training_and_leaves_the_batch(tmp_pat
     assert path == str(run.path / "failed_batch.npz")
     with np.load(path) as batch:
         # One round of 32 episodes: everything needed to compute the loss again.
-        assert {"actions", "rewards", "lengths"} < set(batch.files)
+        assert {"inputs", "actions", "rewards", "lengths", "answers"} == set(batch.files)
         steps = len(batch["actions"])
-        assert batch["lengths"].shape == (32,) and batch["lengths"].max() == steps
-        for name in set(batch.files) - {"lengths"}:
-            assert batch[name].shape[:2] == (steps, 32), name
+        assert batch["lengths"].shape == batch["answers"].shape == (32,) and batch["lengths"].max() == steps
+        assert batch["actions"].shape == batch["rewards"].shape == (steps, 32)
+        assert len(batch["inputs"]) == batch["lengths"].sum()
     assert run.checkpointer.paths() == [checkpoint]
     assert checkpoint.read_bytes() == content
 

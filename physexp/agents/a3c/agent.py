@@ -83,6 +83,7 @@ class A3C:
         self._stopping = self._context.Event()
         self._updates = self._context.Queue()
         network = make_network(environment, config)
+        network.prefer(config.action_prior)
         if config.relative_pixels:
             network.calibrate(acting.as_tensors(environment.reset().observation))
         self.variables = learning.SharedVariables(network, config.num_workers)

@@ -20,11 +20,15 @@ class A3CConfig:
       learning_rate: step size of Adam, decaying linearly to zero over `frames`.
       entropy_cost: weight of the entropy bonus at the start.
       final_entropy_cost: the same at the end; the decay is exponential over `frames`.
+      trace: how far along an episode advantages look for what an action brought (lambda of generalized advantage
+        estimation); 1 is the paper's, which looks to the end.
       baseline_cost: weight of the value loss.
       max_gradient_norm: gradients are scaled down to this norm.
       lstm_units: hidden units of the LSTM (paper: 100).
       observation_scale: factor on features. They are in metres; what matters in them, a centimetre or a tenth of a
         metre, should be of the order of one.
+      action_prior: logits that the policy starts from, one for each action, or none for a uniform start; the paper's is
+        uniform.
       relative_pixels: show the network how pixels differ from those at an episode's start; False is the paper's.
       device: where convolutions are computed: `cpu`, `cuda`, or `auto` for the GPU where there is one.
       checkpoint_seconds: time between checkpoints, s.
@@ -39,10 +43,12 @@ class A3CConfig:
     learning_rate: float = 5e-3
     entropy_cost: float = 0.15
     final_entropy_cost: float = 0.0001
+    trace: float = 1.0
     baseline_cost: float = 0.5
     max_gradient_norm: float = 1.0
     lstm_units: int = 100
     observation_scale: float = 40.0
+    action_prior: tuple[float, ...] = ()
     relative_pixels: bool = True
     device: Device = "auto"
     checkpoint_seconds: float = 60.0
@@ -64,5 +70,9 @@ class A3CConfig:
                 raise ValueError(f"{name} is {value!r}; give a finite number {'> 0' if name in positive else '>= 0'}")
         if self.device not in get_args(Device):
             raise ValueError(f"device is {self.device!r}; choose from {', '.join(get_args(Device))}")
+        if not all(isinstance(logit, (int, float)) and math.isfinite(logit) for logit in self.action_prior):
+            raise ValueError(f"action_prior is {self.action_prior!r}; give finite numbers, one for each action")
+        if not 0 <= self.trace <= 1:
+            raise ValueError(f"trace is {self.trace!r}; give a number in [0, 1]")
         if not 0 < self.discount <= 1:
             raise ValueError(f"discount is {self.discount!r}; give a number in (0, 1]")

@@ -86,7 +86,7 @@ class A3CLearner(core.Learner):
     def _compute_gradients(self, episodes: acting.Round, progress: float) -> dict[str, float]:
         config = self._config
         entropy_cost = config.entropy_cost ** (1 - progress) * config.final_entropy_cost**progress
-        policy_loss, baseline_loss, entropy = round_losses(self._network, episodes, config.discount)
+        policy_loss, baseline_loss, entropy = round_losses(self._network, episodes, config.discount, config.trace)
         loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
         self._network.zero_grad()
         loss.backward()
@@ -128,14 +128,19 @@ class A3CLearner(core.Learner):
                 value.copy_(state[name])
 
 
-def round_losses(network: networks.RecurrentActorCritic, episodes: acting.Round, discount: float):
+def round_losses(network: networks.RecurrentActorCritic, episodes: acting.Round, discount: float, trace: float = 1.0):
     """The losses of a round (see `losses.actor_critic_losses`), the network unrolled over whole episodes."""
     order = np.argsort(-episodes.lengths, kind="stable")
     lengths = episodes.lengths[order]
     times = np.arange(len(episodes.actions))[:, None]
-    batch_sizes = torch.from_numpy((times < lengths).sum(axis=1))
-    logits, values = network.unroll(episodes.packed_inputs(order), batch_sizes)
-    discounts = (discount * (times < episodes.lengths - 1)).astype(np.float32)
-    returns = losses.discounted_returns(torch.from_numpy(episodes.rewards), torch.from_numpy(discounts))
-    actions, packed_returns = (episodes.packed(array, order) for array in (episodes.actions, returns.numpy()))
-    return losses.actor_critic_losses(logits, values, actions.to(logits.device), packed_returns.to(logits.device))
+    played = times < lengths
+    logits, values = network.unroll(episodes.packed_inputs(order), torch.from_numpy(played.sum(axis=1)))
+    rewards = torch.from_numpy(episodes.rewards[:, order])
+    discounts = torch.from_numpy((discount * (times < lengths - 1)).astype(np.float32))
+    returns = losses.discounted_returns(rewards, discounts)
+    mask = torch.from_numpy(played)
+    padded_values = torch.zeros_like(rewards).masked_scatter_(mask, values.detach().cpu())
+    advantages = losses.generalized_advantages(rewards, discounts, padded_values, trace)
+    actions = episodes.packed(episodes.actions, order)
+    packed = (array.to(logits.device) for array in (actions, returns[mask], advantages[mask]))
+    return losses.actor_critic_losses(logits, values, *packed)

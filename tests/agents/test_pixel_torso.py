@@ -1,0 +1,139 @@
+"""The paper's convolutions, and where and how precisely they are computed."""
+
+import numpy as np
+import pytest
+import torch
+
+from physexp import suite
+from physexp.agents import devices, networks
+from physexp.agents.a3c import acting
+
+SCALE = 3.0
+# What bf16, with 8 bits of precision, leaves of three convolutions and a product: a hundredth of the largest output.
+BF16_TOLERANCE = 1e-2
+
+
+def fresh_images(number):
+    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    print("seed", seed)
+    torch.manual_seed(seed)
+    return torch.randint(256, (number, 84, 84, 3), dtype=torch.uint8)
+
+
+def make_torso():
+    batch = suite.load_batch("towers", "fist_pixels", 1)
+    torso = networks.PixelTorso(batch.observation_spec(), SCALE)
+    batch.close()
+    return torso
+
+
+def make_network():
+    batch = suite.load_batch("towers", "fist_pixels", 1)
+    network = networks.RecurrentActorCritic(batch.observation_spec(), 9, lstm_units=100, observation_scale=SCALE)
+    batch.close()
+    return network
+
+
+def test_the_layers_are_the_papers():
+    images = fresh_images(2)
+    torso = make_torso()
+    sizes, x = [], images.permute(0, 3, 1, 2).float()
+    for layer in torso.convolutions:
+        x = layer(x)
+        sizes.append(tuple(x.shape[1:]))
+    # 84 pixels: (84 - 8) / 4 + 1 = 20, (20 - 4) / 2 + 1 = 9, 9 - 3 + 1 = 7; each is followed by a ReLU.
+    assert sizes == [(32, 20, 20)] * 2 + [(64, 9, 9)] * 2 + [(64, 7, 7)] * 2
+    assert torso.num_outputs == 64 * 7 * 7
+
+
+def test_pixels_are_taken_relative_to_the_first_image_and_scaled():
+    images = fresh_images(3)
+    torso = make_torso()
+    torso.calibrate({"pixels": images[1:]})
+    expected = torso.convolutions(SCALE / 255 * (images.float() - images[1].float()).permute(0, 3, 1, 2)).flatten(1)
+    torch.testing.assert_close(torso({"pixels": images}), expected, rtol=1e-4, atol=1e-5)
+    nothing = torso({"pixels": images[1:2]})
+    torch.testing.assert_close(nothing, torso.convolutions(torch.zeros(1, 3, 84, 84)).flatten(1))
+
+
+def test_without_a_reference_pixels_are_the_papers_between_zero_and_the_scale():
+    images = fresh_images(2)
+    torso = make_torso()
+    expected = torso.convolutions((SCALE / 255 * images.float()).permute(0, 3, 1, 2)).flatten(1)
+    torch.testing.assert_close(torso({"pixels": images}), expected, rtol=1e-4, atol=1e-5)
+
+
+def test_images_that_are_the_same_pass_the_convolutions_once_and_count_each_time():
+    images = fresh_images(3)
+    torso = make_torso()
+    repeated = images[[0, 1, 0, 2, 2, 0]]
+    passed = []
+    torso.convolutions.register_forward_hook(lambda module, inputs, outputs: passed.append(len(inputs[0])))
+    outputs = torso({"pixels": repeated})
+    assert passed == [3]
+    weights = torch.randn_like(outputs)
+    once = torch.autograd.grad((outputs * weights).sum(), list(torso.parameters()))
+    one_by_one = torch.cat([torso({"pixels": image[None]}) for image in repeated])
+    torch.testing.assert_close(outputs, one_by_one, rtol=1e-4, atol=1e-5)
+    each = torch.autograd.grad((one_by_one * weights).sum(), list(torso.parameters()))
+    for ours, theirs in zip(once, each, strict=True):
+        torch.testing.assert_close(ours, theirs, rtol=1e-3, atol=1e-3)
+
+
+def test_the_policy_starts_from_the_logits_it_is_told():
+    images = fresh_images(4)
+    network = make_network()
+    before, _, _ = network.step(network.encode({"pixels": images}), network.initial_state(4))
+    prior = torch.arange(9.0)
+    network.prefer(prior.tolist())
+    after, _, _ = network.step(network.encode({"pixels": images}), network.initial_state(4))
+    torch.testing.assert_close(after - before, prior.expand(4, 9))
+    with pytest.raises(ValueError, match="action_prior has 2 logits; give 9, or none"):
+        network.prefer([1.0, 2.0])
+
+
+def test_features_are_computed_on_the_processor_unless_told_otherwise():
+    assert devices.choose("auto", sees_images=False).type == "cpu"
+    assert devices.choose("cpu", sees_images=True).type == "cpu"
+
+
+@pytest.mark.skipif(torch.cuda.is_available(), reason="needs a machine without a GPU")
+def test_a_gpu_that_is_not_there_is_refused_when_asked_for_and_done_without_otherwise():
+    assert devices.choose("auto", sees_images=True).type == "cpu"
+    with pytest.raises(RuntimeError, match="device is cuda, but torch finds no GPU here; choose cpu or auto"):
+        devices.choose("cuda", sees_images=True)
+
+
+def largest_difference(network, images, expected):
+    with torch.no_grad():
+        outputs = network.encode({"pixels": images}).cpu()
+    assert outputs.dtype == torch.float32
+    return ((outputs - expected).abs().max() / expected.abs().max()).item()
+
+
+def test_bf16_agrees_with_float32_within_its_precision(monkeypatch):
+    images, network = fresh_images(8), make_network()
+    monkeypatch.setattr(devices, "_has_fast_bfloat16", lambda device_type: False)
+    with torch.no_grad():
+        expected = network.encode({"pixels": images})
+    monkeypatch.setattr(devices, "_has_fast_bfloat16", lambda device_type: True)
+    difference = largest_difference(network, images, expected)
+    assert 0 < difference < BF16_TOLERANCE
+
+
+@pytest.mark.skipif(not torch.cuda.is_available(), reason="needs a GPU")
+def test_a_gpu_agrees_with_the_processor_within_bf16():
+    images, network = fresh_images(8), make_network()
+    with torch.no_grad():
+        expected = network.encode({"pixels": images})
+    inputs = network.torso.to("cuda")({"pixels": images})
+    assert inputs.is_cuda
+    network.to("cpu")
+    batch = suite.load_batch("towers", "fist_pixels", 4, {"random": 0})
+    network.to("cuda")
+    episodes = acting.play_round(network, batch, 0, np.random.default_rng(0))
+    batch.close()
+    assert episodes.num_frames > 0
+    with torch.no_grad():
+        projected = network.to("cpu").lstm.project(inputs.float().cpu())
+    assert ((projected - expected).abs().max() / expected.abs().max()).item() < BF16_TOLERANCE
