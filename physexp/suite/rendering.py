@@ -68,12 +68,10 @@ class Renderer:
         self._rectangle = mujoco.MjrRect(0, 0, size, size)
         self._upside_down = np.zeros((size, size, 3), np.uint8)  # As GL reads it: the lowest row first.
         self.scene = _make_scene(drawn, camera)
-        # Views of the poses of what can move, in the scene that MuJoCo draws.
-        self._moving = [
-            (geom.objid, geom.pos, geom.mat)
-            for geom in self.scene.geoms[: self.scene.ngeom]
-            if model.body_weldid[model.geom_bodyid[geom.objid]] != 0
-        ]
+        moving = model.body_weldid[model.geom_bodyid] != 0
+        drawn_geoms = [(i, geom.objid) for i, geom in enumerate(self.scene.geoms[: self.scene.ngeom])]
+        self._places, self._moving = (np.array([p[k] for p in drawn_geoms if moving[p[1]]], np.intp) for k in (0, 1))
+        self._positions, self._rotations = _poses(self.scene)
         warn_if_software(gl_renderer_name())
 
     def render(self, geom_xpos: np.ndarray, geom_xmat: np.ndarray, rows: np.ndarray, images: np.ndarray) -> None:
@@ -92,11 +90,11 @@ class Renderer:
         if threading.get_ident() != self._thread:
             raise RuntimeError("an environment's images are drawn by the thread that drew its first; use that one")
         self.context.make_current()  # Another renderer may have been at work since.
-        matrices = geom_xmat.reshape(len(geom_xmat), -1, 3, 3)
-        for row, positions, rotations in zip(rows, geom_xpos, matrices, strict=True):
-            for geom, position, rotation in self._moving:
-                position[:] = positions[geom]
-                rotation[:] = rotations[geom]
+        positions = geom_xpos[:, self._moving].astype(np.float32)
+        rotations = geom_xmat[:, self._moving].astype(np.float32)
+        for row, position, rotation in zip(rows, positions, rotations, strict=True):
+            self._positions[self._places] = position
+            self._rotations[self._places] = rotation
             self._render(self._rectangle, self.scene, self.buffers)
             self._read(self._upside_down, None, self._rectangle, self.buffers)
             images[row] = self._upside_down[::-1]
@@ -141,6 +139,21 @@ def _make_scene(model, camera: str):
     view.fixedcamid = model.camera(camera).id
     mujoco.mjv_updateScene(model, data, option, mujoco.MjvPerturb(), view, mujoco.mjtCatBit.mjCAT_ALL.value, scene)
     return scene
+
+
+def _poses(scene) -> tuple[np.ndarray, np.ndarray]:
+    """Positions [number of geoms, 3] and rotations [.., 9] of a scene's geoms, as views: written all at once.
+
+    A scene's geoms are one array of structs; MuJoCo's bindings show them one by one, at a cost that drawing so small an
+    image makes felt.
+    """
+    first, second = scene.geoms[0], scene.geoms[1]
+    stride = second.pos.__array_interface__["data"][0] - first.pos.__array_interface__["data"][0]
+    shown = []
+    for field in (first.pos, first.mat):
+        shape, strides = (scene.ngeom, field.size), (stride, field.itemsize)
+        shown.append(np.lib.stride_tricks.as_strided(field, shape, strides))
+    return shown[0], shown[1]
 
 
 def _make_context(size: int):
