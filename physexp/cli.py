@@ -4,12 +4,14 @@ import dataclasses
 import json
 from pathlib import Path
 import sys
-from typing import Annotated, Literal, Union
+from typing import Annotated, Literal, Union, get_args
 
 import tyro
 from tyro.conf import OmitArgPrefixes, Positional
 
 from physexp.analysis import config as config_lib
+
+BenchSection = Literal["reset", "batch", "training", "peers", "pixels", "pretrained", "learning"]
 
 
 @dataclasses.dataclass
@@ -141,9 +143,7 @@ class Bench:
       json: print JSON.
     """
 
-    sections: Positional[tuple[Literal["reset", "batch", "training", "peers", "pixels", "learning"], ...]] = (
-        "reset", "batch", "training", "peers", "pixels",
-    )  # fmt: skip
+    sections: Positional[tuple[BenchSection, ...]] = get_args(BenchSection)[:-1]
     runs_dir: Path = Path("runs")
     json: bool = False
 

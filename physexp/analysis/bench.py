@@ -46,6 +46,10 @@ def run(sections: Sequence[str], runs_dir: Path) -> Iterator[dict]:
             from physexp.analysis import bench_learning
 
             yield from bench_learning.run(runs_dir)
+        elif section == "pretrained":
+            from physexp.analysis import bench_pretrained
+
+            yield from bench_pretrained.run()
         else:
             yield from {"reset": _reset, "batch": _batch, "training": _training, "peers": _peers, "pixels": _pixels}[
                 section

@@ -11,7 +11,7 @@ from physexp.agents.a3c import config as a3c
 _TOWERS = a3c.A3CConfig(discount=0.98, envs_per_worker=64, entropy_cost=0.04, final_entropy_cost=0.001,
                         observation_scale=10.0)  # fmt: skip
 # Every frame passes the convolutions, which is what pixels cost: small updates, and no frame more than is needed.
-_HEAVIER_PIXELS = a3c.A3CConfig(frames=700_000, envs_per_worker=64, learning_rate=1e-3, trace=0.9,
+_HEAVIER_PIXELS = a3c.A3CConfig(frames=500_000, envs_per_worker=64, learning_rate=1e-3, trace=0.9,
                                 observation_scale=8.0)  # fmt: skip
 _TOWERS_PIXELS = a3c.A3CConfig(discount=0.98, envs_per_worker=32, learning_rate=1e-3, trace=0.5, entropy_cost=0.01,
                                final_entropy_cost=0.001, observation_scale=16.0)  # fmt: skip
@@ -28,7 +28,7 @@ PRESETS = {
     ("towers", "direct_features"): _TOWERS.replace(frames=3_000_000),
     ("towers", "fist_features"): _TOWERS.replace(frames=2_000_000),
     ("towers", "direct_pixels"): _TOWERS_PIXELS.replace(frames=1_300_000, action_prior=_prior(20, -1.0)),
-    ("towers", "fist_pixels"): _TOWERS_PIXELS.replace(frames=1_200_000, action_prior=_prior(4, -3.0)),
+    ("towers", "fist_pixels"): _TOWERS_PIXELS.replace(frames=500_000, action_prior=_prior(4, -3.0)),
 }
 """The default configuration of each task's agent; `docs/performance.md` says how they were found."""
 
