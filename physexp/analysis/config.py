@@ -27,7 +27,7 @@ PRESETS = {
     ("which_is_heavier", "pixels"): _HEAVIER_PIXELS,
     ("towers", "direct_features"): _TOWERS.replace(frames=3_000_000),
     ("towers", "fist_features"): _TOWERS.replace(frames=2_000_000),
-    ("towers", "direct_pixels"): _TOWERS_PIXELS.replace(frames=1_300_000, action_prior=_prior(20, -1.0)),
+    ("towers", "direct_pixels"): _TOWERS_PIXELS.replace(frames=400_000, action_prior=_prior(20, -1.0)),
     ("towers", "fist_pixels"): _TOWERS_PIXELS.replace(frames=500_000, action_prior=_prior(4, -3.0)),
 }
 """The default configuration of each task's agent; `docs/performance.md` says how they were found."""

@@ -50,7 +50,7 @@ def _shared(domain_name, task_name, random, size=None, control_timestep=0.1):
     if size is None:
         _opened.append(suite.load(domain_name, task_name, task_kwargs))
     else:
-        _opened.append(suite.load_batch(domain_name, task_name, size, task_kwargs, num_threads=2))
+        _opened.append(suite.load_batch(domain_name, task_name, size, task_kwargs))
     return _opened[-1]
 
 
