@@ -72,4 +72,4 @@ def _flag(name: str, value) -> list[str]:
     flag = name.replace("_", "-")
     if isinstance(value, bool):
         return [f"--{flag}" if value else f"--no-{flag}"]
-    return [f"--{flag}", str(value)]
+    return [f"--{flag}", *(str(item) for item in (value if isinstance(value, (list, tuple)) else [value]))]
