@@ -23,7 +23,7 @@ sys.path[:0] = sys.argv[1:]
 import physexp
 print(physexp.__file__)
 
-from physexp import suite
+from physexp import agents, suite
 
 for domain, task in suite.ALL_TASKS:
     environment = suite.load(domain, task, task_kwargs={"random": 0})
@@ -34,6 +34,11 @@ for domain, task in suite.ALL_TASKS:
     assert batch.reset().first().all()
     action = batch.action_spec().generate_value()
     assert batch.step([action, action]).mid().all()
+
+    actor = agents.load_pretrained(domain, task)
+    timestep = environment.reset()
+    actor.observe_first(timestep)
+    environment.step(actor.select_action(timestep.observation))
 
     print(domain, task)
 """
@@ -88,11 +93,13 @@ def test_every_task_plays_from_the_wheel_outside_the_checkout(installed, tmp_pat
     assert lines[1:] == [f"{domain} {task}" for domain, task in suite.ALL_TASKS]
 
 
-def test_the_wheel_holds_the_package_with_its_types_and_no_tests(source, wheel):
+def test_the_wheel_holds_the_package_with_its_types_and_trained_agents_and_no_tests(source, wheel):
     modules = {str(path.relative_to(source)) for path in (source / "physexp").rglob("*.py")}
+    trained = {str(path.relative_to(source)) for path in (source / "physexp/agents/pretrained_agents").iterdir()}
     names = zipfile.ZipFile(wheel).namelist()
 
-    assert {name for name in names if ".dist-info/" not in name} == modules | {"physexp/py.typed"}
+    assert trained
+    assert {name for name in names if ".dist-info/" not in name} == modules | trained | {"physexp/py.typed"}
 
 
 def test_the_wheel_carries_the_licence(distribution):

@@ -17,6 +17,7 @@ DEBIAN_PACKAGES = "Debian's libegl1 and libgl1-mesa-dri, or libosmesa6"
 
 _LIBRARIES = {"egl": "EGL", "osmesa": "OSMesa"}  # In order of preference.
 _OFF = ("disable", "disabled", "off", "false", "0")  # What MuJoCo understands as no GL.
+_SAID = "PHYSEXP_SOFTWARE_RENDERING_SAID"  # Workers inherit it: one of all processes says it.
 _SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software rasterizer")
 
 
@@ -196,10 +197,10 @@ def is_software(name: str) -> bool:
     return any(software in name.lower() for software in _SOFTWARE)
 
 
-@functools.cache
 def warn_if_software(name: str) -> None:
     """Says once that images are drawn on the processor although the machine has a GPU."""
-    if is_software(name) and gpu_is_present():
+    if is_software(name) and gpu_is_present() and _SAID not in os.environ:
+        os.environ[_SAID] = "1"
         warnings.warn(
             f"PIXELS ARE DRAWN BY THE PROCESSOR ({name}) although this machine has a GPU: "
             "its EGL driver is not visible; install it, or set MUJOCO_GL",

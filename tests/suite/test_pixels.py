@@ -96,12 +96,17 @@ def drawn(monkeypatch):
     return counts
 
 
+def _single(domain_name, task_name, number=0):
+    """The environment that is one of the batch's, about to start its first episode."""
+    single = _shared(domain_name, task_name, suite.environment_seed(SEED, number))
+    single.task.next_episode = 0
+    return single
+
+
 def _start_both(domain_name, task_name, size):
     """A batch and its single environments, in their first episodes."""
     batch = _shared(domain_name, task_name, SEED, size)
-    singles = [_shared(domain_name, task_name, suite.environment_seed(SEED, i)) for i in range(size)]
-    for single in singles:
-        single.task.next_episode = 0
+    singles = [_single(domain_name, task_name, i) for i in range(size)]
     _assert_same(batch.reset(episode=0), [single.reset() for single in singles])
     return batch, singles
 
@@ -219,9 +224,8 @@ def _box(mask) -> np.ndarray:
 
 
 @every_pixel_task
-def test_a_pixel_task_observes_one_image_and_nothing_else(load, domain_name, task_name):
-    assert (domain_name, task_name) in suite.ALL_TASKS
-    single, batch = load(domain_name, task_name, 0), load(domain_name, task_name, 0, 3)
+def test_a_pixel_task_observes_one_image_and_nothing_else(domain_name, task_name):
+    single, batch = _single(domain_name, task_name), _shared(domain_name, task_name, SEED, 3)
     for spec in (single.observation_spec(), batch.observation_spec()):
         assert {name: (array.shape, array.dtype) for name, array in spec.items()} == {"pixels": (SHAPE, np.uint8)}
     for step in (single.reset(), single.step(0), single.step(single.task.num_interactions)):
@@ -271,9 +275,9 @@ def test_blocks_are_drawn_where_they_are(load, seed):
 
 
 @every_pixel_task
-def test_the_front_of_every_block_is_seen_at_first(load, domain_name, task_name):
+def test_the_front_of_every_block_is_seen_at_first(domain_name, task_name):
     model = _model(domain_name, task_name)
-    image = _image(load(domain_name, task_name, 0).reset())
+    image = _image(_single(domain_name, task_name).reset())
     front = CORNERS[:, 1] < 0
     for number, corners in enumerate(_corners(model, *_at_rest(model))[0]):
         area = spatial.ConvexHull(_project(model, corners[front])).volume  # In the plane that is the area.
@@ -344,9 +348,9 @@ def test_chosen_environments_step_without_the_others(seed, domain_name, task_nam
 @every_pixel_task
 def test_an_image_does_not_depend_on_how_many_environments_or_threads_there_are(load, seed, domain_name, task_name):
     rng = np.random.default_rng(seed)
-    shapes = [(1, 1), (3, 1), (5, 2)]
-    batches = [load(domain_name, task_name, seed, *shape) for shape in shapes]
-    first = [_image(batch.reset()) for batch in batches]
+    batches = [load(domain_name, task_name, seed, 1), _shared(domain_name, task_name, seed, 3)]
+    batches.append(load(domain_name, task_name, seed, 5, num_threads=2))
+    first = [_image(batch.reset(episode=0)) for batch in batches]
     for t in range(20):
         actions = _random_actions(rng, batches[0].task, 5)
         images = [_image(batch.step(actions[: batch.num_environments])) for batch in batches]
@@ -356,10 +360,10 @@ def test_an_image_does_not_depend_on_how_many_environments_or_threads_there_are(
 
 
 @every_pixel_task
-def test_the_image_of_an_environment_that_is_not_stepped_stays(load, domain_name, task_name):
+def test_the_image_of_an_environment_that_is_not_stepped_stays(domain_name, task_name):
     """A label shows the image that its environment saw last: the others' steps have not written there."""
-    batch = load(domain_name, task_name, 0, 3)
-    batch.reset()
+    batch = _shared(domain_name, task_name, SEED, 3)
+    batch.reset(episode=0)
     before = _image(batch.step([0, 0, 0]))
     for action in (0, 1, 2, 3):
         others = _image(batch.step([action, action], np.array([0, 2])))
@@ -368,27 +372,25 @@ def test_the_image_of_an_environment_that_is_not_stepped_stays(load, domain_name
 
 
 @every_pixel_task
-def test_images_that_were_returned_are_the_callers_own(load, domain_name, task_name):
+def test_images_that_were_returned_are_the_callers_own(domain_name, task_name):
     """Later steps do not write into them, and writing into them changes nothing that is seen later."""
-    single, twin = (load(domain_name, task_name, 0) for _ in range(2))
-    batch, twins = (load(domain_name, task_name, 0, 2) for _ in range(2))
-    for environment, untouched, actions in ((single, twin, [0, 1]), (batch, twins, [[0, 0], [1, 1]])):
-        label = np.add(actions[0], environment.task.num_interactions)
-        steps = [environment.reset()]
-        kept = [_image(steps[0]).copy()]
-        for action in (*actions, label):
-            steps.append(environment.step(action))
+    batch, (single, *_) = _start_both(domain_name, task_name, 3)
+    label = batch.task.num_interactions
+    plays = [
+        (lambda: _single(domain_name, task_name).reset(), single.step, [0, 1, label, 2, 3]),
+        (lambda: batch.reset(episode=0), batch.step, [[0, 0, 1], [1, label, 0], [label, 0, 2]]),
+    ]
+    for start, step, actions in plays:
+        steps, kept = [start()], []
+        for action in actions:
             kept.append(_image(steps[-1]).copy())
-        for step, copy in zip(steps, kept, strict=True):
-            np.testing.assert_array_equal(_image(step), copy)
-            _image(step)[:] = 77
-        untouched.reset()
-        for action in (*actions, label):
-            untouched.step(action)
-        for action in (*actions, label):  # The first of them starts an episode.
-            step, expected = environment.step(action), untouched.step(action)
-            np.testing.assert_array_equal(_image(step), _image(expected))
-            _image(step)[:] = 77
+            steps.append(step(action))
+        again = start()
+        for action, earlier, copy in zip(actions, steps, kept, strict=False):
+            np.testing.assert_array_equal(_image(earlier), copy)
+            np.testing.assert_array_equal(_image(again), copy)
+            _image(again)[:] = 77
+            again = step(action)
 
 
 # How often is drawn.
@@ -444,8 +446,8 @@ def test_a_batch_draws_one_image_for_each_environment_that_interacts_and_one_fir
 
 
 @every_pixel_task
-def test_the_image_of_a_label_is_the_one_before(load, domain_name, task_name):
-    env, batch = load(domain_name, task_name, 0), load(domain_name, task_name, 0, 2)
+def test_the_image_of_a_label_is_the_one_before(domain_name, task_name):
+    batch, (env, *_) = _start_both(domain_name, task_name, 3)
     for label in range(env.task.num_labels):
         first = _image(env.reset())
         for t in range(3):
@@ -456,36 +458,35 @@ def test_the_image_of_a_label_is_the_one_before(load, domain_name, task_name):
         np.testing.assert_array_equal(_image(answer), before)
         batch.reset(episode=0)
         for t in range(2):
-            before = _image(batch.step([t, 0]))
-        answer = batch.step([batch.task.num_interactions + label, 0])
-        np.testing.assert_array_equal(answer.step_type, [dm_env.StepType.LAST, dm_env.StepType.MID])
+            before = _image(batch.step([t, 0, 1]))
+        answer = batch.step([batch.task.num_interactions + label, 0, 1])
+        np.testing.assert_array_equal(
+            answer.step_type, [dm_env.StepType.LAST, dm_env.StepType.MID, dm_env.StepType.MID]
+        )
         np.testing.assert_array_equal(_image(answer)[0], before[0])
-        assert (_image(answer)[1] != before[1]).any()
+        assert (_image(answer)[1:] != before[1:]).any(axis=(1, 2, 3)).all()
 
 
 @every_pixel_task
-def test_the_image_of_an_episode_that_diverges_is_the_one_before(load, domain_name, task_name):
-    batch = load(domain_name, task_name, 0, 2)
-    single = load(domain_name, task_name, suite.environment_seed(0, 1))
-    batch.reset()
-    single.reset()
+def test_the_image_of_an_episode_that_diverges_is_the_one_before(domain_name, task_name):
+    batch, singles = _start_both(domain_name, task_name, 3)
     for _ in range(5):
-        before = batch.step([0, 0])
-        _assert_same(_row(before, 1), [single.step(0)])
+        before = batch.step([0, 0, 0])
+        _assert_same(before, [single.step(0) for single in singles])
     _overwrite_velocity(batch, 1)
-    single.physics.data.qvel[0] = np.nan
-    last, expected = batch.step([1, 1]), single.step(1)
-    assert last.step_type.tolist() == [1, 2]
-    _assert_same(_row(last, 1), [expected])
-    np.testing.assert_array_equal(_image(last)[1], _image(before)[1])
-    assert (_image(last)[0] != _image(before)[0]).any(), "the other one did not go on"
-    _assert_same(_row(batch.step([0, 0]), 1), [single.step(0)])
+    singles[1].physics.data.qvel[0] = np.nan
+    last = batch.step([1, 1, 1])
+    assert last.step_type.tolist() == [1, 2, 1]
+    _assert_same(last, [single.step(1) for single in singles])
+    changed = (_image(last) != _image(before)).any(axis=(1, 2, 3))
+    np.testing.assert_array_equal(changed, [True, False, True])
+    _assert_same(batch.step([0, 0, 0]), [single.step(0) for single in singles])
 
 
 @every_pixel_task
-def test_when_all_environments_of_a_batch_diverge_their_images_are_the_ones_before(load, domain_name, task_name):
-    batch = load(domain_name, task_name, 0, 3)
-    batch.reset()
+def test_when_all_environments_of_a_batch_diverge_their_images_are_the_ones_before(domain_name, task_name):
+    batch = _shared(domain_name, task_name, SEED, 3)
+    batch.reset(episode=0)
     first = _image(batch.step([0, 0, 0]))
     before = _image(batch.step([1, 1, 1]))
     assert (before != first).any()
@@ -500,12 +501,6 @@ def test_when_all_environments_of_a_batch_diverge_their_images_are_the_ones_befo
 def _overwrite_velocity(batch, environment: int) -> None:
     """With something that MuJoCo cannot go on from."""
     batch._groups[int(batch._structures[environment])]._batch.bind("qvel")[environment, 0] = np.nan
-
-
-def _row(steps: dm_env.TimeStep, row: int) -> dm_env.TimeStep:
-    """The time step of one environment of a batch, as of a batch of one."""
-    observation = {name: value[[row]] for name, value in steps.observation.items()}
-    return dm_env.TimeStep(steps.step_type[[row]], steps.reward[[row]], steps.discount[[row]], observation)
 
 
 # Nothing leaks.
@@ -570,12 +565,12 @@ def test_the_images_of_an_episode_that_leaves_the_tower_alone_are_the_same_whate
     assert not leaks, f"{len(leaks)} leaks (control step, what), the first: {leaks[:4]}"
 
 
-def test_a_poked_block_tells_nothing_of_the_others_which_stay_as_they_were(load, seed):
+def test_a_poked_block_tells_nothing_of_the_others_which_stay_as_they_were():
     """Masses are given to the blocks in turn: 0.5 kg or 1 kg to the poked one, 0.2 kg or 1 kg to the others."""
     model = _model(*HEAVIER)
-    first = _image(load(*HEAVIER, seed).reset())
+    env = _single(*HEAVIER)
+    first = _image(env.reset())
     columns = _project(model, _corners(model, *_at_rest(model))[0])[..., 0]
-    env = load(*HEAVIER, seed)
 
     def play(poked, mass, others):
         env.task.next_episode = 0
@@ -672,10 +667,11 @@ def test_a_tower_that_stands_in_a_corner_of_the_room_is_in_view(task_name):
 def test_environments_that_take_turns_each_see_their_own_state(load, domain_name, task_name):
     actions = [0, 1, 2, 3, 0, 1]
     others = actions[::-1]
-    expected, expected_others = (_play(load(domain_name, task_name, 1), plan) for plan in (actions, others))
-    one, other = load(domain_name, task_name, 1), load(domain_name, task_name, 1)
-    one.reset()
-    other.reset()
+    one, other = _single(domain_name, task_name), load(domain_name, task_name, suite.environment_seed(SEED, 0))
+    expected, expected_others = _play(one, actions), _play(one, others)
+    for env in (one, other):
+        env.task.next_episode = 0
+        env.reset()
     for t in range(6):
         np.testing.assert_array_equal(_image(one.step(actions[t])), expected[t + 1])
         np.testing.assert_array_equal(_image(other.step(others[t])), expected_others[t + 1])
@@ -683,11 +679,12 @@ def test_environments_that_take_turns_each_see_their_own_state(load, domain_name
     assert (expected[-1] != expected_others[-1]).any()
 
 
-def test_environments_of_different_tasks_take_turns(load):
+def test_environments_of_different_tasks_take_turns():
     actions = [0, 2, 1, 3, 0, 0]
-    expected = [_play(load(*task, 1), actions) for task in PIXEL_TASKS]
-    envs = [load(*task, 1) for task in PIXEL_TASKS]
+    envs = [_single(*task) for task in PIXEL_TASKS]
+    expected = [_play(env, actions) for env in envs]
     for env in envs:
+        env.task.next_episode = 0
         env.reset()
     for t, action in enumerate(actions):
         for env, images in zip(envs, expected, strict=True):
@@ -698,23 +695,24 @@ def test_environments_of_different_tasks_take_turns(load):
 @pytest.mark.parametrize("which", ["drawn first", "drawn last"])
 def test_when_one_environment_is_gone_the_others_and_new_ones_see_as_before(load, end, which):
     actions = [0, 1, 2]
-    expected = _play(load(*FIST, 1), actions)
-    gone, staying = suite.load(*FIST, {"random": 1}), load(*FIST, 1)
+    staying, random = _single(*FIST), suite.environment_seed(SEED, 0)
+    expected = _play(staying, actions)
+    gone = suite.load(*FIST, {"random": random})
     for env in (gone, staying) if which == "drawn first" else (staying, gone):
         _play(env, actions)
     if end == "closed":
         gone.close()
     del gone, env
     gc.collect()
-    for env in (staying, load(*FIST, 1)):
+    for env in (staying, load(*FIST, random)):
         np.testing.assert_array_equal(_play(env, actions), expected)
 
 
-def test_a_renderer_of_mujoco_that_comes_and_goes_in_between_changes_nothing(load):
+def test_a_renderer_of_mujoco_that_comes_and_goes_in_between_changes_nothing():
     """It frees its buffers in whatever context is current, which must not be the environment's."""
     actions = [0, 1, 2, 3]
-    expected = _play(load(*FIST, 1), actions)
-    env = load(*FIST, 1)
+    expected = _play(_single(*FIST), actions)
+    env = _single(*FIST)
     env.reset()
     for t, action in enumerate(actions):
         with mujoco.Renderer(env.physics.model.ptr, 30, 40) as other:
@@ -731,9 +729,10 @@ def test_an_environment_and_dm_controls_own_rendering_take_turns(load):
         env.reset()
         return [(env.step(action), env.physics.render(60, 100, camera_id="observer"))[1] for action in actions]
 
-    expected = film(load("towers", "fist_features", 1))
-    images = _play(load(*FIST, 1), actions)
-    env, frames = load(*FIST, 1), []
+    random = suite.environment_seed(SEED, 0)
+    expected = film(load("towers", "fist_features", random))
+    images = _play(_single(*FIST), actions)
+    env, frames = load(*FIST, random), []
     env.reset()
     for t, action in enumerate(actions):
         np.testing.assert_array_equal(_image(env.step(action)), images[t + 1])
@@ -766,9 +765,9 @@ def test_images_are_drawn_by_one_thread_only(load, size):
 
 
 @every_pixel_task
-def test_an_environment_that_was_made_in_one_thread_is_played_by_another(load, domain_name, task_name):
-    expected = _play(load(domain_name, task_name, 0), [0, 1])
-    env = suite.load(domain_name, task_name, {"random": 0})
+def test_an_environment_that_was_made_in_one_thread_is_played_by_another(domain_name, task_name):
+    expected = _play(_single(domain_name, task_name), [0, 1])
+    env = suite.load(domain_name, task_name, {"random": suite.environment_seed(SEED, 0)})
 
     def play_and_close():
         images = _play(env, [0, 1])
@@ -780,7 +779,7 @@ def test_an_environment_that_was_made_in_one_thread_is_played_by_another(load, d
 
 @pytest.mark.parametrize("size", [None, 2])
 def test_an_environment_may_be_closed_by_another_thread_than_the_one_that_drew(load, size):
-    neighbour = load(*HEAVIER, 0)
+    neighbour = _single(*HEAVIER)
     expected = _play(neighbour, [0, 1])
     env = load(*HEAVIER, 0, size)
     action = 0 if size is None else [0] * size
@@ -840,15 +839,15 @@ def test_ten_thousand_resets_leave_memory_as_it_is(load, seed, drawn):
 
 
 @pytest.mark.parametrize("end", ["closed", "dropped"])
-def test_environments_that_are_gone_give_their_memory_back(end):
-    """A context and its buffers take 7 MB, and not one of those of ten environments may be lost."""
+@pytest.mark.parametrize("build", [suite.load, lambda *task: suite.load_batch(*task, 1)], ids=["single", "batch"])
+def test_environments_that_are_gone_give_their_memory_back(build, end):
+    """A context and its buffers take 7 MB, and not one of those of five environments may be lost."""
 
     def play():
-        for env in (suite.load(*HEAVIER, {"random": 0}), suite.load_batch(*HEAVIER, 2, {"random": 0})):
-            env.reset()
-            env.step(0 if isinstance(env, suite.Environment) else [0, 0])
-            if end == "closed":
-                env.close()
+        env = build(*HEAVIER)
+        env.reset()
+        if end == "closed":
+            env.close()
 
-    growth = _growth(play, 5, num_warm_up=4)
+    growth = _growth(play, 5, num_warm_up=3)
     assert growth < 7_000_000, f"{growth} bytes"

@@ -1,0 +1,436 @@
+"""Rendering: which GL backend draws, what happens without one, and how contexts come and go."""
+
+from concurrent import futures
+import ctypes.util
+import json
+import os
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+from physexp import suite
+from physexp.analysis import doctor
+from physexp.suite import rendering
+
+import mujoco  # isort: skip  # The suite chooses the GL backend, which mujoco looks at once.
+
+HEAVIER = ("which_is_heavier", "pixels")
+LIBRARIES = ("EGL", "OSMesa")
+PACKAGES = ("libegl1", "libgl1-mesa-dri", "libosmesa6")  # Debian's.
+NO_DISPLAY = {"DISPLAY": None, "WAYLAND_DISPLAY": None}
+# What draws is not what is tested here, but where it is said.
+pytestmark = pytest.mark.filterwarnings("ignore:PIXELS ARE DRAWN BY THE PROCESSOR")
+
+needs_gl = pytest.mark.skipif(rendering.choose_backend() == "disable", reason="no GL library is here")
+
+
+def _needs_library(name: str) -> None:
+    if not ctypes.util.find_library(name):
+        pytest.skip(f"lib{name} is not here")
+
+
+def _run(code: str, **environment: str | None) -> tuple[dict, str]:
+    """What `code` leaves in its dictionary `found`, run in a fresh interpreter, and what it says on stderr.
+
+    None unsets a variable of the environment.
+    """
+    # PyOpenGL's platform follows from the backend, which this process may have chosen otherwise.
+    variables = {**os.environ, "PYOPENGL_PLATFORM": None, **environment}
+    variables = {name: value for name, value in variables.items() if value is not None}
+    code = f"found = {{}}\n{code}\nimport json\nprint(json.dumps(found))"
+    finished = subprocess.run(
+        [sys.executable, "-c", code], env=variables, capture_output=True, text=True, timeout=300, check=False
+    )
+    assert finished.returncode == 0, finished.stderr
+    return json.loads(finished.stdout.splitlines()[-1]), finished.stderr
+
+
+# Defines `play_features()`, and `draw()`: errors of an environment and of a batch that draw, and the images' means.
+PLAY = """
+from physexp import suite
+
+def play_features():
+    for domain_name, task_name in suite.ALL_TASKS:
+        if task_name.endswith("features"):
+            env = suite.load(domain_name, task_name, {"random": 0})
+            env.reset()
+            env.step(0)
+            env.close()
+    batch = suite.load_batch("which_is_heavier", "features", 2, {"random": 0})
+    batch.reset()
+    batch.step([0, 1])
+    batch.close()
+    return True
+
+def draw():
+    errors, means = [], []
+    for size in (None, 2):
+        try:
+            if size is None:
+                environment = suite.load("which_is_heavier", "pixels", {"random": 0})
+            else:
+                environment = suite.load_batch("which_is_heavier", "pixels", size, {"random": 0})
+            means.append(float(environment.reset().observation["pixels"].mean()))
+            environment.close()
+        except Exception as error:
+            errors.append((type(error).__name__, str(error)))
+    return {"errors": errors, "means": means}
+"""
+
+
+def _assert_drawn(drawn: dict) -> None:
+    assert drawn["errors"] == []
+    assert all(50 < mean < 250 for mean in drawn["means"]), "the images are black or white"
+
+
+def _assert_refused(drawn: dict, *fragments: str) -> None:
+    """Each of the two says in one RuntimeError what to install."""
+    assert [name for name, _ in drawn["errors"]] == ["RuntimeError"] * 2, drawn
+    for _, message in drawn["errors"]:
+        assert all(fragment in message for fragment in (*PACKAGES, *fragments)), message
+
+
+# The choice of a backend.
+
+
+def _pretend(*installed: str) -> str:
+    """Code after which the package, and nothing else, finds just these of the GL libraries."""
+    return f"""
+import ctypes.util, os, sys
+find_library = ctypes.util.find_library
+def pretend(name):
+    asks = sys._getframe(1).f_globals["__name__"]
+    if name in {LIBRARIES!r} and asks.startswith("physexp"):
+        return f"lib{{name}}.so" if name in {installed!r} else None
+    return find_library(name)
+ctypes.util.find_library = pretend
+"""
+
+
+CHOOSE = """
+import physexp.suite
+found.update(backend=os.environ["MUJOCO_GL"], threads=os.environ["LP_NUM_THREADS"])
+"""
+
+
+@pytest.mark.parametrize(
+    "installed, backend", [(LIBRARIES, "egl"), (("OSMesa",), "osmesa"), ((), "disable")], ids=["both", "OSMesa", "none"]
+)
+def test_without_a_choice_the_backend_is_egl_then_osmesa_then_none(installed, backend):
+    """And Mesa draws in the calling thread."""
+    if installed:
+        _needs_library(installed[0])
+    found, _ = _run(_pretend(*installed) + CHOOSE, MUJOCO_GL=None, LP_NUM_THREADS=None)
+    assert found == {"backend": backend, "threads": "0"}
+
+
+@pytest.mark.parametrize("choice, installed", [("disable", LIBRARIES), ("egl", ()), ("osmesa", LIBRARIES)])
+def test_the_users_choice_wins_whatever_is_installed(choice, installed):
+    if choice != "disable":
+        _needs_library({"egl": "EGL", "osmesa": "OSMesa"}[choice])
+    found, _ = _run(_pretend(*installed) + CHOOSE, MUJOCO_GL=choice, LP_NUM_THREADS="2")
+    assert found == {"backend": choice, "threads": "2"}
+
+
+# Machines that cannot draw.
+
+HIDE_GL = """
+import ctypes.util, os, sys
+find_library = ctypes.util.find_library
+def is_gl(name):
+    return any(part in os.path.basename(str(name)) for part in ("GL", "OSMesa", "glfw"))
+ctypes.util.find_library = lambda name: None if is_gl(name) else find_library(name)
+def refuse(event, arguments):
+    if event == "ctypes.dlopen" and is_gl(arguments[0]):
+        raise OSError(f"{arguments[0]}: cannot open shared object file: No such file or directory")
+sys.addaudithook(refuse)
+try:
+    ctypes.CDLL("libEGL.so.1")
+except OSError:
+    found["hidden"] = True
+"""
+
+
+def test_without_gl_libraries_features_are_played_and_pixels_say_what_to_install():
+    found, stderr = _run(
+        f"""
+{HIDE_GL}
+{PLAY}
+from physexp.suite import rendering
+found["played"] = play_features()
+found["drawn"] = draw()
+found["name"] = rendering.renderer_name()
+found["played_again"] = play_features()
+""",
+        MUJOCO_GL=None,
+    )
+    assert found["hidden"] and found["played"] and found["played_again"]
+    _assert_refused(found["drawn"])
+    assert found["name"].startswith("none: ") and PACKAGES[0] in found["name"]
+    assert stderr == ""
+
+
+def test_with_a_gl_library_but_no_driver_features_are_played_and_pixels_say_what_to_install(tmp_path):
+    """As on a machine that has libegl1 without libgl1-mesa-dri."""
+    _needs_library("EGL")
+    found, _ = _run(
+        f"{PLAY}\nfound['played'] = play_features()\nfound['drawn'] = draw()",
+        MUJOCO_GL=None,
+        LIBGL_DRIVERS_PATH=str(tmp_path),
+        __EGL_VENDOR_LIBRARY_DIRS=str(tmp_path),
+        __EGL_VENDOR_LIBRARY_FILENAMES=None,
+    )
+    assert found["played"]
+    if found["drawn"]["errors"]:  # Otherwise the driver was found elsewhere, or OSMesa draws.
+        _assert_refused(found["drawn"])
+    else:
+        _assert_drawn(found["drawn"])
+
+
+def test_where_gl_is_turned_off_pixels_are_refused():
+    found, stderr = _run(f"{PLAY}\nfound['drawn'] = draw()", MUJOCO_GL="disable")
+    _assert_refused(found["drawn"])
+    assert stderr == ""
+
+
+def test_a_backend_that_does_not_work_here_is_refused_by_its_name_and_leaves_nothing_behind():
+    """GLFW needs a display."""
+    found, stderr = _run(f"{PLAY}\nfound['drawn'] = draw()", MUJOCO_GL="glfw", **NO_DISPLAY)
+    _assert_refused(found["drawn"], "glfw", "MUJOCO_GL")
+    assert "Traceback" not in stderr, stderr
+
+
+# Contexts.
+
+
+@pytest.fixture
+def contexts(monkeypatch):
+    """The threads in which GL contexts are made, one entry for each context."""
+    threads = []
+    make = mujoco.GLContext.__init__
+
+    def counting(self, *args, **kwargs):
+        threads.append(threading.get_ident())
+        make(self, *args, **kwargs)
+
+    monkeypatch.setattr(mujoco.GLContext, "__init__", counting)
+    return threads
+
+
+@needs_gl
+def test_no_context_is_made_before_the_first_image():
+    """Not by importing, by playing with features, or by loading and reading the specs of pixel tasks."""
+    found, _ = _run(
+        f"""
+import mujoco  # MUJOCO_GL is set.
+made = []
+make = mujoco.GLContext.__init__
+def counting(self, *args):
+    made.append(1)
+    make(self, *args)
+mujoco.GLContext.__init__ = counting
+{PLAY}
+found["counts"] = counts = [len(made)]
+play_features()
+counts.append(len(made))
+single = suite.load("which_is_heavier", "pixels", {{"random": 0}})
+batch = suite.load_batch("towers", "fist_pixels", 2, {{"random": 0}})
+for environment in (single, batch):
+    environment.observation_spec(), environment.action_spec(), environment.reward_spec(), environment.discount_spec()
+counts.append(len(made))
+for _ in range(3):
+    batch.reset()
+    batch.step([0, 1])
+counts.append(len(made))
+for _ in range(3):
+    single.reset()
+    single.step(0)
+counts.append(len(made))
+single.close(), batch.close()
+""",
+        MUJOCO_GL=rendering.choose_backend(),
+    )
+    assert found["counts"] == [0, 0, 0, 1, 2]
+
+
+@needs_gl
+def test_a_context_is_made_by_the_thread_that_draws(contexts):
+    batch = suite.load_batch(*HEAVIER, 2, {"random": 0})
+    batch.observation_spec()
+
+    def play():
+        batch.reset()
+        batch.step([0, 1])
+        batch.close()
+        return threading.get_ident()
+
+    with futures.ThreadPoolExecutor(1) as pool:
+        worker = pool.submit(play).result()
+    assert worker != threading.get_ident()
+    assert contexts == [worker]
+
+
+@needs_gl
+def test_a_closed_renderer_says_so_and_may_be_closed_again():
+    model = suite.load_task(*HEAVIER).build_apparatus(0).model
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    images = np.zeros((1, rendering.SIZE, rendering.SIZE, 3), np.uint8)
+    poses = (data.geom_xpos[None], data.geom_xmat[None], np.array([0]), images)
+    renderer = rendering.Renderer(model)
+    renderer.render(*poses)
+    assert images.std() > 10, "nothing was drawn"
+    renderer.close()
+    renderer.close()
+    with pytest.raises(RuntimeError, match="the renderer is closed"):
+        renderer.render(*poses)
+
+
+FORGETFUL = {
+    "kept": "from physexp.suite import rendering\nrendering.renderer_name()",
+    "closed in part, and dropped": "env.close()\nbatch.itself = batch\ndel env, batch",
+    "exits": "import sys\nsys.exit(0)",
+}
+
+
+@needs_gl
+@pytest.mark.parametrize("end", FORGETFUL.values(), ids=FORGETFUL)
+def test_a_process_that_forgets_to_close_its_renderers_ends_in_silence(end):
+    code = f"""
+from physexp import suite
+env = suite.load("which_is_heavier", "pixels", {{"random": 0}})
+batch = suite.load_batch("which_is_heavier", "pixels", 2, {{"random": 0}})
+env.reset(), env.step(0), batch.reset(), batch.step([0, 1])
+print({{}}, flush=True)
+{end}
+"""
+    assert _run(code) == ({}, "")
+
+
+@needs_gl
+@pytest.mark.parametrize("thread_ends", [True, False])
+def test_a_process_whose_thread_forgot_to_close_its_renderer_ends_in_silence(thread_ends):
+    code = f"""
+import threading
+from physexp import suite
+env = suite.load("which_is_heavier", "pixels", {{"random": 0}})
+drawn = threading.Event()
+def play():
+    env.reset(), env.step(0)
+    drawn.set()
+    if not {thread_ends}:
+        threading.Event().wait()
+thread = threading.Thread(target=play, daemon=True)
+thread.start()
+drawn.wait()
+if {thread_ends}:
+    thread.join()
+"""
+    assert _run(code) == ({}, "")
+
+
+# What draws.
+
+
+@needs_gl
+def test_the_renderers_name_is_gls_own_and_what_the_doctor_shows():
+    from OpenGL import GL
+
+    context = mujoco.GLContext(8, 8)
+    context.make_current()
+    name = GL.glGetString(GL.GL_RENDERER).decode()
+    context.free()
+    rendering.renderer_name.cache_clear()
+    assert name and doctor.examine()["gl_renderer"] == rendering.renderer_name() == name
+
+
+@needs_gl
+def test_asking_for_the_renderers_name_disturbs_no_environment():
+    images = []
+    for ask in (False, True):
+        env = suite.load("towers", "fist_pixels", {"random": 0})
+        env.reset()
+        for action in (0, 1):
+            if ask:
+                rendering.renderer_name.cache_clear()
+                rendering.renderer_name()
+            images.append(env.step(action).observation["pixels"])
+        env.close()
+    np.testing.assert_array_equal(images[:2], images[2:])
+
+
+@pytest.mark.parametrize("name", ["llvmpipe (LLVM 15.0.6, 256 bits)", "softpipe", "Software Rasterizer", "swrast"])
+def test_software_is_known_by_its_name(name):
+    assert rendering.is_software(name)
+
+
+@pytest.mark.parametrize("name", ["NVIDIA H100/PCIe/SSE2", "Mesa Intel(R) UHD Graphics 620 (KBL GT2)", "AMD Radeon"])
+def test_hardware_is_no_software(name):
+    assert not rendering.is_software(name)
+
+
+@pytest.fixture
+def on_a_machine_with_a_gpu(monkeypatch):
+    """Or without one, if it is called with False. What has been said already may be said again, here and later."""
+    rendering.warn_if_software.cache_clear()
+    yield lambda present=True: monkeypatch.setattr(rendering, "gpu_is_present", lambda: present)
+    rendering.warn_if_software.cache_clear()
+
+
+LLVMPIPE = "llvmpipe (LLVM 15.0.6, 256 bits)"
+
+
+def test_drawing_by_software_on_a_machine_with_a_gpu_warns_exactly_once(on_a_machine_with_a_gpu):
+    on_a_machine_with_a_gpu()
+    with pytest.warns(RuntimeWarning, match="PIXELS ARE DRAWN BY THE PROCESSOR") as warned:
+        for _ in range(3):
+            rendering.warn_if_software(LLVMPIPE)
+    assert len(warned) == 1
+    assert LLVMPIPE in str(warned[0].message)
+
+
+@needs_gl
+def test_environments_that_draw_by_software_on_a_machine_with_a_gpu_warn_once_in_all(on_a_machine_with_a_gpu):
+    if not rendering.is_software(rendering.renderer_name()):
+        pytest.skip("hardware draws here")
+    on_a_machine_with_a_gpu()
+    with pytest.warns(RuntimeWarning, match="PIXELS ARE DRAWN BY THE PROCESSOR") as warned:
+        for _ in range(2):
+            env = suite.load(*HEAVIER, {"random": 0})
+            env.reset()
+            env.step(0)
+            env.close()
+    assert len(warned) == 1
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("name, present", [(LLVMPIPE, False), ("NVIDIA H100/PCIe/SSE2", True)])
+def test_nothing_is_said_without_a_gpu_or_when_it_draws(on_a_machine_with_a_gpu, name, present):
+    on_a_machine_with_a_gpu(present)
+    rendering.warn_if_software(name)
+
+
+DRAW_ALL = """
+import numpy as np
+from physexp import suite
+images = []
+for domain_name, task_name, actions in (("which_is_heavier", "pixels", [0, 1, 2]), ("towers", "fist_pixels", [0] * 5)):
+    env = suite.load(domain_name, task_name, {"random": 0})
+    images += [env.reset().observation["pixels"], *(env.step(a).observation["pixels"] for a in actions)]
+    env.close()
+"""
+
+
+def test_osmesa_draws_what_egl_draws_within_one_level(tmp_path):
+    for library in LIBRARIES:
+        _needs_library(library)
+    images = []
+    for backend in ("egl", "osmesa"):
+        path = tmp_path / f"{backend}.npy"
+        _run(f"{DRAW_ALL}\nnp.save({str(path)!r}, images)", MUJOCO_GL=backend)
+        images.append(np.load(path).astype(int))
+    assert images[0].shape == (10, rendering.SIZE, rendering.SIZE, 3) and images[0].std() > 10
+    assert np.abs(images[0] - images[1]).max() <= 1
