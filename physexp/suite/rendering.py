@@ -2,11 +2,11 @@
 
 import atexit
 import copy
+import ctypes
 import ctypes.util
 import functools
 import glob
 import os
-import threading
 import warnings
 import weakref
 
@@ -15,29 +15,54 @@ import numpy as np
 SIZE = 84  # pixels, the edge of an image (paper, Section 4)
 DEBIAN_PACKAGES = "Debian's libegl1 and libgl1-mesa-dri, or libosmesa6"
 
-_LIBRARIES = {"egl": "EGL", "osmesa": "OSMesa"}  # In order of preference.
+_PLATFORM_DEVICE = 0x313F  # EGL_PLATFORM_DEVICE_EXT
 _OFF = ("disable", "disabled", "off", "false", "0")  # What MuJoCo understands as no GL.
 _SAID = "PHYSEXP_SOFTWARE_RENDERING_SAID"  # Workers inherit it: one of all processes says it.
 _SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software rasterizer")
 
 
 def choose_backend() -> str:
-    """Settles MUJOCO_GL: as the user set it, or the first backend whose library is here, or `disable`.
+    """Settles MUJOCO_GL: as the user set it, or EGL where it works, or OSMesa where its library is, or `disable`.
 
     To be called before mujoco and dm_control are imported, which look at it once. Feature tasks need no backend.
     """
     # Mesa's software renderer hands small images to threads at a greater cost than drawing them.
     os.environ.setdefault("LP_NUM_THREADS", "0")
     if not os.environ.get("MUJOCO_GL"):
-        found = (backend for backend, library in _LIBRARIES.items() if ctypes.util.find_library(library))
-        os.environ["MUJOCO_GL"] = next(found, "disable")
+        egl, osmesa = (ctypes.util.find_library(name) for name in ("EGL", "OSMesa"))
+        if egl and _egl_works(egl):
+            os.environ["MUJOCO_GL"] = "egl"
+        else:
+            os.environ["MUJOCO_GL"] = "osmesa" if osmesa else "disable"
     return os.environ["MUJOCO_GL"]
+
+
+def _egl_works(library: str) -> bool:
+    """Whether EGL has a device to draw with: the library may be here without a driver, and dm_control then fails."""
+    try:
+        egl = ctypes.CDLL(library)
+    except OSError:
+        return False
+    egl.eglGetProcAddress.restype = ctypes.c_void_p
+
+    def function(name: bytes, result, *arguments):
+        address = egl.eglGetProcAddress(name)
+        return ctypes.CFUNCTYPE(result, *arguments)(address) if address else None
+
+    pointer, number = ctypes.c_void_p, ctypes.c_int
+    query = function(b"eglQueryDevicesEXT", number, number, ctypes.POINTER(pointer), ctypes.POINTER(number))
+    display = function(b"eglGetPlatformDisplayEXT", pointer, number, pointer, pointer)
+    initialize = function(b"eglInitialize", number, pointer, pointer, pointer)
+    devices, count = (pointer * 16)(), number()
+    if not (query and display and initialize) or not query(16, devices, ctypes.byref(count)):
+        return False
+    return any(initialize(display(_PLATFORM_DEVICE, device, None), None, None) for device in devices[: count.value])
 
 
 class Renderer:
     """Draws images of one scene, whatever the poses of its geoms, in a GL context of its own.
 
-    Only the thread that made a renderer can use it.
+    The context is current only while it is used: any thread may draw, one at a time.
 
     Attributes:
       context: its GL context.
@@ -58,7 +83,6 @@ class Renderer:
         import mujoco  # Here, so that the module that chooses the backend comes before mujoco.
 
         self.context = _make_context(size)
-        self._thread = threading.get_ident()
         self._exit_hook = functools.partial(_close, weakref.ref(self))
         atexit.register(self._exit_hook)  # A context that outlives the backend's own exit hook cannot be freed.
         self.context.make_current()
@@ -74,6 +98,7 @@ class Renderer:
         self._places, self._moving = (np.array([p[k] for p in drawn_geoms if moving[p[1]]], np.intp) for k in (0, 1))
         self._positions, self._rotations = _poses(self.scene)
         warn_if_software(gl_renderer_name())
+        release()
 
     def render(self, geom_xpos: np.ndarray, geom_xmat: np.ndarray, rows: np.ndarray, images: np.ndarray) -> None:
         """Draws one image for each pose of the scene.
@@ -84,13 +109,11 @@ class Renderer:
           images: uint8 [B, size, size, 3]; written to, straight from the frame buffer.
 
         Raises:
-          RuntimeError: if the renderer is closed, or was made by another thread.
+          RuntimeError: if the renderer is closed.
         """
         if self.context is None:
             raise RuntimeError("the renderer is closed")
-        if threading.get_ident() != self._thread:
-            raise RuntimeError("an environment's images are drawn by the thread that drew its first; use that one")
-        self.context.make_current()  # Another renderer may have been at work since.
+        self.context.make_current()
         positions = geom_xpos[:, self._moving].astype(np.float32)
         rotations = geom_xmat[:, self._moving].astype(np.float32)
         for row, position, rotation in zip(rows, positions, rotations, strict=True):
@@ -99,6 +122,7 @@ class Renderer:
             self._render(self._rectangle, self.scene, self.buffers)
             self._read(self._upside_down, None, self._rectangle, self.buffers)
             images[row] = self._upside_down[::-1]
+        release()
 
     def close(self) -> None:
         """Frees the context. Closing twice does nothing."""
@@ -108,6 +132,23 @@ class Renderer:
             self.context.free()
             self.context = None
             atexit.unregister(self._exit_hook)
+
+
+def release() -> None:
+    """Leaves this thread without a current context: another thread can make it current then."""
+    backend = choose_backend()
+    if backend == "egl":
+        from mujoco import egl
+
+        egl.EGL.eglMakeCurrent(egl.EGL_DISPLAY, *[egl.EGL.EGL_NO_SURFACE] * 2, egl.EGL.EGL_NO_CONTEXT)
+    elif backend == "osmesa":
+        from OpenGL import GL, osmesa
+
+        osmesa.OSMesaMakeCurrent(None, None, GL.GL_FLOAT, 0, 0)
+    else:
+        import glfw
+
+        glfw.make_context_current(None)  # type: ignore[arg-type]
 
 
 def _close(reference) -> None:
@@ -164,6 +205,8 @@ def _make_context(size: int):
     if backend.lower() in _OFF:
         raise RuntimeError(f"no GL library is here to draw pixels with; install {DEBIAN_PACKAGES} (features need none)")
     try:
+        if backend not in ("egl", "osmesa") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+            raise RuntimeError("there is no display")  # glfw itself says so by ending the process.
         return mujoco.GLContext(size, size)
     except Exception as error:  # Whatever the driver raises is what the user wants to read.
         raise RuntimeError(

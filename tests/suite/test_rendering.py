@@ -374,10 +374,10 @@ def test_hardware_is_no_software(name):
 
 @pytest.fixture
 def on_a_machine_with_a_gpu(monkeypatch):
-    """Or without one, if it is called with False. What has been said already may be said again, here and later."""
-    rendering.warn_if_software.cache_clear()
-    yield lambda present=True: monkeypatch.setattr(rendering, "gpu_is_present", lambda: present)
-    rendering.warn_if_software.cache_clear()
+    """Or without one, if it is called with False. Nothing has been said yet, and is remembered afterwards."""
+    monkeypatch.setenv(rendering._SAID, "")
+    monkeypatch.delenv(rendering._SAID)
+    return lambda present=True: monkeypatch.setattr(rendering, "gpu_is_present", lambda: present)
 
 
 LLVMPIPE = "llvmpipe (LLVM 15.0.6, 256 bits)"
@@ -390,6 +390,12 @@ def test_drawing_by_software_on_a_machine_with_a_gpu_warns_exactly_once(on_a_mac
             rendering.warn_if_software(LLVMPIPE)
     assert len(warned) == 1
     assert LLVMPIPE in str(warned[0].message)
+    found, stderr = _run(f"""
+from physexp.suite import rendering
+rendering.gpu_is_present = lambda: True
+rendering.warn_if_software({LLVMPIPE!r})
+""")
+    assert stderr == "", "a process that this one starts says it again"
 
 
 @needs_gl
