@@ -86,10 +86,10 @@ def bare_rendering(name: str) -> Callable[[], int]:
     image, rectangle = np.zeros((size, size, 3), np.uint8), mujoco.MjrRect(0, 0, size, size)
 
     def draw(renderer=renderer) -> int:  # Keeps the renderer alive.
-        context.make_current()
-        for _ in range(BATCH):
-            mujoco.mjr_render(rectangle, scene, buffers)
-            mujoco.mjr_readPixels(image, None, rectangle, buffers)
+        with rendering.current(context):
+            for _ in range(BATCH):
+                mujoco.mjr_render(rectangle, scene, buffers)
+                mujoco.mjr_readPixels(image, None, rectangle, buffers)
         return BATCH
 
     return draw

@@ -1,6 +1,7 @@
 """Rendering: the choice of a GL backend, and images of a scene."""
 
 import atexit
+import contextlib
 import copy
 import ctypes
 import ctypes.util
@@ -85,10 +86,11 @@ class Renderer:
         self.context = _make_context(size)
         self._exit_hook = functools.partial(_close, weakref.ref(self))
         atexit.register(self._exit_hook)  # A context that outlives the backend's own exit hook cannot be freed.
-        self.context.make_current()
         drawn = _with_buffer(model, size)
-        self.buffers = mujoco.MjrContext(drawn, mujoco.mjtFontScale.mjFONTSCALE_50)
-        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self.buffers)
+        with current(self.context):
+            self.buffers = mujoco.MjrContext(drawn, mujoco.mjtFontScale.mjFONTSCALE_50)
+            mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self.buffers)
+            warn_if_software(gl_renderer_name())
         self._render, self._read = mujoco.mjr_render, mujoco.mjr_readPixels
         self._rectangle = mujoco.MjrRect(0, 0, size, size)
         self._upside_down = np.zeros((size, size, 3), np.uint8)  # As GL reads it: the lowest row first.
@@ -97,8 +99,6 @@ class Renderer:
         drawn_geoms = [(i, geom.objid) for i, geom in enumerate(self.scene.geoms[: self.scene.ngeom])]
         self._places, self._moving = (np.array([p[k] for p in drawn_geoms if moving[p[1]]], np.intp) for k in (0, 1))
         self._positions, self._rotations = _poses(self.scene)
-        warn_if_software(gl_renderer_name())
-        release()
 
     def render(self, geom_xpos: np.ndarray, geom_xmat: np.ndarray, rows: np.ndarray, images: np.ndarray) -> None:
         """Draws one image for each pose of the scene.
@@ -113,42 +113,52 @@ class Renderer:
         """
         if self.context is None:
             raise RuntimeError("the renderer is closed")
-        self.context.make_current()
         positions = geom_xpos[:, self._moving].astype(np.float32)
         rotations = geom_xmat[:, self._moving].astype(np.float32)
-        for row, position, rotation in zip(rows, positions, rotations, strict=True):
-            self._positions[self._places] = position
-            self._rotations[self._places] = rotation
-            self._render(self._rectangle, self.scene, self.buffers)
-            self._read(self._upside_down, None, self._rectangle, self.buffers)
-            images[row] = self._upside_down[::-1]
-        release()
+        with current(self.context):
+            for row, position, rotation in zip(rows, positions, rotations, strict=True):
+                self._positions[self._places] = position
+                self._rotations[self._places] = rotation
+                self._render(self._rectangle, self.scene, self.buffers)
+                self._read(self._upside_down, None, self._rectangle, self.buffers)
+                images[row] = self._upside_down[::-1]
 
     def close(self) -> None:
         """Frees the context. Closing twice does nothing."""
         if self.context is not None:
-            self.context.make_current()
-            self.buffers.free()
+            with current(self.context):
+                self.buffers.free()
             self.context.free()
             self.context = None
             atexit.unregister(self._exit_hook)
 
 
-def release() -> None:
-    """Leaves this thread without a current context: another thread can make it current then."""
+@contextlib.contextmanager
+def current(context):
+    """Makes a GL context current in this thread, and afterwards what was current before, where the backend can tell.
+
+    So any thread may draw, and whoever else draws here (dm_control for one, which remembers what it made current) finds
+    its own context as it was.
+    """
     backend = choose_backend()
     if backend == "egl":
         from mujoco import egl
 
-        egl.EGL.eglMakeCurrent(egl.EGL_DISPLAY, *[egl.EGL.EGL_NO_SURFACE] * 2, egl.EGL.EGL_NO_CONTEXT)
+        before = egl.EGL.eglGetCurrentContext() or egl.EGL.EGL_NO_CONTEXT
+        put_back = functools.partial(egl.EGL.eglMakeCurrent, egl.EGL_DISPLAY, *[egl.EGL.EGL_NO_SURFACE] * 2, before)
     elif backend == "osmesa":
         from OpenGL import GL, osmesa
 
-        osmesa.OSMesaMakeCurrent(None, None, GL.GL_FLOAT, 0, 0)
+        put_back = functools.partial(osmesa.OSMesaMakeCurrent, None, None, GL.GL_FLOAT, 0, 0)
     else:
         import glfw
 
-        glfw.make_context_current(None)  # type: ignore[arg-type]
+        put_back = functools.partial(glfw.make_context_current, glfw.get_current_context())
+    context.make_current()
+    try:
+        yield
+    finally:
+        put_back()
 
 
 def _close(reference) -> None:
@@ -229,8 +239,8 @@ def renderer_name() -> str:
         context = _make_context(8)
     except RuntimeError as error:
         return f"none: {error}"
-    context.make_current()
-    name = gl_renderer_name()
+    with current(context):
+        name = gl_renderer_name()
     context.free()
     return name
 

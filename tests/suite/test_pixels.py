@@ -83,6 +83,23 @@ def load():
 
 
 @pytest.fixture
+def poses_drawn(monkeypatch):
+    """For each call of a renderer, which draws as ever, positions [N, G, 3] and rotation matrices [N, G, 9], float32.
+
+    That is what MuJoCo draws with. In float64 the blocks' heights differ by rounding from one structure to another.
+    """
+    poses = []
+    render = rendering.Renderer.render
+
+    def recording(self, geom_xpos, geom_xmat, *args, **kwargs):
+        poses.append((geom_xpos.astype(np.float32), geom_xmat.astype(np.float32)))
+        return render(self, geom_xpos, geom_xmat, *args, **kwargs)
+
+    monkeypatch.setattr(rendering.Renderer, "render", recording)
+    return poses
+
+
+@pytest.fixture
 def drawn(monkeypatch):
     """The number of images of each call of a renderer; it draws as ever."""
     counts = []
@@ -468,13 +485,14 @@ def test_the_image_of_a_label_is_the_one_before(domain_name, task_name):
 
 
 @every_pixel_task
-def test_the_image_of_an_episode_that_diverges_is_the_one_before(domain_name, task_name):
+@pytest.mark.parametrize("field", ["qvel", "qpos"])
+def test_the_image_of_an_episode_that_diverges_is_the_one_before(domain_name, task_name, field):
     batch, singles = _start_both(domain_name, task_name, 3)
     for _ in range(5):
         before = batch.step([0, 0, 0])
         _assert_same(before, [single.step(0) for single in singles])
-    _overwrite_velocity(batch, 1)
-    singles[1].physics.data.qvel[0] = np.nan
+    _overwrite(batch, 1, field)
+    getattr(singles[1].physics.data, field)[0] = np.nan
     last = batch.step([1, 1, 1])
     assert last.step_type.tolist() == [1, 2, 1]
     _assert_same(last, [single.step(1) for single in singles])
@@ -491,16 +509,16 @@ def test_when_all_environments_of_a_batch_diverge_their_images_are_the_ones_befo
     before = _image(batch.step([1, 1, 1]))
     assert (before != first).any()
     for i in range(3):
-        _overwrite_velocity(batch, i)
+        _overwrite(batch, i, "qvel")
     last = batch.step([0, 0, 0])
     assert last.step_type.tolist() == [2, 2, 2]
     np.testing.assert_array_equal(_image(last), before)
     assert batch.step([0, 0, 0]).step_type.tolist() == [0, 0, 0]
 
 
-def _overwrite_velocity(batch, environment: int) -> None:
+def _overwrite(batch, environment: int, field: str) -> None:
     """With something that MuJoCo cannot go on from."""
-    batch._groups[int(batch._structures[environment])]._batch.bind("qvel")[environment, 0] = np.nan
+    batch._groups[int(batch._structures[environment])]._batch.bind(field)[environment, 0] = np.nan
 
 
 # Nothing leaks.
@@ -565,6 +583,27 @@ def test_the_images_of_an_episode_that_leaves_the_tower_alone_are_the_same_whate
     assert not leaks, f"{len(leaks)} leaks (control step, what), the first: {leaks[:4]}"
 
 
+@pytest.mark.parametrize("control_timestep", [0.1, 0.005])
+def test_an_untouched_tower_is_drawn_to_the_last_bit_as_it_stood_at_first(poses_drawn, control_timestep):
+    """It settles by less than a micrometre, which pixels show only where an edge happens to be next to one's centre."""
+    model = _model(*FIST)
+    rest, blocks = _at_rest(model)[0][0].astype(np.float32), _block_geoms(model)
+    batch, chosen, _ = _batch_of("fist_pixels", EVERY_PATTERN, control_timestep)
+    single = _shared(*FIST, SEED, control_timestep=control_timestep)
+    for _ in range(5):
+        batch.step(np.full(16, AWAY), chosen)
+    for pattern in (SEPARATE, 6, WHOLE):
+        single.task.next_episode = _episode_with(pattern, SEED)
+        single.reset()
+        for _ in range(5):
+            single.step(AWAY)
+    positions, rotations = (np.concatenate(values) for values in zip(*poses_drawn, strict=True))
+    assert len(positions) >= 16 * 5 + 3 * (1 + 5)
+    assert (positions[:, model.geom("fist/geom").id] != rest[model.geom("fist/geom").id]).any(), "nothing moved"
+    for shown, expected in ((positions, rest), (rotations, np.tile(np.eye(3).ravel(), (model.ngeom, 1)))):
+        assert (shown[:, blocks] == expected[blocks]).all()
+
+
 def test_a_poked_block_tells_nothing_of_the_others_which_stay_as_they_were():
     """Masses are given to the blocks in turn: 0.5 kg or 1 kg to the poked one, 0.2 kg or 1 kg to the others."""
     model = _model(*HEAVIER)
@@ -594,9 +633,10 @@ def test_a_poked_block_tells_nothing_of_the_others_which_stay_as_they_were():
 # Everything that can happen stays in view.
 
 
-def _assert_in_view(model, points, message=""):
+def _assert_in_view(model, points, message="", margin=0.0):
     seen = _project(model, points).reshape(-1, 2)
-    assert (seen.min() >= 0) & (seen.max() <= EDGE), (message, seen.min(axis=0), seen.max(axis=0))
+    in_view = (seen.min() >= -margin) & (seen.max() <= EDGE + margin)
+    assert in_view, (message, seen.min(axis=0), seen.max(axis=0))
 
 
 @pytest.mark.parametrize("difficulty", [1, 1e300])
@@ -651,13 +691,13 @@ def test_the_blocks_of_a_tower_and_the_fist_stay_in_view(seed, task_name, plan):
 
 @pytest.mark.parametrize("task_name", ["direct_pixels", "fist_pixels"])
 def test_a_tower_that_stands_in_a_corner_of_the_room_is_in_view(task_name):
-    """In one piece it can be pushed there: the walls stop it, and its top is 0.5 m above the floor."""
+    """All but a pixel of its outermost edge: in one piece it would fall long before it stands there."""
     model = _model("towers", task_name)
     walls = [model.geom(f"wall_{i}") for i in range(4)]
     reach = [np.abs(wall.pos[:2]).max() - wall.size[np.abs(wall.pos[:2]).argmax()] for wall in walls]
     assert min(reach) > 0.5, "a fallen tower does not fit in"
     corners = [(x * max(reach), y * max(reach), z) for x in (-1, 1) for y in (-1, 1) for z in (0, 0.5)]
-    _assert_in_view(model, corners)
+    _assert_in_view(model, corners, margin=1.5)
 
 
 # Several environments, and others that draw.
@@ -749,7 +789,7 @@ def _in_another_thread(function):
 
 
 @pytest.mark.parametrize("size", [None, 2])
-def test_images_are_drawn_by_one_thread_only(load, size):
+def test_any_thread_may_draw(load, size):
     env = load(*HEAVIER, 0, size)
     action = 0 if size is None else [0] * size
 
@@ -759,8 +799,7 @@ def test_images_are_drawn_by_one_thread_only(load, size):
         return np.stack([_image(env.reset(episode=0)), _image(env.step(action))])
 
     expected = play()
-    with pytest.raises(RuntimeError, match="thread that drew its first"):
-        _in_another_thread(lambda: env.step(action))
+    np.testing.assert_array_equal(_in_another_thread(play), expected)
     np.testing.assert_array_equal(play(), expected)
 
 
