@@ -95,10 +95,11 @@ class Renderer:
         self._rectangle = mujoco.MjrRect(0, 0, size, size)
         self._upside_down = np.zeros((size, size, 3), np.uint8)  # As GL reads it: the lowest row first.
         self.scene = _make_scene(drawn, camera)
-        moving = model.body_weldid[model.geom_bodyid] != 0
-        drawn_geoms = [(i, geom.objid) for i, geom in enumerate(self.scene.geoms[: self.scene.ngeom])]
-        self._places, self._moving = (np.array([p[k] for p in drawn_geoms if moving[p[1]]], np.intp) for k in (0, 1))
-        self._positions, self._rotations = _poses(self.scene)
+        drawn_geoms = [geom.objid for geom in self.scene.geoms[: self.scene.ngeom]]
+        self._moving = [geom for geom in drawn_geoms if model.body_weldid[model.geom_bodyid[geom]] != 0]
+        first = drawn_geoms.index(self._moving[0])
+        assert drawn_geoms[first:] == self._moving  # What stands still is the arena, which comes first.
+        self._positions, self._rotations = (poses[first:] for poses in _poses(self.scene))
 
     def render(self, geom_xpos: np.ndarray, geom_xmat: np.ndarray, rows: np.ndarray, images: np.ndarray) -> None:
         """Draws one image for each pose of the scene.
@@ -115,13 +116,16 @@ class Renderer:
             raise RuntimeError("the renderer is closed")
         positions = geom_xpos[:, self._moving].astype(np.float32)
         rotations = geom_xmat[:, self._moving].astype(np.float32)
+        draw = functools.partial(self._render, self._rectangle, self.scene, self.buffers)
+        read = functools.partial(self._read, self._upside_down, None, self._rectangle, self.buffers)
+        upright = self._upside_down[::-1]
         with current(self.context):
             for row, position, rotation in zip(rows, positions, rotations, strict=True):
-                self._positions[self._places] = position
-                self._rotations[self._places] = rotation
-                self._render(self._rectangle, self.scene, self.buffers)
-                self._read(self._upside_down, None, self._rectangle, self.buffers)
-                images[row] = self._upside_down[::-1]
+                self._positions[:] = position
+                self._rotations[:] = rotation
+                draw()
+                read()
+                images[row] = upright
 
     def close(self) -> None:
         """Frees the context. Closing twice does nothing."""
