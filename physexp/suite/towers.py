@@ -6,12 +6,12 @@ import math
 from dm_control.utils import containers
 import numpy as np
 
-from physexp.suite import arena, block, fist, seeding, senses, task, tower
+from physexp.suite import arena, fist, seeding, senses, task, tower
 
 SUITE = containers.TaggedTasks()
 
 PHYSICS_TIMESTEP = 0.005  # s
-WALL_DISTANCE = 0.6  # m, from the tower: a tower that falls as one piece fits inside
+WALL_DISTANCE = 0.56  # m, from the tower: a tower that falls as one piece fits inside
 CEILING = 0.7  # m, above the floor
 
 # The lowest cube alone is held by friction of 0.3 * (4 + 5) * 9.81 = 26.5 N: twice that moves it, and slides a cube
@@ -20,10 +20,10 @@ PUSH_FORCE = 50.0  # N
 
 FIST_START = (-0.32, 0.0, 0.25)  # m: at the height of the middle cube, 0.17 m clear of the tower
 FIST_SPEED = 1.0  # m/s
-_FIST_REACH = WALL_DISTANCE - fist.RADIUS - 2 * block.HALF_SIZE  # m: leaves room for a block at the wall
+_FIST_REACH = 0.4  # m: leaves half a block's room at the wall, and its force is limited
 _DIRECTIONS = np.array([(1, 0), (-1, 0), (0, 1), (0, -1)], float)  # +x, -x, +y, -y
 
-_ROOM = dict(mat_size=[WALL_DISTANCE] * 2, camera_pos=[0.35, -3.4, 2.0], camera_target=[-0.03, 0, 0.17],
+_ROOM = dict(mat_size=[0.6, 0.6], camera_pos=[0.35, -3.4, 2.0], camera_target=[-0.03, 0, 0.17],
              fovy=21.5)  # fmt: skip
 
 

@@ -682,7 +682,7 @@ def test_the_blocks_of_a_tower_and_the_fist_stay_in_view(seed, task_name, plan):
         poses = _poses(batch, chosen)
         corners = _corners(model, *poses)
         farthest = max(farthest, np.abs(corners[..., :2]).max())
-        _assert_in_view(model, corners, f"step {t}")
+        _assert_in_view(model, corners, f"step {t}", margin=1)  # A wall gives way a little to what hits it.
         if task_name == "fist_pixels":  # The corners of the cube around it are farther out than the fist.
             fist = poses[0][:, model.geom("fist/geom").id]
             _assert_in_view(model, fist[:, None] + 2 * CORNERS, f"fist in step {t}")
@@ -691,13 +691,13 @@ def test_the_blocks_of_a_tower_and_the_fist_stay_in_view(seed, task_name, plan):
 
 @pytest.mark.parametrize("task_name", ["direct_pixels", "fist_pixels"])
 def test_a_tower_that_stands_in_a_corner_of_the_room_is_in_view(task_name):
-    """All but a pixel of its outermost edge: in one piece it would fall long before it stands there."""
+    """In one piece it can be pushed there, in a dozen steps."""
     model = _model("towers", task_name)
     walls = [model.geom(f"wall_{i}") for i in range(4)]
     reach = [np.abs(wall.pos[:2]).max() - wall.size[np.abs(wall.pos[:2]).argmax()] for wall in walls]
     assert min(reach) > 0.5, "a fallen tower does not fit in"
     corners = [(x * max(reach), y * max(reach), z) for x in (-1, 1) for y in (-1, 1) for z in (0, 0.5)]
-    _assert_in_view(model, corners, margin=1.5)
+    _assert_in_view(model, corners)
 
 
 # Several environments, and others that draw.

@@ -216,16 +216,16 @@ def test_the_fist_hits_the_middle_block_first():
 
 @pytest.mark.parametrize("action", range(4))
 def test_the_fist_keeps_its_speed_in_the_open(action):
-    """1 m/s in the held direction, from the second control step until it is near a wall or the tower."""
+    """1 m/s in the held direction, once 400 N have sped up 20 kg; behind it, the end of its room is 0.08 m away."""
     env = suite.load("towers", "fist_features", {"random": 0, "control_timestep": 0.01})
     track = [env.reset().observation["fist_position"].astype(float)]
-    track += [env.step(action).observation["fist_position"].astype(float) for _ in range(16)]
+    track += [env.step(action).observation["fist_position"].astype(float) for _ in range(10)]
     velocities = np.diff(track, axis=0) / 0.01
-    np.testing.assert_allclose(velocities[10:], [[*DIRECTIONS[action], 0]] * 6, atol=0.01)
+    np.testing.assert_allclose(velocities[8:], [[*DIRECTIONS[action], 0]] * 2, atol=0.01)
 
 
 # Held for 0.1 s, then for 0.2 s: pairs that lead neither to a wall nor to the tower.
-@pytest.mark.parametrize("first, second", [(1, 0), (1, 2), (1, 3), (2, 1), (2, 3), (3, 1), (3, 2)])
+@pytest.mark.parametrize("first, second", [(0, 1), (1, 0), (1, 2), (1, 3), (2, 3), (3, 2)])
 def test_the_fist_turns_where_it_is_told(first, second):
     """It moves at 1 m/s in the new direction, and stays in its plane."""
     env = suite.load("towers", "fist_features", {"random": 0, "control_timestep": 0.05})
