@@ -7,6 +7,7 @@ import ctypes
 import ctypes.util
 import functools
 import glob
+import importlib
 import os
 import warnings
 import weakref
@@ -84,13 +85,13 @@ class Renderer:
         import mujoco  # Here, so that the module that chooses the backend comes before mujoco.
 
         self.context = _make_context(size)
-        self._exit_hook = functools.partial(_close, weakref.ref(self))
-        atexit.register(self._exit_hook)  # A context that outlives the backend's own exit hook cannot be freed.
         drawn = _with_buffer(model, size)
         with current(self.context):
             self.buffers = mujoco.MjrContext(drawn, mujoco.mjtFontScale.mjFONTSCALE_50)
             mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self.buffers)
             warn_if_software(gl_renderer_name())
+        self._exit_hook = functools.partial(_close, weakref.ref(self))
+        atexit.register(self._exit_hook)  # A context that outlives the backend's own exit hook cannot be freed.
         self._render, self._read = mujoco.mjr_render, mujoco.mjr_readPixels
         self._rectangle = mujoco.MjrRect(0, 0, size, size)
         self._upside_down = np.zeros((size, size, 3), np.uint8)  # As GL reads it: the lowest row first.
@@ -213,15 +214,14 @@ def _poses(scene) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _make_context(size: int):
-    import mujoco
-
     backend = choose_backend()
     if backend.lower() in _OFF:
         raise RuntimeError(f"no GL library is here to draw pixels with; install {DEBIAN_PACKAGES} (features need none)")
     try:
         if backend not in ("egl", "osmesa") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
             raise RuntimeError("there is no display")  # glfw itself says so by ending the process.
-        return mujoco.GLContext(size, size)
+        # Not mujoco.GLContext, which is what MUJOCO_GL said when mujoco was imported, perhaps before this package.
+        return importlib.import_module(f"mujoco.{backend.lower()}").GLContext(size, size)
     except Exception as error:  # Whatever the driver raises is what the user wants to read.
         raise RuntimeError(
             f"the GL backend {backend} (MUJOCO_GL) does not work here: {error}; install {DEBIAN_PACKAGES}, "
