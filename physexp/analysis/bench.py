@@ -46,14 +46,8 @@ def run(sections: Sequence[str], runs_dir: Path) -> Iterator[dict]:
             from physexp.analysis import bench_learning
 
             yield from bench_learning.run(runs_dir)
-        elif section == "pretrained":
-            from physexp.analysis import bench_pretrained
-
-            yield from bench_pretrained.run()
         else:
-            yield from {"reset": _reset, "batch": _batch, "training": _training, "peers": _peers, "pixels": _pixels}[
-                section
-            ]()
+            yield from _SECTIONS[section]()
 
 
 def rates(*sides: Callable[[], int], seconds: float = 1.0) -> list[float]:
@@ -216,3 +210,13 @@ def _pixels() -> Iterator[dict]:
 
     yield from bench_pixels.rendering_figures()
     yield from bench_pixels.training_figures()
+
+
+def _pretrained() -> Iterator[dict]:
+    from physexp.analysis import bench_pretrained
+
+    yield from bench_pretrained.run()
+
+
+_SECTIONS = {"reset": _reset, "batch": _batch, "training": _training, "peers": _peers, "pixels": _pixels,
+             "pretrained": _pretrained}  # fmt: skip

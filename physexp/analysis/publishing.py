@@ -12,10 +12,8 @@ from physexp.analysis import config as config_lib
 from physexp.analysis import evaluation, training
 from physexp.analysis import run as run_lib
 
-EPISODES = 10_000
 
-
-def publish(run: run_lib.Run, folder: Path = pretrained.FOLDER, num_episodes: int = EPISODES) -> Path:
+def publish(run: run_lib.Run, folder: Path, num_episodes: int) -> Path:
     """Evaluates a run's agent as it will be kept, in half precision, and writes it and its card; returns the card.
 
     Args:
@@ -61,7 +59,7 @@ def command(config: config_lib.TrainConfig) -> str:
     words = ["physexp", "train", config.domain, config.task]
     for name, value in config.task_kwargs.items():
         words += [f"--{name.replace('_', '-')}", f"{value:g}"]
-    preset = config_lib.dataclasses.asdict(config_lib.preset(config.domain, config.task))
+    preset = dataclasses.asdict(config_lib.preset(config.domain, config.task))
     for name, value in dataclasses.asdict(config.agent).items():
         if value != preset[name]:
             words += _flag(name, value)

@@ -8,7 +8,7 @@ import mujoco
 from mujoco.batch import Batch
 import numpy as np
 
-from physexp.suite import seeding, senses
+from physexp.suite import seeding
 from physexp.suite import task as task_lib
 
 _LOG = logging.getLogger(__name__)
@@ -56,7 +56,7 @@ class BatchEnvironment:
         self._touched = np.zeros(self.num_environments, bool)
         self._hidden: np.ndarray | None = None
         self._groups: dict[int, _Group] = {}
-        self._observations = senses.blank(task.sense.spec(self._group(0).kit), self.num_environments)
+        self._observations = task.blank_observations(self.num_environments)
 
     # Specs are those of the single environment.
 
@@ -241,7 +241,7 @@ class _Group:
     @functools.cached_property
     def first_observation(self) -> dict[str, np.ndarray]:
         """What there is to see at the start of every episode."""
-        first = senses.blank(self._task.sense.spec(self.kit), 1)
+        first = self._task.blank_observations(1)
         rest = {field: self.kit.rest[field][None] for field in self._task.sense.fields}
         self._task.look(self.kit, rest, np.zeros(1, bool), np.zeros(1, np.intp), first)
         return {name: value[0] for name, value in first.items()}

@@ -23,8 +23,13 @@ class Sense(abc.ABC):
     """Whether images are drawn."""
 
     @abc.abstractmethod
-    def spec(self, apparatus: apparatus_lib.Apparatus) -> dict[str, tuple[tuple[int, ...], type]]:
-        """Shape and type of each observation."""
+    def blank(self, sensors: Mapping[str, tuple], size: int) -> dict[str, np.ndarray]:
+        """Arrays for the observations of `size` environments.
+
+        Args:
+          sensors: for each feature, its sensors and its shape.
+          size: how many environments.
+        """
 
     @abc.abstractmethod
     def look(self, apparatus: apparatus_lib.Apparatus, state: Mapping[str, np.ndarray], rows: np.ndarray,
@@ -49,8 +54,8 @@ class Features(Sense):
     fields = ("sensordata",)
     needs_gl = False
 
-    def spec(self, apparatus):
-        return {name: (addresses.shape, np.float32) for name, addresses in apparatus.readings.items()}
+    def blank(self, sensors, size):
+        return {name: np.zeros((size, *shape), np.float32) for name, (_, shape) in sensors.items()}
 
     def look(self, apparatus, state, rows, observations):
         for name, addresses in apparatus.readings.items():
@@ -69,8 +74,8 @@ class Pixels(Sense):
     def __init__(self):
         self._renderer: rendering.Renderer | None = None
 
-    def spec(self, apparatus):
-        return {"pixels": ((rendering.SIZE, rendering.SIZE, 3), np.uint8)}
+    def blank(self, sensors, size):
+        return {"pixels": np.zeros((size, rendering.SIZE, rendering.SIZE, 3), np.uint8)}
 
     def look(self, apparatus, state, rows, observations):
         if self._renderer is None:  # All structures of a task have the same geoms: one renderer draws them all.
@@ -81,8 +86,3 @@ class Pixels(Sense):
         if self._renderer is not None:
             self._renderer.close()
             self._renderer = None
-
-
-def blank(spec: Mapping[str, tuple[tuple[int, ...], type]], size: int) -> dict[str, np.ndarray]:
-    """Arrays for the observations of `size` environments."""
-    return {name: np.zeros((size, *shape), dtype) for name, (shape, dtype) in spec.items()}

@@ -112,7 +112,7 @@ class QuestionTask(composer.Task):
         self._touched = np.zeros(1, bool)
         self._diverged = False
         self.sense = sense
-        self._seen = senses_lib.blank(sense.spec(self.build_apparatus(0)), 1)
+        self._seen = self.blank_observations(1)
         self._observables = {name: observable.Generic(functools.partial(self._recall, name)) for name in self._seen}
         for reading in self._observables.values():
             reading.enabled = True
@@ -227,6 +227,10 @@ class QuestionTask(composer.Task):
             self.held_geoms,
             self.hidden_joints,
         )
+
+    def blank_observations(self, size: int) -> dict[str, np.ndarray]:
+        """Arrays for the observations of `size` environments."""
+        return self.sense.blank(self.sensors, size)
 
     def look(self, kit: apparatus_lib.Apparatus, state, touched, rows, observations) -> None:
         """Writes what there is to see of some simulations.

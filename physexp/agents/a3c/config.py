@@ -25,8 +25,8 @@ class A3CConfig:
       baseline_cost: weight of the value loss.
       max_gradient_norm: gradients are scaled down to this norm.
       lstm_units: hidden units of the LSTM (paper: 100).
-      observation_scale: factor on features. They are in metres; what matters in them, a centimetre or a tenth of a
-        metre, should be of the order of one.
+      observation_scale: factor on features, which are in metres, or on pixels in [0, 1]. What matters in them, a
+        centimetre or a tenth of a metre, should be of the order of one.
       action_prior: logits that the policy starts from, one for each action, or none for a uniform start; the paper's is
         uniform.
       relative_pixels: show the network how pixels differ from those at an episode's start; False is the paper's.
