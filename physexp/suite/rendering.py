@@ -36,7 +36,7 @@ def choose_backend() -> str:
             os.environ["MUJOCO_GL"] = "egl"
         else:
             os.environ["MUJOCO_GL"] = "osmesa" if osmesa else "disable"
-    return os.environ["MUJOCO_GL"]
+    return os.environ["MUJOCO_GL"].lower().strip()  # As MuJoCo reads it.
 
 
 def _egl_works(library: str) -> bool:
@@ -92,10 +92,12 @@ class Renderer:
             warn_if_software(gl_renderer_name())
         self._exit_hook = functools.partial(_close, weakref.ref(self))
         atexit.register(self._exit_hook)  # A context that outlives the backend's own exit hook cannot be freed.
-        self._render, self._read = mujoco.mjr_render, mujoco.mjr_readPixels
-        self._rectangle = mujoco.MjrRect(0, 0, size, size)
-        self._upside_down = np.zeros((size, size, 3), np.uint8)  # As GL reads it: the lowest row first.
         self.scene = _make_scene(drawn, camera)
+        upside_down = np.zeros((size, size, 3), np.uint8)  # As GL reads it: the lowest row first.
+        self._image = upside_down[::-1]
+        rectangle = mujoco.MjrRect(0, 0, size, size)
+        self._draw = functools.partial(mujoco.mjr_render, rectangle, self.scene, self.buffers)
+        self._read = functools.partial(mujoco.mjr_readPixels, upside_down, None, rectangle, self.buffers)
         drawn_geoms = [geom.objid for geom in self.scene.geoms[: self.scene.ngeom]]
         self._moving = [geom for geom in drawn_geoms if model.body_weldid[model.geom_bodyid[geom]] != 0]
         first = drawn_geoms.index(self._moving[0])
@@ -117,16 +119,13 @@ class Renderer:
             raise RuntimeError("the renderer is closed")
         positions = geom_xpos[:, self._moving].astype(np.float32)
         rotations = geom_xmat[:, self._moving].astype(np.float32)
-        draw = functools.partial(self._render, self._rectangle, self.scene, self.buffers)
-        read = functools.partial(self._read, self._upside_down, None, self._rectangle, self.buffers)
-        upright = self._upside_down[::-1]
         with current(self.context):
             for row, position, rotation in zip(rows, positions, rotations, strict=True):
                 self._positions[:] = position
                 self._rotations[:] = rotation
-                draw()
-                read()
-                images[row] = upright
+                self._draw()
+                self._read()
+                images[row] = self._image
 
     def close(self) -> None:
         """Frees the context. Closing twice does nothing."""
@@ -215,13 +214,14 @@ def _poses(scene) -> tuple[np.ndarray, np.ndarray]:
 
 def _make_context(size: int):
     backend = choose_backend()
-    if backend.lower() in _OFF:
+    if backend in _OFF:
         raise RuntimeError(f"no GL library is here to draw pixels with; install {DEBIAN_PACKAGES} (features need none)")
     try:
         if backend not in ("egl", "osmesa") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
             raise RuntimeError("there is no display")  # glfw itself says so by ending the process.
         # Not mujoco.GLContext, which is what MUJOCO_GL said when mujoco was imported, perhaps before this package.
-        return importlib.import_module(f"mujoco.{backend.lower()}").GLContext(size, size)
+        module = backend if backend in ("egl", "osmesa") else "glfw"
+        return importlib.import_module(f"mujoco.{module}").GLContext(size, size)
     except Exception as error:  # Whatever the driver raises is what the user wants to read.
         raise RuntimeError(
             f"the GL backend {backend} (MUJOCO_GL) does not work here: {error}; install {DEBIAN_PACKAGES}, "

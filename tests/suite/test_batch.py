@@ -4,6 +4,7 @@ import os
 import secrets
 
 import dm_env
+from episodes import random_actions
 import numpy as np
 import pytest
 
@@ -34,12 +35,6 @@ def _load_both(domain_name, task_name, seed, size, num_threads=1, **task_kwargs)
     return batch, singles
 
 
-def _random_actions(rng, task, size):
-    """Interactions, and one label in fifteen."""
-    labels = task.num_interactions + rng.integers(task.num_labels, size=size)
-    return np.where(rng.random(size) < 1 / 15, labels, rng.integers(task.num_interactions, size=size))
-
-
 def _assert_same(steps: dm_env.TimeStep, singles: list[dm_env.TimeStep]) -> None:
     """Row `i` of a batch's time step is the i-th single time step; on a first step a batch has 0 for None, and 1."""
     for i, single in enumerate(singles):
@@ -68,7 +63,7 @@ def test_a_batch_is_its_single_environments(seed, domain_name, task_name, size, 
     _assert_same(batch.reset(), [single.reset() for single in singles])
     for _ in range(STEPS[domain_name]):
         _assert_same_questions(batch, singles)
-        actions = _random_actions(rng, batch.task, size)
+        actions = random_actions(rng, batch.task, size)
         _assert_same(batch.step(actions), [single.step(a) for single, a in zip(singles, actions, strict=True)])
 
 
@@ -81,7 +76,7 @@ def test_chosen_environments_step_and_reset_without_the_others(seed, domain_name
     _assert_same(batch.reset(), [single.reset() for single in singles])
     for _ in range(STEPS[domain_name] // 2):
         chosen = np.flatnonzero(rng.random(size) < 0.6)
-        actions = _random_actions(rng, batch.task, len(chosen))
+        actions = random_actions(rng, batch.task, len(chosen))
         expected = [singles[i].step(a) for i, a in zip(chosen, actions, strict=True)]
         _assert_same(batch.step(actions, environments=chosen), expected)
         if rng.random() < 0.1:
@@ -130,7 +125,7 @@ def test_an_environment_does_not_depend_on_how_many_there_are(seed, domain_name,
     ]
     steps = [batch.reset() for batch in batches]
     for _ in range(20):
-        actions = _random_actions(rng, batches[0].task, 6)
+        actions = random_actions(rng, batches[0].task, 6)
         steps = [batch.step(actions[: batch.num_environments]) for batch in batches]
         largest = steps[-1]
         for step in steps[:-1]:

@@ -1,35 +1,19 @@
 """Nothing tells of the hidden property before it is touched, and what hides it leaves the physics as it is."""
 
 import functools
-import os
-import secrets
 
+from episodes import EVERY_PATTERN, SEED, episode_with
 import mujoco
 import numpy as np
 import pytest
 
 from physexp import suite
 from physexp.suite import task as task_lib
-from physexp.suite import tower, towers
+from physexp.suite import tower
 
-EVERY_PATTERN = np.arange(16)
 INTO_THE_TOWER, AWAY, LEFT, RIGHT = range(4)  # The fist's actions: +x, -x, +y, -y. It starts at x = -0.32 m.
 
-
-SEED = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
-
-
-@pytest.fixture(autouse=True)
-def seed():
-    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure; one a module, see `_load_batch`."""
-    print(f"PHYSEXP_TEST_SEED={SEED}")
-    return SEED
-
-
-def _episode_with(pattern: int, environment_seed: int) -> int:
-    """The first episode with this pattern; one in thirty at least has it, so a thousand are enough."""
-    patterns = towers.draw_patterns(np.full(1000, environment_seed), np.arange(1000))
-    return int(np.flatnonzero(patterns == pattern)[0])
+pytestmark = pytest.mark.usefixtures("seed")
 
 
 @functools.cache
@@ -43,7 +27,7 @@ def _batch_of(task_name, patterns, control_timestep=0.1):
     batch = _load_batch(task_name, len(patterns), control_timestep)
     rows = []
     for i, pattern in enumerate(patterns):
-        episode = _episode_with(pattern, suite.environment_seed(SEED, i))
+        episode = episode_with(pattern, suite.environment_seed(SEED, i))
         rows.append(batch.reset(np.array([i]), episode).observation)
     np.testing.assert_array_equal(batch.hidden, patterns)
     return batch, {name: np.concatenate([row[name] for row in rows]) for name in rows[0]}
@@ -103,7 +87,7 @@ def test_an_untouched_tower_and_the_fist_look_the_same_whatever_the_glue(
 def test_an_untouched_tower_stays_where_it_is_in_a_single_environment(control_timestep):
     env = suite.load("towers", "fist_features", {"random": 0, "control_timestep": control_timestep})
     for pattern in (0, 8, 15):
-        env.task.next_episode = _episode_with(pattern, 0)
+        env.task.next_episode = episode_with(pattern, 0)
         first = env.reset().observation["positions"]
         for _ in range(20):
             positions = env.step(AWAY).observation["positions"]

@@ -7,15 +7,15 @@ import gc
 import itertools
 import os
 import re
-import secrets
 
 import dm_env
+from episodes import EVERY_PATTERN, SEED, episode_with, random_actions
 import numpy as np
 import pytest
 from scipy import spatial
 
 from physexp import suite
-from physexp.suite import block, rendering, tower, towers
+from physexp.suite import block, rendering, tower
 
 import mujoco  # isort: skip  # The suite chooses the GL backend, which mujoco looks at once.
 
@@ -23,24 +23,16 @@ HEAVIER, DIRECT, FIST = ("which_is_heavier", "pixels"), ("towers", "direct_pixel
 PIXEL_TASKS = [HEAVIER, DIRECT, FIST]
 every_pixel_task = pytest.mark.parametrize("domain_name, task_name", PIXEL_TASKS)
 # What draws is not what is tested here.
-pytestmark = pytest.mark.filterwarnings("ignore:PIXELS ARE DRAWN BY THE PROCESSOR")
+pytestmark = [
+    pytest.mark.usefixtures("seed"),
+    pytest.mark.filterwarnings("ignore:PIXELS ARE DRAWN BY THE PROCESSOR"),
+]
 
 EDGE = 84  # pixels, of an image
 SHAPE = (EDGE, EDGE, 3)
 CORNERS = np.array(list(itertools.product((-0.05, 0.05), repeat=3)))  # m, of a cube, from its centre
-EVERY_PATTERN = np.arange(16)
 SEPARATE, WHOLE = 0, 15
 INTO_THE_TOWER, AWAY, LEFT, RIGHT = range(4)  # The fist's actions: +x, -x, +y, -y. It starts at x = -0.32 m.
-
-
-SEED = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
-
-
-@pytest.fixture(autouse=True)
-def seed():
-    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure; one a module, see `_shared`."""
-    print(f"PHYSEXP_TEST_SEED={SEED}")
-    return SEED
 
 
 @functools.cache
@@ -128,12 +120,6 @@ def _start_both(domain_name, task_name, size):
     return batch, singles
 
 
-def _random_actions(rng, task, size):
-    """Interactions, and one label in fifteen."""
-    labels = task.num_interactions + rng.integers(task.num_labels, size=size)
-    return np.where(rng.random(size) < 1 / 15, labels, rng.integers(task.num_interactions, size=size))
-
-
 def _assert_same(steps: dm_env.TimeStep, singles: list[dm_env.TimeStep]) -> None:
     for i, single in enumerate(singles):
         assert steps.step_type[i] == single.step_type
@@ -157,18 +143,12 @@ def _image(step) -> np.ndarray:
 # Patterns of glue.
 
 
-def _episode_with(pattern: int, environment_seed: int) -> int:
-    """The first episode with this pattern; one in thirty at least has it, so a thousand are enough."""
-    patterns = towers.draw_patterns(np.full(1000, environment_seed), np.arange(1000))
-    return int(np.flatnonzero(patterns == pattern)[0])
-
-
 def _batch_of(task_name, patterns, control_timestep=0.1):
     """A batch whose first environments start with `patterns`, their indices, and their first images."""
     batch, first = _shared("towers", task_name, SEED, 80, control_timestep), []
     chosen = np.arange(len(patterns))
     for i, pattern in zip(chosen, patterns, strict=True):
-        episode = _episode_with(pattern, suite.environment_seed(SEED, i))
+        episode = episode_with(pattern, suite.environment_seed(SEED, i))
         first.append(_image(batch.reset(np.array([i]), episode)))
     np.testing.assert_array_equal(batch.hidden[chosen], patterns)
     return batch, chosen, np.concatenate(first)
@@ -262,7 +242,7 @@ def test_an_image_of_a_touched_tower_is_what_mujoco_draws_of_the_state(task_name
     """Pattern by pattern, though one renderer draws them all, with a renderer of mujoco's own for the pattern."""
     env = _shared("towers", task_name, SEED)
     for pattern in patterns:
-        env.task.next_episode = _episode_with(pattern, SEED)
+        env.task.next_episode = episode_with(pattern, SEED)
         first = _image(env.reset())
         for _ in range(7):  # The fist has hit the tower, 0.17 m away, after two; the lowest block is pushed.
             image = _image(env.step(0))
@@ -338,7 +318,7 @@ def test_a_batch_is_its_single_environments(seed, domain_name, task_name):
     batch, singles = _start_both(domain_name, task_name, size)
     endings = set()
     for t in range(2 * batch.task.rules.step_limit + 20):
-        actions = _random_actions(rng, batch.task, size)
+        actions = random_actions(rng, batch.task, size)
         if t < batch.task.rules.step_limit:
             actions[0] %= batch.task.num_interactions  # The first environment's first episode runs out of time.
         steps = batch.step(actions)
@@ -357,7 +337,7 @@ def test_chosen_environments_step_without_the_others(seed, domain_name, task_nam
     batch, singles = _start_both(domain_name, task_name, 3)
     for _ in range(25):
         chosen = np.flatnonzero(rng.random(3) < 0.6)
-        actions = _random_actions(rng, batch.task, len(chosen))
+        actions = random_actions(rng, batch.task, len(chosen))
         expected = [singles[i].step(a) for i, a in zip(chosen, actions, strict=True)]
         _assert_same(batch.step(actions, chosen), expected)
 
@@ -369,7 +349,7 @@ def test_an_image_does_not_depend_on_how_many_environments_or_threads_there_are(
     batches.append(load(domain_name, task_name, seed, 5, num_threads=2))
     first = [_image(batch.reset(episode=0)) for batch in batches]
     for t in range(20):
-        actions = _random_actions(rng, batches[0].task, 5)
+        actions = random_actions(rng, batches[0].task, 5)
         images = [_image(batch.step(actions[: batch.num_environments])) for batch in batches]
         for image in images:
             assert image.tobytes() == images[-1][: len(image)].tobytes(), f"step {t}"
@@ -529,7 +509,7 @@ def test_every_tower_looks_the_same_at_first(task_name):
     _, _, first = _batch_of(task_name, EVERY_PATTERN)
     env = _shared("towers", task_name, SEED)
     for pattern in EVERY_PATTERN:
-        env.task.next_episode = _episode_with(pattern, SEED)
+        env.task.next_episode = episode_with(pattern, SEED)
         image = _image(env.reset())
         assert env.task.hidden == pattern
         assert image.tobytes() == first[pattern].tobytes() == first[0].tobytes(), tower.PATTERNS[pattern]
@@ -593,7 +573,7 @@ def test_an_untouched_tower_is_drawn_to_the_last_bit_as_it_stood_at_first(poses_
     for _ in range(5):
         batch.step(np.full(16, AWAY), chosen)
     for pattern in (SEPARATE, 6, WHOLE):
-        single.task.next_episode = _episode_with(pattern, SEED)
+        single.task.next_episode = episode_with(pattern, SEED)
         single.reset()
         for _ in range(5):
             single.step(AWAY)

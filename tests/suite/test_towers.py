@@ -2,9 +2,8 @@
 
 import functools
 import itertools
-import os
-import secrets
 
+from episodes import EVERY_PATTERN, SEED, episode_with
 import numpy as np
 import pytest
 from scipy import stats
@@ -20,24 +19,9 @@ DIRECTIONS = np.array([(1, 0), (-1, 0), (0, 1), (0, -1)])  # +x, -x, +y, -y
 
 # Bodies in a tower of each pattern, in the order of `tower.PATTERNS`: five, less one for each of the glued joints.
 COUNTS = np.array([5 - sum(pattern) for pattern in itertools.product((0, 1), repeat=4)])
-EVERY_PATTERN = np.arange(16)
 SEPARATE, WHOLE = 0, 15
 
-
-SEED = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
-
-
-@pytest.fixture(autouse=True)
-def seed():
-    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure; one a module, see `_load_batch`."""
-    print(f"PHYSEXP_TEST_SEED={SEED}")
-    return SEED
-
-
-def _episode_with(pattern: int, environment_seed: int) -> int:
-    """The first episode with this pattern; one in thirty at least has it, so a thousand are enough."""
-    patterns = towers.draw_patterns(np.full(1000, environment_seed), np.arange(1000))
-    return int(np.flatnonzero(patterns == pattern)[0])
+pytestmark = pytest.mark.usefixtures("seed")
 
 
 @functools.cache
@@ -51,7 +35,7 @@ def _batch_of(task_name, patterns, control_timestep=0.1):
     batch = _load_batch(task_name, len(patterns), control_timestep)
     positions = []
     for i, pattern in enumerate(patterns):
-        episode = _episode_with(pattern, suite.environment_seed(SEED, i))
+        episode = episode_with(pattern, suite.environment_seed(SEED, i))
         positions.append(batch.reset(np.array([i]), episode).observation["positions"][0])
     np.testing.assert_array_equal(batch.hidden, patterns)
     return batch, np.stack(positions)
@@ -84,7 +68,7 @@ def test_the_count_is_uniform_and_so_is_the_pattern_given_the_count(seed):
 def test_the_answer_is_the_number_of_bodies_less_one(seed, task_name):
     env = suite.load("towers", task_name, {"random": seed})
     for pattern in EVERY_PATTERN:
-        env.task.next_episode = _episode_with(pattern, seed)
+        env.task.next_episode = episode_with(pattern, seed)
         env.reset()
         assert env.task.hidden == pattern
         assert env.task.correct_answer == COUNTS[pattern] - 1
@@ -203,7 +187,7 @@ def test_exactly_one_held_action_takes_the_fist_into_the_tower():
 def test_the_fist_hits_the_middle_block_first():
     env = suite.load("towers", "fist_features", {"random": 0, "control_timestep": 0.01})
     for pattern in EVERY_PATTERN:
-        env.task.next_episode = _episode_with(pattern, 0)
+        env.task.next_episode = episode_with(pattern, 0)
         env.reset()
         hit = set()
         while not hit:
