@@ -134,6 +134,95 @@ class Publish:
 
 
 @dataclasses.dataclass
+class Ideal:
+    """Print what an ideal experimenter achieves: nobody can expect a larger return.
+
+    Attributes:
+      domain: which_is_heavier (one poke reveals a mass exactly) or towers (physics is known).
+      difficulty: the paper's beta, for Which is Heavier.
+      blocks: how many blocks, for Which is Heavier.
+      task: the task, for towers.
+      resolution: what the observer of a tower can tell apart: metres for features, differing pixels for images; 0 is
+        every bit.
+      discount: the agent's gamma; by default 0.95, or 0.98 for towers.
+      json: print JSON.
+    """
+
+    domain: Positional[Literal["which_is_heavier", "towers"]]
+    difficulty: float = 5.0
+    blocks: int = 4
+    task: Literal["direct_features", "fist_features", "direct_pixels", "fist_pixels"] = "fist_features"
+    resolution: float = 0.0
+    discount: float | None = None
+    json: bool = False
+
+    def run(self) -> None:
+        discount = self.discount
+        if self.domain == "which_is_heavier":
+            from physexp.analysis.ideal import which_is_heavier
+
+            summary = which_is_heavier.solve(
+                self.difficulty, 0.95 if discount is None else discount, self.blocks
+            ).summary()
+        else:
+            from physexp.analysis.ideal import towers
+
+            summary = towers.solve(self.task, self.resolution, 0.98 if discount is None else discount).summary()
+        _show(summary, self.json)
+
+
+@dataclasses.dataclass
+class Reproduce:
+    """Reproduce an experiment of the paper: train its agents, let them play, draw its figure, test its claims.
+
+    What is done already is not done again; a sweep that was stopped goes on where it was.
+
+    Attributes:
+      experiment: mass_gap, learning_heavier, population, individual, random_heavier, learning_towers, waiting,
+        random_towers, ideal_gap, or all.
+      seeds: agents in each condition; by default 10 from features and 3 from pixels.
+      observations: what the agents see.
+      results_dir: where everything goes.
+      jobs: agents trained at a time; by default one a core.
+      frames: environment steps of training, for a rehearsal; by default each condition's own budget.
+    """
+
+    experiment: Positional[str]
+    seeds: int | None = None
+    observations: Literal["features", "pixels", "all"] = "all"
+    results_dir: Path = Path("results")
+    jobs: int | None = None
+    frames: int | None = None
+
+    def run(self) -> None:
+        from physexp.analysis import reproduce
+        from physexp.analysis.experiments import base, conditions
+
+        reproduce.run(
+            reproduce.choose(self.experiment), base.Results(self.results_dir),
+            observations=conditions.OBSERVATIONS if self.observations == "all" else (self.observations,),
+            num_seeds=self.seeds, num_processes=self.jobs, frames=self.frames, report=_tell,
+        )  # fmt: skip
+
+
+@dataclasses.dataclass
+class Report:
+    """Write report.md and report.html of the stored results: every figure, and every claim with its verdict.
+
+    Attributes:
+      results_dir: where the results are.
+    """
+
+    results_dir: Path = Path("results")
+
+    def run(self) -> None:
+        from physexp.analysis import report
+        from physexp.analysis.experiments import base
+
+        print(report.write(base.Results(self.results_dir), _tell))
+
+
+@dataclasses.dataclass
 class Bench:
     """Measure every performance figure, side by side.
 
@@ -216,12 +305,19 @@ def _parse(arguments: list[str]):
         Annotated[Train, tyro.conf.subcommand("train", default=train)],
         Annotated[Evaluate, tyro.conf.subcommand("evaluate")],
         Annotated[Publish, tyro.conf.subcommand("publish")],
+        Annotated[Ideal, tyro.conf.subcommand("ideal")],
+        Annotated[Reproduce, tyro.conf.subcommand("reproduce")],
+        Annotated[Report, tyro.conf.subcommand("report")],
         Annotated[Bench, tyro.conf.subcommand("bench")],
         Annotated[Doctor, tyro.conf.subcommand("doctor")],
         Annotated[Demo, tyro.conf.subcommand("demo")],
     ]
     description = "Environments in which an agent must experiment, and agents that learn to."
     return tyro.cli(commands, prog="physexp", description=description, args=arguments)  # type: ignore[call-overload]
+
+
+def _tell(line: str) -> None:
+    print(line, flush=True)
 
 
 def _show(figures: dict, as_json: bool) -> None:
@@ -245,6 +341,8 @@ def _show_rows(rows: list[dict], as_json: bool) -> None:
 def _text(value) -> str:
     if isinstance(value, float):
         return f"{value:.4f}"
+    if isinstance(value, dict):
+        return "  ".join(f"{key}: {_text(item)}" for key, item in value.items())
     if isinstance(value, (list, tuple)):
         return " to ".join(_text(item) for item in value)
     return str(value)

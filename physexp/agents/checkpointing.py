@@ -27,6 +27,14 @@ def write_atomically(path: Path, content: bytes) -> None:
         temporary.unlink(missing_ok=True)
 
 
+def write_agent(path: Path, variables: Mapping[str, torch.Tensor]) -> None:
+    """Writes a network's variables, by name, in half precision: what is kept of an agent that is trained."""
+    tensors = {
+        name: (value.half() if value.is_floating_point() else value).contiguous() for name, value in variables.items()
+    }
+    write_atomically(path, safetensors.save(tensors))
+
+
 class Checkpointer:
     """Keeps the latest checkpoints of a run in a folder."""
 

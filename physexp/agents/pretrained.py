@@ -78,12 +78,8 @@ def save(network: networks.RecurrentActorCritic, card: Mapping[str, Any], folder
       folder: where the agents are; made when needed.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    tensors = {
-        key: (value.half() if value.is_floating_point() else value).contiguous()
-        for key, value in network.state_dict().items()
-    }
     base = name(card["domain"], card["task"], card["difficulty"])
-    checkpointing.write_atomically(folder / f"{base}.safetensors", safetensors.save(tensors))
+    checkpointing.write_agent(folder / f"{base}.safetensors", network.state_dict())
     path = folder / f"{base}.json"
     checkpointing.write_atomically(path, (json.dumps(dict(card), indent=1) + "\n").encode())
     return path

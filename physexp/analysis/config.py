@@ -7,9 +7,10 @@ import dataclasses
 
 from physexp.agents.a3c import config as a3c
 
+_HEAVIER = a3c.A3CConfig(envs_per_worker=128, trace=0.98, observation_scale=80.0)
 # Simulation is what a tower costs, not learning: smaller updates and more of them. Blocks move by their own size.
-_TOWERS = a3c.A3CConfig(discount=0.98, envs_per_worker=64, entropy_cost=0.04, final_entropy_cost=0.001,
-                        observation_scale=10.0)  # fmt: skip
+_TOWERS = a3c.A3CConfig(discount=0.98, envs_per_worker=32, learning_rate=3e-3, trace=0.5, entropy_cost=0.01,
+                        final_entropy_cost=0.001, observation_scale=10.0)  # fmt: skip
 # Every frame passes the convolutions, which is what pixels cost: small updates, and no frame more than is needed.
 _HEAVIER_PIXELS = a3c.A3CConfig(frames=500_000, envs_per_worker=64, learning_rate=1e-3, trace=0.9,
                                 observation_scale=8.0)  # fmt: skip
@@ -23,10 +24,10 @@ def _prior(num_interactions: int, label: float) -> tuple[float, ...]:
 
 
 PRESETS = {
-    ("which_is_heavier", "features"): a3c.A3CConfig(),
+    ("which_is_heavier", "features"): _HEAVIER,
     ("which_is_heavier", "pixels"): _HEAVIER_PIXELS,
-    ("towers", "direct_features"): _TOWERS.replace(frames=3_000_000),
-    ("towers", "fist_features"): _TOWERS.replace(frames=2_000_000),
+    ("towers", "direct_features"): _TOWERS.replace(frames=600_000, action_prior=_prior(20, -1.0)),
+    ("towers", "fist_features"): _TOWERS.replace(frames=500_000, action_prior=_prior(4, -3.0)),
     ("towers", "direct_pixels"): _TOWERS_PIXELS.replace(frames=400_000, action_prior=_prior(20, -1.0)),
     ("towers", "fist_pixels"): _TOWERS_PIXELS.replace(frames=500_000, action_prior=_prior(4, -3.0)),
 }

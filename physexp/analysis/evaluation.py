@@ -1,7 +1,9 @@
 """Evaluation: plays episodes with a trained agent and measures how well it answers."""
 
+from collections.abc import Sequence
 import dataclasses
 import functools
+from typing import Any
 
 import numpy as np
 import torch
@@ -23,14 +25,54 @@ class Episodes:
     """What happened in many episodes.
 
     Attributes:
+      seeds, numbers: seed of the environment and index of the episode, int64 [N] each: together they rebuild it.
+      hidden: the hidden property, [N, ...].
+      answers: the right labels, int64 [N].
+      labels: the labels given, -1 where time ran out, int64 [N].
       rewards: final rewards, float64 [N].
       lengths: actions in each episode, int64 [N].
       interactions: interaction actions in each episode, int64 [N].
+      actions: the actions of each episode, N arrays int64 [length].
     """
 
+    seeds: np.ndarray
+    numbers: np.ndarray
+    hidden: np.ndarray
+    answers: np.ndarray
+    labels: np.ndarray
     rewards: np.ndarray
     lengths: np.ndarray
     interactions: np.ndarray
+    actions: list[np.ndarray]
+
+    @classmethod
+    def of_round(cls, episodes: acting.Round, environment, number: int) -> "Episodes":
+        """The episodes of a round that has just been played in the environments of a batch, all with this index."""
+        columns = training.episode_columns(episodes, environment.task.num_interactions)
+        return cls(
+            seeds=environment.seeds,
+            numbers=np.full(environment.num_environments, number),
+            hidden=environment.hidden,
+            answers=episodes.answers,
+            labels=np.array(columns["label"]),
+            rewards=episodes.rewards.sum(axis=0, dtype=np.float64),
+            lengths=episodes.lengths,
+            interactions=training.interaction_counts(episodes, environment.task.num_interactions),
+            actions=[np.array(actions) for actions in columns["actions"]],
+        )
+
+    @classmethod
+    def joined(cls, parts: "Sequence[Episodes]") -> "Episodes":
+        """The episodes of all parts, one after the other."""
+        columns: dict[str, Any] = {}
+        for field in dataclasses.fields(cls):
+            values: list[Any] = [getattr(part, field.name) for part in parts]
+            columns[field.name] = sum(values, []) if field.name == "actions" else np.concatenate(values)
+        return cls(**columns)
+
+    def first(self, count: int) -> "Episodes":
+        """The first episodes."""
+        return Episodes(*(getattr(self, field.name)[:count] for field in dataclasses.fields(self)))
 
     def summary(self, discount: float) -> dict:
         """The figures of `physexp evaluate`; the interval is Wilson's, at 95 %."""
@@ -47,19 +89,14 @@ class Episodes:
 
 
 def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
-    """The network of a run's last checkpoint.
+    """The network that a run has trained.
 
     Raises:
-      ValueError: if the folder holds no checkpoint.
+      ValueError: if there is none yet.
     """
     config = run.config
-    found = run.checkpointer.latest()
-    if found is None:
-        raise ValueError(f"{run.path} holds no checkpoint yet; let the training write one")
     network = agent_lib.make_network(training.make_environment(config, 0, 1, 1), config.agent)
-    prefix = "network/"
-    tensors = {name.removeprefix(prefix): value for name, value in found[0].items() if name.startswith(prefix)}
-    network.load_state_dict(tensors)
+    network.load_state_dict(run.variables())
     return network.eval()
 
 
@@ -71,19 +108,20 @@ def evaluate(run: run_lib.Run, num_episodes: int, interaction: str = "learned", 
 
 def play(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig, num_episodes: int,
          interaction: str = "learned", greedy: bool = False, seed: int = SEED, num_threads: int = 2,
-         device: str = "auto") -> Episodes:  # fmt: skip
+         device: str = "auto", num_steps: int = 0) -> Episodes:  # fmt: skip
     """Plays episodes with a network.
 
     Args:
       network: the agent's network.
       config: says what it plays.
-      num_episodes: how many.
+      num_episodes: how many, at least.
       interaction: `learned`, or `random` for the paper's randomized interaction (Section 5.3): labeling actions pass,
         an interaction action is replaced by one drawn uniformly.
       greedy: take the likeliest action instead of drawing one.
       seed: of the environments and the actions.
       num_threads: threads that simulate.
       device: where convolutions are computed, as in `A3CConfig`.
+      num_steps: go on, in rounds of whole episodes, until there are so many environment steps.
 
     Raises:
       ValueError: for an unknown interaction or a number of episodes below one.
@@ -94,18 +132,21 @@ def play(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig,
         raise ValueError(f"episodes is {num_episodes}; give a number >= 1")
     torch.set_num_threads(1)
     network.to(devices.choose(device, network.sees_images))
-    environment = training.make_environment(config, seed, min(num_episodes, _BATCH), num_threads)
+    environment = training.make_environment(config, seed, _BATCH if num_steps else min(num_episodes, _BATCH),
+                                            num_threads)  # fmt: skip
     num_interactions = environment.task.num_interactions
     interference = functools.partial(randomize, num_interactions) if interaction == "random" else None
-    rewards, lengths, interactions = [], [], []
-    for number in range(-(-num_episodes // environment.num_environments)):
+    rounds: list[Episodes] = []
+    episodes_left, steps_left = num_episodes, num_steps
+    while episodes_left > 0 or steps_left > 0:
+        number = len(rounds)
         generator = np.random.default_rng([seed, number])
         episodes = acting.play_round(network, environment, number, generator, greedy, interference)
-        rewards.append(episodes.rewards.sum(axis=0, dtype=np.float64))
-        lengths.append(episodes.lengths)
-        interactions.append(training.interaction_counts(episodes, num_interactions))
+        rounds.append(Episodes.of_round(episodes, environment, number))
+        episodes_left, steps_left = episodes_left - len(episodes.lengths), steps_left - episodes.num_frames
     environment.close()
-    return Episodes(*(np.concatenate(arrays)[:num_episodes] for arrays in (rewards, lengths, interactions)))
+    joined = Episodes.joined(rounds)
+    return joined if num_steps else joined.first(num_episodes)
 
 
 def randomize(num_interactions: int, actions: np.ndarray, generator: np.random.Generator) -> np.ndarray:

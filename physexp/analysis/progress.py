@@ -44,7 +44,7 @@ class Progress:
         self._rates = [*self._rates[-11:], row["frames_per_second"]]
         left = (self._config.agent.frames - row["frames"]) / max(1.0, sum(self._rates) / len(self._rates))
         cells = {name: form.format(row[name]) for name, form in _COLUMNS}
-        cells["time left"] = _duration(max(0.0, left))
+        cells["time left"] = duration(max(0.0, left))
         if self._live is not None:
             from rich import table
 
@@ -59,7 +59,8 @@ class Progress:
                   flush=True)  # fmt: skip
 
 
-def _duration(seconds: float) -> str:
+def duration(seconds: float) -> str:
+    """Hours, minutes and seconds, as in 1:02:03."""
     minutes, seconds = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}:{minutes:02d}:{seconds:02d}"

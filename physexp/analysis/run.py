@@ -4,6 +4,7 @@ config.json       the whole configuration, with versions and seeds
 metrics.csv       a row every few seconds of training
 episodes.parquet  the episodes of one update for each of those rows, a part for each checkpoint
 checkpoints/      the shared variables (safetensors) and the facts beside them (JSON)
+agent.safetensors the network alone, in half precision, once `keep_agent_only` has put it in their place
 """
 
 import csv
@@ -19,6 +20,8 @@ from typing import Any
 
 import pyarrow
 from pyarrow import parquet
+from safetensors import torch as safetensors
+import torch
 
 from physexp.agents import checkpointing
 from physexp.analysis import config as config_lib
@@ -73,13 +76,18 @@ class Run:
         Raises:
           ValueError: if the folder holds no run, or one of another format.
         """
+        return config_lib.TrainConfig.from_json(self.facts["train"])
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """What `create` wrote down: the configuration, versions, commit and renderer; raises as `config`."""
         try:
             fields = json.loads((self.path / "config.json").read_text())
         except FileNotFoundError:
             raise ValueError(f"{self.path} holds no run (no config.json); give the folder of a run") from None
         if fields["format"] != FORMAT:
             raise ValueError(f"{self.path} has format {fields['format']}; this version reads format {FORMAT}")
-        return config_lib.TrainConfig.from_json(fields["train"])
+        return fields
 
     def create(self, config: config_lib.TrainConfig) -> None:
         """Makes the folder and writes the configuration.
@@ -109,6 +117,37 @@ class Run:
 
     def unlock(self) -> None:
         self._lock_file.close()
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether training has had all its frames."""
+        rows = self.metrics()
+        return bool(rows) and rows[-1]["frames"] >= self.config.agent.frames
+
+    @property
+    def agent_path(self) -> Path:
+        """Where `keep_agent_only` puts the network's variables."""
+        return self.path / "agent.safetensors"
+
+    def variables(self) -> dict[str, torch.Tensor]:
+        """The network's variables by name: those kept at the end, or those of the last checkpoint.
+
+        Raises:
+          ValueError: if there are none yet.
+        """
+        if self.agent_path.exists():
+            return safetensors.load_file(self.agent_path)
+        found = self.checkpointer.latest()
+        if found is None:
+            raise ValueError(f"{self.path} holds no checkpoint yet; let the training write one")
+        prefix = "network/"
+        return {name.removeprefix(prefix): value for name, value in found[0].items() if name.startswith(prefix)}
+
+    def keep_agent_only(self) -> None:
+        """Keeps the network, in half precision, in the place of checkpoints and episodes: this run will not go on."""
+        checkpointing.write_agent(self.agent_path, self.variables())
+        for folder in ("checkpoints", "episodes.parquet"):
+            shutil.rmtree(self.path / folder, ignore_errors=True)
 
     # Metrics.
 

@@ -92,6 +92,11 @@ class BatchEnvironment:
         return self._hidden.copy()
 
     @property
+    def seeds(self) -> np.ndarray:
+        """Seeds of the environments, int64 [B]: those that `load` takes."""
+        return self._seeds.copy()
+
+    @property
     def episodes(self) -> np.ndarray:
         """Indices of the current episodes, int64 [B]; -1 before the first."""
         return self._next_episodes - 1

@@ -112,21 +112,21 @@ def draw_masses(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> n
     Raises:
       RuntimeError: if the two heaviest blocks tie in every one of many draws.
     """
-    masses = _masses(seeding.uniforms(seeds, episodes, NUM_BLOCKS + 1), difficulty)
+    masses = masses_from(seeding.uniforms(seeds, episodes, NUM_BLOCKS + 1), difficulty)
     for attempt in range(1, _MAX_DRAWS):
         two_heaviest = np.partition(masses, -2, axis=1)[:, -2:]
         tied = two_heaviest[:, 0] == two_heaviest[:, 1]
         if not tied.any():
             return masses
         again = seeding.uniforms(seeds[tied], episodes[tied], NUM_BLOCKS + 1, attempt)
-        masses[tied] = _masses(again, difficulty)
+        masses[tied] = masses_from(again, difficulty)
     raise RuntimeError(f"difficulty {difficulty} makes blocks tie in {_MAX_DRAWS} draws; choose one closer to 1")
 
 
-def _masses(draws: np.ndarray, difficulty: float) -> np.ndarray:
-    """Masses [N, 4] from uniform numbers [N, 5]: the first chooses the heavy block."""
+def masses_from(draws: np.ndarray, difficulty: float) -> np.ndarray:
+    """Masses [N, B] of B blocks from numbers [N, B + 1], uniform in (0, 1): the first chooses the heavy block."""
     masses = -np.expm1(np.log1p(-draws[:, 1:]) / difficulty)
-    rows, heavy = np.arange(len(draws)), (draws[:, 0] * NUM_BLOCKS).astype(np.int64)
+    rows, heavy = np.arange(len(draws)), (draws[:, 0] * masses.shape[1]).astype(np.int64)
     masses[rows, heavy] = np.exp(np.log(draws[rows, 1 + heavy]) / difficulty)
     return masses
 

@@ -8,6 +8,7 @@ import pytest
 from scipy import stats
 import torch
 
+from physexp import suite
 from physexp.agents.a3c import agent as agent_lib
 from physexp.agents.a3c import config as a3c
 from physexp.analysis import config as config_lib
@@ -40,9 +41,15 @@ def untrained(tmp_path):
 def test_the_summary_of_four_episodes_is_the_one_computed_by_hand():
     # Right at once; wrong after two pokes; out of time after 100 pokes; right after one poke.
     played = evaluation.Episodes(
+        seeds=np.arange(4),
+        numbers=np.zeros(4, int),
+        hidden=np.zeros((4, 4)),
+        answers=np.array([0, 1, 2, 3]),
+        labels=np.array([0, 2, -1, 3]),
         rewards=np.array([1.0, -1.0, -1.0, 1.0]),
         lengths=np.array([1, 3, 100, 2]),
         interactions=np.array([0, 2, 100, 1]),
+        actions=[np.array([4]), np.array([0, 1, 6]), np.zeros(100, int), np.array([3, 7])],
     )
     summary = played.summary(0.9)
     assert list(summary) == KEYS
@@ -87,8 +94,10 @@ def test_evaluation_repeats_with_its_seed_and_differs_with_another(untrained):
     seed = fresh_seed()
     first, again, other = (evaluation.evaluate(untrained, 300, seed=s) for s in (seed, seed, seed + 1))
     for field in dataclasses.fields(evaluation.Episodes):
-        np.testing.assert_array_equal(getattr(first, field.name), getattr(again, field.name))
-        assert len(getattr(first, field.name)) == 300
+        values, repeated = getattr(first, field.name), getattr(again, field.name)
+        assert len(values) == len(repeated) == 300
+        for value, same in zip(values, repeated, strict=True):
+            np.testing.assert_array_equal(value, same)
     assert not (np.array_equal(first.lengths, other.lengths) and np.array_equal(first.rewards, other.rewards))
 
 
@@ -108,7 +117,7 @@ def test_evaluation_refuses_what_makes_no_sense(untrained, tmp_path):
         evaluation.evaluate(untrained, 0)
     for path in untrained.checkpointer.paths():
         path.unlink()
-    with pytest.raises(ValueError, match="holds no checkpoint"):
+    with pytest.raises(ValueError, match="holds no checkpoint yet"):
         evaluation.evaluate(untrained, 10)
     with pytest.raises(ValueError, match="holds no run"):
         evaluation.evaluate(run_lib.Run(tmp_path / "nothing"), 10)
@@ -124,3 +133,37 @@ def test_the_evaluated_network_is_that_of_the_last_checkpoint(untrained):
     played = evaluation.evaluate(untrained, 200, seed=fresh_seed())
     assert (played.lengths == 1).all() and not played.interactions.any()
     assert 0 < (played.rewards > 0).sum() < 200
+
+
+def test_every_episode_can_be_rebuilt_from_its_seed_number_and_actions(untrained):
+    played = evaluation.evaluate(untrained, 40, seed=fresh_seed())
+    for index in range(0, 40, 7):
+        environment = suite.load(
+            "which_is_heavier", "features", task_kwargs={"random": int(played.seeds[index]), "difficulty": 10.0}
+        )
+        environment.task.next_episode = int(played.numbers[index])
+        environment.reset()
+        np.testing.assert_array_equal(environment.task.hidden, played.hidden[index])
+        assert environment.task.correct_answer == played.answers[index]
+        for action in played.actions[index]:
+            timestep = environment.step(int(action))
+        assert timestep.last() and timestep.reward == played.rewards[index]
+        assert len(played.actions[index]) == played.lengths[index]
+
+
+def test_whole_rounds_are_played_until_there_are_enough_steps(untrained):
+    network = evaluation.load_network(untrained)
+    played = evaluation.play(network, untrained.config, 1, num_steps=5000)
+    assert played.lengths.sum() >= 5000
+    assert len(played.lengths) % 256 == 0  # Nothing is cut off, which would leave out long episodes.
+    assert played.lengths[:-256].sum() < 5000
+
+
+def test_a_run_that_keeps_its_agent_only_plays_as_before_to_half_precision(untrained):
+    before = evaluation.load_network(untrained).state_dict()
+    untrained.keep_agent_only()
+    after = evaluation.load_network(untrained).state_dict()
+    for name, value in before.items():
+        # Half precision has 11 significant bits, and steps of 2^-24 below 2^-14.
+        torch.testing.assert_close(after[name], value, rtol=2**-11, atol=2**-25)
+    assert not untrained.checkpointer.paths()

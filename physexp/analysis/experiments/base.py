@@ -1,0 +1,137 @@
+"""What an experiment is: a question, the agents it needs, what they play, and what follows from the rows."""
+
+from collections.abc import Callable, Sequence
+import dataclasses
+from pathlib import Path
+from typing import Any
+
+from physexp.analysis import claims as claims_lib
+from physexp.analysis import config as config_lib
+from physexp.analysis import records
+from physexp.analysis import run as run_lib
+from physexp.analysis.experiments import conditions
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Trial:
+    """What a trained agent plays; experiments with the same trial share its episodes.
+
+    Attributes:
+      name: of the folder with the episodes.
+      interaction: learned, or random for the paper's randomized interaction.
+      num_episodes, num_steps: it plays until it has had at least so many of both, in whole episodes.
+      control_timestep: time between actions, s; None for that of training.
+    """
+
+    name: str
+    interaction: str = "learned"
+    num_episodes: int = 1
+    num_steps: int = 0
+    control_timestep: float | None = None
+
+
+LEARNED = Trial(name="learned", num_steps=10_000)
+RANDOM = Trial(name="random", interaction="random", num_steps=10_000)
+LONG = Trial(name="long", num_steps=100_000)
+EVALUATION = Trial(name="evaluation", num_episodes=10_000)
+
+
+@dataclasses.dataclass(frozen=True)
+class Results:
+    """The folder with the data of all experiments.
+
+    runs/NAME/                     a run: configuration, metrics, the agent in half precision
+    episodes/TRIAL/NAME.parquet    what the run's agent played, a row an episode
+    figures/EXPERIMENT.{svg,png}
+    report.md, report.html
+    """
+
+    path: Path
+
+    def run(self, config: config_lib.TrainConfig) -> run_lib.Run:
+        return run_lib.Run(self.path / "runs" / config.name)
+
+    def episodes_path(self, trial: Trial, config: config_lib.TrainConfig) -> Path:
+        return self.path / "episodes" / trial.name / f"{config.name}.parquet"
+
+    def episodes(self, trials: Sequence[Trial], configs: Sequence[config_lib.TrainConfig],
+                 columns: Sequence[str] = ()) -> Any:  # fmt: skip
+        """What agents of these conditions, of every seed there is, have played: a DataFrame (`records.SCHEMA`).
+
+        Args:
+          trials: what was played.
+          configs: the conditions, whatever the seed in them.
+          columns: those wanted beside the ones that tell what was played; few are quick to read.
+
+        Raises:
+          ValueError: if there are none.
+        """
+        always = ["domain", "task", "difficulty", "discount", "training_seed", "interaction", "control_timestep"]
+        paths = [path for trial in trials for config in configs for path in self._of_all_seeds(trial, config)]
+        if not paths:
+            raise ValueError(f"{self.path} holds no episodes of this experiment; `physexp reproduce` it first")
+        frame = records.read(paths, [*always, *columns])
+        return frame.assign(condition=_labels(frame))
+
+    def curves(self, configs: Sequence[config_lib.TrainConfig]) -> Any:
+        """Learning curves: a DataFrame of the rows of `run.METRICS` of all seeds of these conditions."""
+        import pandas
+
+        frames = []
+        for config in configs:
+            for folder in sorted((self.path / "runs").glob(f"{_without_seed(config)}-seed*")):
+                rows = run_lib.Run(folder).metrics()
+                if rows and rows[-1]["frames"] >= config.agent.frames:  # A run that goes on is no result yet.
+                    frames.append(pandas.DataFrame(rows).assign(
+                        domain=config.domain, task=config.task, difficulty=config.difficulty,
+                        discount=config.agent.discount, training_seed=run_lib.Run(folder).config.agent.seed,
+                    ))  # fmt: skip
+        if not frames:
+            raise ValueError(f"{self.path} holds no finished runs of this experiment; `physexp reproduce` it first")
+        frame = pandas.concat(frames, ignore_index=True)
+        return frame.assign(condition=_labels(frame))
+
+    def _of_all_seeds(self, trial: Trial, config: config_lib.TrainConfig) -> list[Path]:
+        return sorted((self.path / "episodes" / trial.name).glob(f"{_without_seed(config)}-seed*.parquet"))
+
+
+def _without_seed(config: config_lib.TrainConfig) -> str:
+    return config.name.removesuffix(f"-seed{config.agent.seed}")
+
+
+def _labels(frame):
+    """The paper's names of the conditions of rows."""
+    keys = frame[["domain", "task", "difficulty"]].drop_duplicates()
+    names = {(row.domain, row.task, row.difficulty if row.domain == "which_is_heavier" else None):
+             conditions.label(row.domain, row.task, row.difficulty) for row in keys.itertuples()}  # fmt: skip
+    found = zip(frame.domain, frame.task, frame.difficulty, strict=True)
+    return [names[d, t, b if d == "which_is_heavier" else None] for d, t, b in found]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Experiment:
+    """An experiment.
+
+    Attributes:
+      name: as in `physexp reproduce NAME`.
+      title: of the figure.
+      section: of the paper.
+      caption: what the figure shows.
+      conditions: the agents it needs, of each of which several seeds are trained.
+      trials: what each of them plays.
+      prepare: makes what needs no agent and takes time, and keeps it with the results; None where nothing does.
+      load: from the results to a tidy DataFrame; pure reading.
+      claims: from that to what holds.
+      draw: from that to a matplotlib figure.
+    """
+
+    name: str
+    title: str
+    section: str
+    caption: str
+    conditions: tuple[config_lib.TrainConfig, ...] = ()
+    trials: tuple[Trial, ...] = ()
+    prepare: Callable[[Results], None] | None = None
+    load: Callable[[Results], Any]
+    claims: Callable[[Any], list[claims_lib.Claim]]
+    draw: Callable[[Any], Any]

@@ -1,0 +1,55 @@
+"""What agents are trained on: every condition of the paper, each with a budget that flattens its curve."""
+
+from physexp.analysis import config as config_lib
+
+DIFFICULTIES = (3.0, 5.0, 10.0)
+OBSERVATIONS = ("features", "pixels")
+ACTUATORS = ("direct", "fist")
+SEEDS = {"features": 10, "pixels": 3}  # How many agents are trained in each condition.
+
+# Environment steps: the easier, the sooner the curve is flat.
+_PATIENT_FRAMES = {3.0: 4_000_000, 5.0: 3_000_000, 10.0: 2_000_000}
+_FRAMES = {
+    ("features", 3.0): 6_000_000,
+    ("features", 5.0): 4_000_000,
+    ("features", 10.0): 2_000_000,
+    ("pixels", 3.0): 700_000,
+    ("pixels", 5.0): 500_000,
+    ("pixels", 10.0): 250_000,
+}
+
+
+def heavier(difficulty: float, observations: str, frames: int, discount: float = 0.95) -> config_lib.TrainConfig:
+    """Which is Heavier at a difficulty, for so many environment steps, the agent's gamma being `discount`."""
+    agent = config_lib.preset("which_is_heavier", observations)
+    return config_lib.TrainConfig(
+        domain="which_is_heavier", task=observations, difficulty=difficulty,
+        agent=agent.replace(discount=discount, frames=frames, num_workers=1),
+    )  # fmt: skip
+
+
+def towers(actuator: str, observations: str = "features") -> config_lib.TrainConfig:
+    """Towers with an actuator."""
+    task = f"{actuator}_{observations}"
+    agent = config_lib.preset("towers", task).replace(num_workers=1)
+    return config_lib.TrainConfig(domain="towers", task=task, agent=agent)
+
+
+HEAVIER = tuple(heavier(beta, kind, _FRAMES[kind, beta]) for kind in OBSERVATIONS for beta in DIFFICULTIES)
+"""At the paper's gamma of 0.95."""
+
+PATIENT = tuple(heavier(beta, "features", _PATIENT_FRAMES[beta], discount=0.99) for beta in DIFFICULTIES)
+"""At the paper's gamma of 0.99, under which waiting costs little."""
+
+TOWERS = tuple(towers(actuator, kind) for actuator in ACTUATORS for kind in OBSERVATIONS)
+
+
+def observations(config: config_lib.TrainConfig) -> str:
+    """`features` or `pixels`."""
+    return config.task.rsplit("_", 1)[-1]
+
+
+def label(domain: str, task: str, difficulty: float | None) -> str:
+    """The paper's name of a condition: 10-F is difficulty 10 from features, D-P is direct actuation from pixels."""
+    kind = task.rsplit("_", 1)[-1][0].upper()
+    return f"{difficulty:g}-{kind}" if domain == "which_is_heavier" else f"{task[0].upper()}-{kind}"

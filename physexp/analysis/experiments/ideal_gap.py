@@ -1,0 +1,138 @@
+"""Every agent against the ideal experimenter, and what the difference is made of (ours; docs/ideal.md)."""
+
+import numpy as np
+
+from physexp.analysis import claims, figures, records, statistics
+from physexp.analysis.experiments import base, conditions, ideal_towers
+from physexp.analysis.ideal import regret
+from physexp.analysis.ideal import which_is_heavier as ideal
+
+CONDITIONS = (*conditions.HEAVIER, *conditions.TOWERS)
+_LEAST = {3.0: 0.95, 5.0: 0.97, 10.0: 0.97}  # Share of the ideal's return that feature agents are to reach.
+
+
+def load(results: base.Results):
+    """A row for each agent: return, accuracy, interactions, the ideal's, and for Which is Heavier the cost by kind."""
+    import pandas
+
+    rows = []
+    columns = ["masses", "actions", "label", "reward", "length", "interactions"]
+    towers = ideal_towers.read(results)
+    for condition in CONDITIONS:
+        try:
+            frame = results.episodes([base.EVALUATION], [condition], columns)
+        except ValueError:
+            continue  # Not trained (yet): the figure shows those that are.
+        for seed, episodes in frame.groupby("training_seed"):
+            rows.append({
+                "condition": episodes.condition.iloc[0], "domain": condition.domain, "difficulty": condition.difficulty,
+                "training_seed": seed, "agent_return": records.discounted_return(episodes).mean(),
+                "accuracy": (episodes.reward > 0).mean(), "interactions": episodes.interactions.mean(),
+                **(_of_heavier(condition, episodes) if condition.domain == "which_is_heavier"
+                   else _of_towers(towers[condition.task])),
+            })  # fmt: skip
+    if not rows:
+        raise ValueError(f"{results.path} holds no episodes of this experiment; `physexp reproduce ideal_gap` first")
+    frame = pandas.DataFrame(rows)
+    frame.attrs["towers"] = towers
+    return frame
+
+
+def _of_heavier(condition, episodes) -> dict[str, float]:
+    solution = ideal.solve(condition.difficulty, condition.agent.discount)
+    summary = solution.summary()
+    masses = np.stack(episodes.masses.to_numpy()).astype(float)
+    costs = regret.regrets(solution, masses, list(episodes.actions), (episodes.label < 0).to_numpy())
+    return {"ideal_return": summary["value"], "ideal_accuracy": summary["accuracy"],
+            "ideal_interactions": summary["mean_interactions"],
+            **{kind: float(cost.mean()) for kind, cost in costs.items()}}  # fmt: skip
+
+
+def _of_towers(rows: list[dict]) -> dict[str, float]:
+    summary = ideal_towers.best(rows)
+    return {"ideal_return": summary["value"], "ideal_accuracy": summary["accuracy"],
+            "ideal_interactions": summary["mean_interactions"]}  # fmt: skip
+
+
+def median_of_top_half(values: np.ndarray) -> float:
+    """The median of the larger half of some values."""
+    return float(np.median(np.sort(values)[::-1][: -(-len(values) // 2)]))
+
+
+def find_claims(frame) -> list[claims.Claim]:
+    """Feature agents come close to the ideal; none beats it."""
+    found = []
+    for condition, agents in frame.groupby("condition", sort=False):
+        shares = (agents.agent_return / agents.ideal_return).to_numpy()
+        beta = agents.difficulty.iloc[0]
+        least = _LEAST[beta] if condition in ("3-F", "5-F", "10-F") else None
+        if least is not None:
+            found.append(claims.Claim(
+                text=f"Feature agents reach {least:.0%} of the ideal experimenter's return", section="ours",
+                condition=condition, statistic="share of the ideal's return, median of the better half of the agents",
+                estimate=statistics.bootstrap(shares, median_of_top_half), above=least,
+            ))  # fmt: skip
+        found.append(claims.Claim(
+            text="No agent beats the ideal experimenter", section="ours", condition=condition,
+            statistic="share of the ideal's return, mean of agents", estimate=statistics.mean(shares), below=1,
+        ))  # fmt: skip
+    return found
+
+
+def draw(frame):
+    """Returns as shares of the ideal's, what is lost by kind, and how fine the towers' observer must see."""
+    figure, (left, middle, right) = figures.new(columns=3, width=2.9, height=2.7)
+    names = list(frame.condition.unique())
+    places = np.arange(len(names))
+    for place, name in zip(places, names, strict=True):
+        agents = frame[frame.condition == name]
+        left.plot([place] * len(agents), agents.agent_return / agents.ideal_return, "o", color=figures.COLORS[1],
+                  markersize=2.5, alpha=0.6)  # fmt: skip
+    figures.reference(left, 1.0, "ideal", at=0.35)
+    left.set_xticks(places, names, rotation=60)
+    left.set(ylabel="discounted return, share of the ideal's")
+    _draw_costs(middle, frame)
+    _draw_resolutions(right, frame.attrs["towers"])
+    return figure
+
+
+def _draw_costs(axes, frame) -> None:
+    heavier = frame[frame.domain == "which_is_heavier"]
+    means = heavier.groupby("condition", sort=False)[list(regret.KINDS)].mean()
+    base_of_bar = np.zeros(len(means))
+    for number, (kind, words) in enumerate(regret.KINDS.items()):
+        if (means[kind] > 1e-4).any():
+            axes.bar(means.index, means[kind], bottom=base_of_bar, color=figures.COLORS[1:][number], label=words,
+                     hatch=[None, "///", "...", "xx", "++"][number], edgecolor="white", linewidth=0.3)  # fmt: skip
+        base_of_bar = base_of_bar + means[kind].to_numpy()
+    axes.set(ylabel="return lost against the ideal")
+    axes.tick_params(axis="x", rotation=60)
+    axes.legend(fontsize=5.5, loc="upper left", bbox_to_anchor=(0, 1.18))
+    axes.set_ylim(0, 1.35 * base_of_bar.max())
+
+
+def _draw_resolutions(axes, towers: dict[str, list[dict]]) -> None:
+    for number, (task, rows) in enumerate((task, rows) for task, rows in towers.items() if "features" in task):
+        rows = [row for row in rows if row["objective"] == "time"]
+        axes.plot([max(row["resolution"], 3e-4) * 1e3 for row in rows], [row["mean_seconds"] for row in rows],
+                  color=figures.COLORS[number], linestyle=figures.DASHES[number], marker=figures.MARKERS[number],
+                  markersize=3.5, label=task.split("_")[0])  # fmt: skip
+    axes.set(xscale="log", xlabel="resolution of the observer, mm (leftmost: every bit)",
+             ylabel="least expected time to know, s", ylim=(0, None))  # fmt: skip
+    axes.legend(loc="upper left")
+
+
+EXPERIMENT = base.Experiment(
+    name="ideal_gap",
+    title="Agents against the ideal experimenter",
+    section="ours",
+    caption="Left: each agent's mean discounted return over 10,000 episodes, actions drawn, as a share of the ideal "
+    "experimenter's. Middle: what of the ideal's return is lost to which kind of mistake, mean of agents. Right: the "
+    "least expected time after which the number of bodies of a tower can be known, by the observer's resolution.",
+    conditions=CONDITIONS,
+    trials=(base.EVALUATION,),
+    prepare=ideal_towers.prepare,
+    load=load,
+    claims=find_claims,
+    draw=draw,
+)

@@ -1,0 +1,55 @@
+"""The ideal experimenters of Towers, computed once and kept with the results."""
+
+import json
+
+from physexp.agents import checkpointing
+from physexp.analysis.experiments import base, conditions
+
+# How coarsely the observer sees: metres for features, differing pixels for images.
+RESOLUTIONS = {"features": (0.0, 0.001, 0.003, 0.01, 0.03), "pixels": (0.0, 10.0, 30.0, 100.0, 300.0)}
+
+
+def prepare(results: base.Results) -> None:
+    """Computes the ideal experimenters for all tasks and resolutions that are not there yet."""
+    from physexp.analysis.ideal import towers  # Simulates: nothing that only reads needs it.
+
+    for condition in conditions.TOWERS:
+        path = _path(results, condition.task)
+        if not path.exists():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            resolutions = RESOLUTIONS[conditions.observations(condition)]
+            rows = towers.curve(condition.task, resolutions, condition.agent.discount)
+            checkpointing.write_atomically(path, (json.dumps(rows, indent=1) + "\n").encode())
+
+
+def read(results: base.Results) -> dict[str, list[dict]]:
+    """By task, the summaries of `towers.curve`.
+
+    Raises:
+      ValueError: if they have not been computed.
+    """
+    found = {}
+    for condition in conditions.TOWERS:
+        path = _path(results, condition.task)
+        if not path.exists():
+            raise ValueError(f"{path} is missing; `physexp reproduce ideal_gap` makes it")
+        found[condition.task] = json.loads(path.read_text())
+    return found
+
+
+def best(rows: list[dict], objective: str = "return") -> dict:
+    """The summary for the observer who sees every bit."""
+    return next(row for row in rows if row["resolution"] == 0 and row["objective"] == objective)
+
+
+def lengths_and_accuracies(results: base.Results) -> dict[str, tuple[float, float]]:
+    """By the name of a condition, mean interactions and accuracy of the observer who sees every bit."""
+    found = {}
+    for task, rows in read(results).items():
+        summary = best(rows)
+        found[conditions.label("towers", task, None)] = (summary["mean_interactions"], summary["accuracy"])
+    return found
+
+
+def _path(results: base.Results, task: str):
+    return results.path / "ideal" / f"towers-{task}.json"

@@ -1,0 +1,91 @@
+"""Individual strategy differentiation (paper, Section 5.3; right of Figure 3): hard instances take longer."""
+
+import numpy as np
+
+from physexp.analysis import claims, figures, statistics
+from physexp.analysis.experiments import base, conditions
+from physexp.analysis.ideal import which_is_heavier as ideal
+from physexp.suite import which_is_heavier
+
+_DISCOUNT = 0.99
+_SHOWN = 4000  # Episodes drawn as dots.
+_BINS = np.linspace(0, 1, 11)
+
+
+def find_claims(frame) -> list[claims.Claim]:
+    """A negative slope in each agent, and on average."""
+    found = []
+    for beta in conditions.DIFFICULTIES:
+        rows = frame[(frame.difficulty == beta) & (frame.label >= 0)]
+        if not len(rows):
+            continue
+        slopes = [
+            statistics.slope(agent.mass_gap.to_numpy(float), agent.interactions.to_numpy(float))
+            for _, agent in rows.groupby("training_seed")
+        ]
+        worst = max(slopes, key=lambda estimate: estimate.high)
+        text = "The smaller the mass gap, the longer an agent experiments"
+        found.append(claims.Claim(
+            text=text, section="5.3", condition=f"{beta:g}-F",
+            statistic=f"slope of pokes on mass gap (OLS), mean of {len(slopes)} agents",
+            estimate=statistics.mean([estimate.value for estimate in slopes]), below=0,
+        ))  # fmt: skip
+        found.append(claims.Claim(
+            text=text, section="5.3", condition=f"{beta:g}-F, each agent",
+            statistic=f"the same in the agent of {len(slopes)} where it is least sure", estimate=worst, below=0,
+        ))  # fmt: skip
+    return found
+
+
+def draw(frame):
+    """One agent of each difficulty: dots, trend, spread, and the ideal experimenter's mean."""
+    figure, panels = figures.new(columns=3, width=2.3, height=2.3, sharey=True)
+    centers = (_BINS[1:] + _BINS[:-1]) / 2
+    for axes, beta in zip(panels, conditions.DIFFICULTIES, strict=True):
+        rows = frame[(frame.difficulty == beta) & (frame.training_seed == 0) & (frame.label >= 0)]
+        gaps, pokes = rows.mass_gap.to_numpy(float), rows.interactions.to_numpy(float)
+        generator = np.random.default_rng(0)
+        spread = generator.uniform(-0.3, 0.3, min(_SHOWN, len(rows)))  # Pokes are whole numbers: dots would coincide.
+        axes.scatter(gaps[:_SHOWN], pokes[:_SHOWN] + spread, s=1, color="black", alpha=0.25, linewidths=0,
+                     rasterized=True)  # fmt: skip
+        bins = np.digitize(gaps, _BINS[1:-1])
+        means, deviations = (
+            np.array([function(pokes[bins == b]) if (bins == b).any() else np.nan for b in range(len(centers))])
+            for function in (np.mean, np.std)
+        )
+        axes.errorbar(centers, means, deviations, fmt="s", color=figures.COLORS[2], markersize=3, linewidth=1,
+                      capsize=1.5, label="mean and standard deviation")  # fmt: skip
+        trend = statistics.slope(gaps, pokes)
+        ends = np.array([0.0, 1.0])
+        axes.plot(ends, pokes.mean() + trend.value * (ends - gaps.mean()), color=figures.COLORS[2], label="OLS")
+        axes.plot(*_ideal_means(beta), color=figures.COLORS[1], linestyle=figures.DASHES[1], label="ideal")
+        axes.set(xlabel="mass gap", title=rf"$\beta$ = {beta:g}: slope {trend.value:.2f}", xlim=(0, 1),
+                 ylim=(0, 15))  # fmt: skip
+    panels[0].set_ylabel("pokes before the answer")
+    panels[-1].legend(loc="upper right", fontsize=6)
+    return figure
+
+
+def _ideal_means(beta: float):
+    """The ideal experimenter's mean pokes for mass gaps in the bins."""
+    from physexp.analysis import records
+
+    seeds, episodes = np.full(50_000, 1), np.arange(50_000)
+    masses = which_is_heavier.draw_masses(seeds, episodes, beta)
+    pokes, _ = ideal.solve(beta, _DISCOUNT).play(masses)
+    bins = np.digitize(records.mass_gaps(masses), _BINS[1:-1])
+    return (_BINS[1:] + _BINS[:-1]) / 2, [pokes[bins == b].mean() for b in range(len(_BINS) - 1)]
+
+
+EXPERIMENT = base.Experiment(
+    name="individual",
+    title="Individual strategy differentiation",
+    section="5.3, Figure 3 (right)",
+    caption="Pokes of single agents (seed 0) against the mass gap of the episode, features, gamma 0.99; at least "
+    f"100,000 test steps, of which {_SHOWN:,} episodes are drawn; timeouts left out. Dashed: the ideal experimenter's.",
+    conditions=conditions.PATIENT,
+    trials=(base.LONG,),
+    load=lambda results: results.episodes([base.LONG], conditions.PATIENT, ["mass_gap", "interactions", "label"]),
+    claims=find_claims,
+    draw=draw,
+)

@@ -1,0 +1,61 @@
+"""Success in learning Which is Heavier (paper, Section 5.3; Figure 2)."""
+
+from physexp.analysis import claims, figures, statistics
+from physexp.analysis.experiments import base, conditions, learning
+from physexp.analysis.ideal import which_is_heavier as ideal
+
+_CHANCE = 0.25
+
+
+def find_claims(frame) -> list[claims.Claim]:
+    """Every condition is learned, and the easier the better."""
+    final = learning.final_success(frame)
+    found = []
+    for name in final.condition.unique():
+        rates = final.success_rate[final.condition == name]
+        found.append(claims.Claim(
+            text="Agents are trained successfully from features and from pixels", section="5.3", condition=name,
+            statistic="share of right answers at the end of training, mean of agents; twice chance is 0.5",
+            estimate=statistics.mean(rates), above=2 * _CHANCE,
+        ))  # fmt: skip
+    for kind in conditions.OBSERVATIONS:
+        names = [conditions.label("which_is_heavier", kind, beta) for beta in conditions.DIFFICULTIES]
+        for harder, easier in zip(names, names[1:], strict=False):
+            rates = {name: final.success_rate[final.condition == name].to_numpy() for name in (harder, easier)}
+            if min(map(len, rates.values())) > 0:
+                found.append(claims.Claim(
+                    text="More difficult problems plateau at progressively lower performance", section="5.3",
+                    condition=f"{easier} against {harder}", statistic="ratio of the shares of right answers",
+                    estimate=statistics.ratio_of_means(rates[easier], rates[harder]), above=1,
+                ))  # fmt: skip
+    return found
+
+
+def draw(frame):
+    """A panel for each kind of observation."""
+    curves = learning.smoothed(frame)
+    figure, panels = figures.new(columns=2, sharey=True)
+    for axes, kind in zip(panels, conditions.OBSERVATIONS, strict=True):
+        names = [conditions.label("which_is_heavier", kind, beta) for beta in conditions.DIFFICULTIES]
+        learning.draw_panel(axes, curves, names, [rf"$\beta$ = {beta:g}" for beta in conditions.DIFFICULTIES], _CHANCE)
+        for number, beta in enumerate(conditions.DIFFICULTIES):
+            accuracy = ideal.solve(beta, 0.95).summary()["accuracy"]
+            axes.plot([1.0], [accuracy], marker=5, color=figures.COLORS[number], transform=axes.get_yaxis_transform(),
+                      clip_on=False, markersize=4)  # fmt: skip
+        axes.set_title(f"from {kind}")
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 0.12))
+    panels[0].set_ylabel("share of right answers")
+    return figure
+
+
+EXPERIMENT = base.Experiment(
+    name="learning_heavier",
+    title="Learning Which is Heavier",
+    section="5.3, Figure 2",
+    caption="Share of right answers in training (drawn actions, smoothed). Light lines: the better half of the agents; "
+    "dark: their median. Arrows at the right: the ideal experimenter's accuracy.",
+    conditions=conditions.HEAVIER,
+    load=lambda results: results.curves(conditions.HEAVIER),
+    claims=find_claims,
+    draw=draw,
+)

@@ -1,0 +1,77 @@
+"""Population strategy differentiation (paper, Section 5.3; left of Figure 3): how long agents experiment."""
+
+import numpy as np
+
+from physexp.analysis import claims, figures, statistics
+from physexp.analysis.experiments import base, conditions
+from physexp.analysis.ideal import which_is_heavier as ideal
+
+_DISCOUNT = 0.95
+_ALL_BLOCKS = 4
+_LONGEST = 10  # Interactions shown.
+CONDITIONS = tuple(condition for condition in conditions.HEAVIER if condition.task == "features")
+
+
+def find_claims(frame) -> list[claims.Claim]:
+    """Few pokes where one heavy block is likely to be the only one, all blocks where it is not."""
+    found = []
+    easy, hard = (frame[frame.difficulty == beta] for beta in (10.0, 3.0))
+    agents = easy.groupby("training_seed").interactions
+    modes = agents.agg(lambda pokes: pokes.mode()[0]).to_numpy()
+    common = dict(section="5.3", text="At difficulty 10 agents stop as soon as they find a heavy block")
+    found.append(claims.Claim(
+        **common, condition="10-F", statistic="modal number of pokes, all agents pooled; interval: range over agents",
+        estimate=statistics.Estimate(float(easy.interactions.mode()[0]), float(modes.min()), float(modes.max())),
+        above=0.5, below=3.5,
+    ))  # fmt: skip
+    found.append(claims.Claim(
+        **common, condition="10-F", statistic="mean number of pokes, mean of agents; the paper says two",
+        estimate=statistics.mean(agents.mean()), above=1.5, below=2.5,
+    ))  # fmt: skip
+    shares = (hard.interactions >= _ALL_BLOCKS).groupby(hard.training_seed).mean()
+    found.append(claims.Claim(
+        text="At difficulty 3 agents poke all four blocks before answering", section="5.3", condition="3-F",
+        statistic="share of episodes with at least four pokes, mean of agents", estimate=statistics.mean(shares),
+        above=0.5,
+    ))  # fmt: skip
+    short = (frame.interactions < 30).groupby([frame.condition, frame.training_seed]).mean()
+    found.append(claims.Claim(
+        text="The vast majority of episodes ends in less than 30 steps", section="5.3", condition="all",
+        statistic="share of such episodes, mean of agents", estimate=statistics.mean(short), above=0.95,
+    ))  # fmt: skip
+    return found
+
+
+def draw(frame):
+    """A histogram for each difficulty, the ideal experimenter's beside it."""
+    figure, panels = figures.new(columns=3, width=2.2, height=2.2, sharey=True)
+    bins = np.arange(_LONGEST + 1)
+    for number, (axes, beta) in enumerate(zip(panels, conditions.DIFFICULTIES, strict=True)):
+        pokes = frame.interactions[frame.difficulty == beta].clip(upper=_LONGEST)
+        axes.bar(bins, np.bincount(pokes, minlength=len(bins)) / len(pokes), color=figures.COLORS[number], width=0.8,
+                 alpha=0.75, label="agents")  # fmt: skip
+        solution = ideal.solve(beta, _DISCOUNT).summary()
+        best = np.zeros(len(bins))
+        best[: len(solution["histogram"])] = list(solution["histogram"].values())
+        axes.stairs(best, np.arange(len(bins) + 1) - 0.5, color=figures.GREY, linewidth=1.3, label="ideal")
+        figures.reference(axes, _ALL_BLOCKS, "all blocks", vertical=True)
+        axes.set(xlabel="pokes before the answer", title=rf"$\beta$ = {beta:g}", xticks=bins[::2])
+        axes.set_xticklabels([*bins[:-1:2], f"≥{_LONGEST}"])
+    panels[0].set_ylabel("share of episodes")
+    panels[-1].legend(loc="upper right")
+    figure.suptitle(figures.seeds(frame), fontsize=7, x=0.99, ha="right")
+    return figure
+
+
+EXPERIMENT = base.Experiment(
+    name="population",
+    title="Population strategy differentiation",
+    section="5.3, Figure 3 (left)",
+    caption="How often agents poke before they answer, features, gamma 0.95, at least 10,000 test steps of each agent; "
+    "outlined: the ideal experimenter.",
+    conditions=CONDITIONS,
+    trials=(base.LEARNED,),
+    load=lambda results: results.episodes([base.LEARNED], CONDITIONS, ["interactions"]),
+    claims=find_claims,
+    draw=draw,
+)

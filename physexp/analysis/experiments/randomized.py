@@ -1,0 +1,74 @@
+"""Learned against randomized interaction: what the two experiments share."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from physexp.analysis import claims, figures, statistics
+
+COLUMNS = ["label", "reward", "interactions", "time"]
+
+
+def per_agent(frame):
+    """For each condition, agent and interaction: accuracy (timeouts left out, as in the paper) and mean length."""
+    answered = frame[frame.label >= 0]
+    keys = ["condition", "training_seed", "interaction"]
+    grouped = answered.assign(right=answered.reward > 0).groupby(keys, sort=False)
+    return grouped.agg(accuracy=("right", "mean"), length=("interactions", "mean")).reset_index()
+
+
+def _paired(agents, condition: str, column: str) -> tuple[np.ndarray, np.ndarray]:
+    """Values of each agent of a condition with learned and with randomized interaction."""
+    table = agents[agents.condition == condition].pivot(index="training_seed", columns="interaction", values=column)
+    table = table.dropna()
+    return table["learned"].to_numpy(), table["random"].to_numpy()
+
+
+def more_accurate(frame, section: str) -> list[claims.Claim]:
+    """In each condition, the learned interaction leads to more right answers."""
+    agents = per_agent(frame)
+    found = []
+    for condition in agents.condition.unique():
+        learned, random = _paired(agents, condition, "accuracy")
+        found.append(claims.Claim(
+            text="Learned interaction leads to more accurate answers than randomized interaction", section=section,
+            condition=condition, statistic="difference of the shares of right answers, mean of agents",
+            estimate=statistics.mean(learned - random), above=0,
+        ))  # fmt: skip
+    return found
+
+
+def length_ratios(frame) -> dict[str, statistics.Estimate]:
+    """By condition: pokes before an answer, learned over randomized."""
+    agents = per_agent(frame)
+    return {
+        condition: statistics.ratio_of_means(*_paired(agents, condition, "length"))
+        for condition in agents.condition.unique()
+    }
+
+
+def draw(frame, names: Sequence[str], chance: float, ideal: dict[str, tuple[float, float]]):
+    """Lengths at the left, accuracies at the right; `ideal` has both for each condition."""
+    agents = per_agent(frame)
+    names = [name for name in names if name in set(agents.condition)]
+    figure, panels = figures.new(columns=2, width=3.2, height=2.4)
+    places = np.arange(len(names))
+    for axes, column, index in zip(panels, ("length", "accuracy"), (0, 1), strict=True):
+        for offset, interaction, color, hatch in ((-0.2, "learned", figures.COLORS[1], None),
+                                                  (0.2, "random", figures.COLORS[5], "///")):  # fmt: skip
+            groups = [
+                agents[(agents.condition == name) & (agents.interaction == interaction)][column] for name in names
+            ]
+            axes.bar(places + offset, [group.mean() for group in groups], 0.38, color=color, hatch=hatch,
+                     edgecolor="white", linewidth=0.3, label=interaction)  # fmt: skip
+            for place, group in zip(places + offset, groups, strict=True):
+                axes.plot([place] * len(group), group, "o", color="black", markersize=1.6, alpha=0.6)
+        for place, name in zip(places, names, strict=True):
+            axes.plot([place - 0.42, place + 0.42], [ideal[name][index]] * 2, color="black", linewidth=1.2,
+                      linestyle=figures.DASHES[2], label="ideal" if place == 0 else None)  # fmt: skip
+        axes.set_xticks(places, names)
+    panels[0].set(ylabel="interactions before the answer")
+    panels[1].set(ylabel="share of right answers", ylim=(0, 1.05))
+    figures.reference(panels[1], chance, "chance")
+    panels[0].legend(loc="upper right", bbox_to_anchor=(1, 1.12), ncols=3, fontsize=6.5)
+    return figure

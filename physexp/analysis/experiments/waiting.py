@@ -1,0 +1,97 @@
+"""Waiting for information (paper, Section 6.3; right of Figure 5): the same agent in slower and slower time."""
+
+import numpy as np
+
+from physexp.analysis import claims, figures, statistics
+from physexp.analysis.experiments import base, conditions
+
+CONTROL_TIMESTEPS = tuple(round(0.01 * number, 2) for number in range(1, 11))  # s; the last is that of training
+CONDITIONS = tuple(condition for condition in conditions.TOWERS if condition.task.startswith("fist"))
+TRIALS = tuple(
+    base.Trial(name=f"timestep{timestep:g}", num_steps=10_000, control_timestep=timestep)
+    for timestep in CONTROL_TIMESTEPS
+)
+_FINEST, _TRAINED = CONTROL_TIMESTEPS[0], CONTROL_TIMESTEPS[-1]
+
+
+def per_agent(frame):
+    """For each condition, agent and control step: accuracy, median time to the answer (s) and median interactions."""
+    keys = ["condition", "training_seed", "control_timestep"]
+    frame = frame.assign(control_timestep=frame.control_timestep.round(3), right=frame.reward > 0)
+    grouped = frame.groupby(keys, sort=False)
+    return grouped.agg(
+        accuracy=("right", "mean"), time=("time", "median"), interactions=("interactions", "median")
+    ).reset_index()
+
+
+def find_claims(frame) -> list[claims.Claim]:
+    """In finer time, the answer comes after as many seconds and many more steps, and is nearly as good."""
+    agents = per_agent(frame)
+    found = []
+    for condition in agents.condition.unique():
+        fine, trained = (
+            agents[(agents.condition == condition) & (agents.control_timestep == step)].set_index("training_seed")
+            for step in (_FINEST, _TRAINED)
+        )
+        common = dict(section="6.3", condition=condition)
+        how = f"control steps of {_FINEST:g} s over {_TRAINED:g} s, ratio of means"
+        found.append(claims.Claim(
+            **common, text="With a smaller control step the time to answer in seconds stays about the same",
+            statistic=f"median time to the answer, {how}",
+            estimate=statistics.ratio_of_means(fine.time, trained.time), above=0.5, below=2,
+        ))  # fmt: skip
+        found.append(claims.Claim(
+            **common, text="With a smaller control step episodes have up to ten times as many steps",
+            statistic=f"median interactions, {how}",
+            estimate=statistics.ratio_of_means(fine.interactions, trained.interactions), above=5, below=20,
+        ))  # fmt: skip
+        worst = agents[agents.condition == condition].groupby("training_seed").accuracy.min()
+        found.append(claims.Claim(
+            **common, text="Accuracy drops little with the control step",
+            statistic="share of right answers at the worst control step, mean of agents; chance is 0.2",
+            estimate=statistics.mean(worst), above=0.6,
+        ))  # fmt: skip
+    return found
+
+
+def draw(frame):
+    """Accuracy and median time against the control step, of one agent of each condition."""
+    agents = per_agent(frame)
+    names = list(agents.condition.unique())
+    figure, panels = figures.new(columns=len(names), width=3.0, height=2.4, squeeze=False)
+    for axes, name in zip(panels[0], names, strict=True):
+        rows = frame[(frame.condition == name)].assign(step=frame.control_timestep.round(3))
+        accuracy = agents[agents.condition == name].groupby("control_timestep").accuracy
+        axes.plot(accuracy.median().index, accuracy.median(), color=figures.COLORS[1], marker="o", markersize=3)
+        axes.fill_between(accuracy.median().index, accuracy.min(), accuracy.max(), color=figures.COLORS[1], alpha=0.15,
+                          linewidth=0)  # fmt: skip
+        axes.set(xlabel="control step, s", ylim=(0, 1.05), title=f"fist, {'features' if name == 'F-F' else 'pixels'}")
+        axes.set_ylabel("share of right answers", color=figures.COLORS[1])
+        right = axes.twinx()
+        right.spines["right"].set_visible(True)
+        one = rows[rows.training_seed == rows.training_seed.min()]
+        steps = np.sort(one.step.unique())
+        medians = [statistics.median(one.time[one.step == step]) for step in steps]
+        middle = np.array([estimate.value for estimate in medians])
+        error = [[e.value - e.low for e in medians], [e.high - e.value for e in medians]]
+        right.errorbar(steps, middle, error, color=figures.COLORS[2], marker="s", markersize=3,
+                       linestyle=figures.DASHES[1], capsize=1.5)  # fmt: skip
+        right.fill_between(steps, middle - steps, middle + steps, color=figures.COLORS[2], alpha=0.15, linewidth=0)
+        right.set(ylim=(0, None))
+        right.set_ylabel("median time to the answer, s", color=figures.COLORS[2])
+    return figure
+
+
+EXPERIMENT = base.Experiment(
+    name="waiting",
+    title="Waiting for information",
+    section="6.3, Figure 5 (right)",
+    caption="Fist agents, trained with a control step of 0.1 s, tested with smaller ones for at least 10,000 steps "
+    "each. Circles: median accuracy of the agents, shaded from the worst to the best. Squares: median time to the "
+    "answer of one agent (seed 0), with 95 % intervals; shaded: one control step to either side.",
+    conditions=CONDITIONS,
+    trials=TRIALS,
+    load=lambda results: results.episodes(TRIALS, CONDITIONS, ["reward", "interactions", "time"]),
+    claims=find_claims,
+    draw=draw,
+)

@@ -1,0 +1,75 @@
+"""How figures look: sober, readable in grey and by colour-blind readers, each as a vector file and as PNG."""
+
+from pathlib import Path
+from typing import Any
+
+# Okabe and Ito's colours (2008), darkest first, so that they differ in grey too; lines differ in dashes as well.
+COLORS = ("#000000", "#0072B2", "#D55E00", "#009E73", "#56B4E9", "#E69F00")
+DASHES = ("solid", (0, (5, 1.5)), (0, (1, 1.2)), (0, (5, 1.5, 1, 1.5)))
+MARKERS = ("o", "s", "^", "D")
+GREY = "0.45"
+
+_STYLE: Any = {
+    "font.family": "DejaVu Sans",
+    "font.size": 8,
+    "axes.titlesize": 8.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.linewidth": 0.7,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "legend.frameon": False,
+    "legend.fontsize": 7.5,
+    "lines.linewidth": 1.4,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "physexp",
+}
+
+
+def new(columns: int = 1, rows: int = 1, width: float = 3.4, height: float = 2.6, **kwargs: Any):
+    """A figure and its axes, [rows, columns] where there are several.
+
+    Args:
+      columns, rows: of axes.
+      width, height: of one pair of axes, inches.
+      kwargs: for `pyplot.subplots`.
+    """
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    with matplotlib.rc_context(_STYLE):
+        return pyplot.subplots(rows, columns, figsize=(width * columns, height * rows), layout="constrained", **kwargs)
+
+
+def save(figure, folder: Path, name: str) -> list[Path]:
+    """Writes a figure as SVG and PNG and closes it; returns the paths."""
+    import matplotlib
+    from matplotlib import pyplot
+
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = [folder / f"{name}.svg", folder / f"{name}.png"]
+    with matplotlib.rc_context(_STYLE):
+        figure.savefig(paths[0], metadata={"Date": None})
+        figure.savefig(paths[1], dpi=160)
+    pyplot.close(figure)
+    return paths
+
+
+def reference(
+    axes, level: float, text: str, vertical: bool = False, dashes: Any = (0, (1, 2)), at: float = 1.0
+) -> None:
+    """A thin line at a level, with its name at a place along it, from 0 to 1."""
+    line, words = (axes.axvline, axes.get_xaxis_transform()) if vertical else (axes.axhline, axes.get_yaxis_transform())
+    line(level, color=GREY, linewidth=0.8, linestyle=dashes, zorder=0)
+    place = dict(x=level, y=at) if vertical else dict(x=at, y=level)
+    align = dict(ha="left", va="top", rotation=90) if vertical else dict(ha="right", va="bottom")
+    axes.text(**place, s=text, transform=words, color="0.3", fontsize=6.5, **align)
+
+
+def seeds(frame) -> str:
+    """How many agents stand behind a figure: `10 agents each`."""
+    counts = frame.groupby("condition").training_seed.nunique()
+    low, high = int(counts.min()), int(counts.max())
+    return f"{low} agents each" if low == high else f"{low} to {high} agents each"

@@ -1,0 +1,57 @@
+"""Reproducing the paper: trains the agents of experiments, lets them play, draws the figures and tests the claims."""
+
+from collections.abc import Callable, Sequence
+import os
+
+from physexp.analysis import figures, sweep
+from physexp.analysis.experiments import EXPERIMENTS, base, conditions
+
+ALL = "all"
+
+
+def choose(name: str) -> list[base.Experiment]:
+    """The experiments that a name stands for.
+
+    Raises:
+      ValueError: for an unknown name.
+    """
+    if name == ALL:
+        return list(EXPERIMENTS.values())
+    if name not in EXPERIMENTS:
+        raise ValueError(f"experiment is {name!r}; choose from {', '.join([ALL, *EXPERIMENTS])}")
+    return [EXPERIMENTS[name]]
+
+
+def run(experiments: Sequence[base.Experiment], results: base.Results, *, observations: Sequence[str],
+        num_seeds: int | None = None, num_processes: int | None = None, frames: int | None = None,
+        report: Callable[[str], None]) -> None:  # fmt: skip
+    """Does everything for some experiments that is not done yet.
+
+    Args:
+      experiments: which.
+      results: where everything goes.
+      observations: kinds of observations whose agents are trained.
+      num_seeds: agents in each condition; by default `conditions.SEEDS`.
+      num_processes: agents trained at a time; by default as many as there are cores.
+      frames: environment steps of training, for a rehearsal; by default each condition's own budget.
+      report: called with lines that tell how it goes.
+
+    Raises:
+      ValueError: for numbers below one, or a folder whose runs are not these.
+      RuntimeError: if some agents could not be trained.
+    """
+    for name, value in (("seeds", num_seeds), ("jobs", num_processes), ("frames", frames)):
+        if value is not None and value < 1:
+            raise ValueError(f"{name} is {value}; give an integer >= 1")
+    wanted = sweep.jobs(experiments, observations, lambda kind: num_seeds or conditions.SEEDS[kind], frames)
+    sweep.run(wanted, results, num_processes or len(os.sched_getaffinity(0)), report)
+    for experiment in experiments:
+        if experiment.prepare is not None:
+            experiment.prepare(results)
+        frame = experiment.load(results)
+        for path in figures.save(experiment.draw(frame), results.path / "figures", experiment.name):
+            report(str(path))
+        for claim in experiment.claims(frame):
+            estimate = claim.estimate
+            report(f"{claim.verdict:9}  {claim.text} ({claim.condition}): {estimate.value:.3g}, 95 % interval "
+                   f"{estimate.low:.3g} to {estimate.high:.3g}, wanted {claim.wanted}")  # fmt: skip

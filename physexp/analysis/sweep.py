@@ -1,0 +1,154 @@
+"""Sweeps: trains the agents that are missing, several at a time, lets them play, and picks up where it was stopped."""
+
+from collections.abc import Callable, Sequence
+from concurrent import futures
+import dataclasses
+import multiprocessing
+
+from physexp.analysis import config as config_lib
+from physexp.analysis import progress, records, training
+from physexp.analysis import run as run_lib
+from physexp.analysis.experiments import base
+
+_POLL_SECONDS = 5.0
+
+
+@dataclasses.dataclass(frozen=True)
+class Job:
+    """One agent: how it is trained, and what it then plays."""
+
+    config: config_lib.TrainConfig
+    trials: tuple[base.Trial, ...]
+
+
+def jobs(experiments: Sequence[base.Experiment], observations: Sequence[str], num_seeds: Callable[[str], int],
+         frames: int | None = None) -> list[Job]:  # fmt: skip
+    """The agents that experiments need, each once, the first seed of all before the second of any.
+
+    Args:
+      experiments: what is asked for.
+      observations: kinds of observations that agents may have.
+      num_seeds: how many agents to train in each condition, by kind of observation.
+      frames: environment steps to train for; None for each condition's own budget.
+    """
+    from physexp.analysis.experiments import conditions
+
+    wanted: dict[config_lib.TrainConfig, list[base.Trial]] = {}
+    for experiment in experiments:
+        for condition in experiment.conditions:
+            kind = conditions.observations(condition)
+            for seed in range(num_seeds(kind) if kind in observations else 0):
+                agent = condition.agent.replace(seed=seed, frames=frames or condition.agent.frames)
+                trials = wanted.setdefault(dataclasses.replace(condition, agent=agent), [])
+                trials += [trial for trial in experiment.trials if trial not in trials]
+    return [Job(config, tuple(wanted[config])) for config in sorted(wanted, key=lambda config: config.agent.seed)]
+
+
+def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report: Callable[[str], None]) -> None:
+    """Does what is not done yet.
+
+    Args:
+      wanted: the agents.
+      results: where everything goes.
+      num_processes: how many agents to train at a time.
+      report: called with lines that tell how it goes.
+
+    Raises:
+      RuntimeError: when some agents could not be trained; all others are done by then.
+      ValueError: when the folder holds a run of the same name with another configuration.
+    """
+    for job in wanted:
+        run_of_job = results.run(job.config)
+        if (run_of_job.path / "config.json").exists() and run_of_job.config != job.config:
+            raise ValueError(f"{run_of_job.path} was made with another configuration; move it away or choose another "
+                             "--results-dir")  # fmt: skip
+    todo = [job for job in wanted if not _is_done(job, results)]
+    report(f"{len(wanted) - len(todo)} of {len(wanted)} agents are done")
+    if not todo:
+        return
+    meter = _Meter(wanted, results, num_processes)
+    context = multiprocessing.get_context("spawn")
+    failures = []
+    with futures.ProcessPoolExecutor(num_processes, mp_context=context, max_tasks_per_child=1) as pool:
+        pending = {pool.submit(_work, job, results): job for job in todo}
+        try:
+            while pending:
+                done, _ = futures.wait(pending, timeout=_POLL_SECONDS, return_when=futures.FIRST_COMPLETED)
+                for future in done:
+                    job = pending.pop(future)
+                    if future.exception() is not None:
+                        failures.append(f"{job.config.name}: {future.exception()}")
+                        report(f"FAILED {failures[-1]}")
+                    else:
+                        report(f"done: {job.config.name}")
+                report(meter.line(len(pending)))
+        except KeyboardInterrupt:
+            pool.shutdown(cancel_futures=True)
+            raise
+    if failures:
+        raise RuntimeError(f"{len(failures)} of {len(todo)} agents could not be trained: {'; '.join(failures)}")
+
+
+def _is_done(job: Job, results: base.Results) -> bool:
+    if not job.trials:
+        return results.run(job.config).is_finished
+    return all(results.episodes_path(trial, job.config).exists() for trial in job.trials)
+
+
+def _work(job: Job, results: base.Results) -> None:
+    """Trains an agent, if that is not done, and plays what it has not played."""
+    this = results.run(job.config)
+    if not (this.path / "config.json").exists():
+        this.create(job.config)
+    if not this.agent_path.exists():
+        parent = multiprocessing.parent_process()
+
+        def check_parent(row):
+            if parent is not None and not parent.is_alive():
+                raise RuntimeError("the sweep was killed")
+
+        training.train(this, check_parent)
+        this.keep_agent_only()
+    for trial in job.trials:
+        path = results.episodes_path(trial, job.config)
+        if not path.exists():
+            records.write(path, _play(this, trial))
+
+
+def _play(this: run_lib.Run, trial: base.Trial):
+    """The rows of what a run's agent plays."""
+    from physexp.analysis import evaluation
+
+    config = this.config
+    timestep = trial.control_timestep or config.control_timestep
+    played = evaluation.play(
+        evaluation.load_network(this), dataclasses.replace(config, control_timestep=timestep), trial.num_episodes,
+        trial.interaction, num_threads=1, num_steps=trial.num_steps,
+    )  # fmt: skip
+    return records.table(played, config, trial.interaction, timestep or 0.1)
+
+
+class _Meter:
+    """Tells how far a sweep is and how long it will take, from the speed of its own runs."""
+
+    def __init__(self, wanted: Sequence[Job], results: base.Results, num_processes: int):
+        self._wanted, self._results, self._num_processes = wanted, results, num_processes
+
+    def line(self, num_pending: int) -> str:
+        done = total = left = 0.0
+        speeds: dict[tuple[str, str], list[tuple[float, float]]] = {}
+        remaining: dict[tuple[str, str], float] = {}
+        for job in self._wanted:
+            kind = (job.config.domain, job.config.task)
+            rows = self._results.run(job.config).metrics()
+            frames = min(rows[-1]["frames"], job.config.agent.frames) if rows else 0
+            if rows:
+                speeds.setdefault(kind, []).append((rows[-1]["seconds"], rows[-1]["frames"]))
+            remaining[kind] = remaining.get(kind, 0) + job.config.agent.frames - frames
+            done, total = done + frames, total + job.config.agent.frames
+        for kind, frames in remaining.items():
+            known = speeds.get(kind) or [pair for pairs in speeds.values() for pair in pairs]
+            if known:
+                left += frames * sum(seconds for seconds, _ in known) / sum(count for _, count in known)
+        duration = progress.duration(left / self._num_processes)
+        return f"{num_pending} agents to go, {done / 1e6:.2f} of {total / 1e6:.2f} million frames, time left {duration}"
