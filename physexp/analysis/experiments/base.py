@@ -56,10 +56,10 @@ class Results:
 
     def episodes(self, trials: Sequence[Trial], configs: Sequence[config_lib.TrainConfig],
                  columns: Sequence[str] = ()) -> Any:  # fmt: skip
-        """What agents of these conditions, of every seed there is, have played: a DataFrame (`records.SCHEMA`).
+        """What agents of these conditions have played: a DataFrame with columns of `records.SCHEMA` and `condition`.
 
         Args:
-          trials: what was played.
+          trials: what was played; of every seed that has played all of it.
           configs: the conditions, whatever the seed in them.
           columns: those wanted beside the ones that tell what was played; few are quick to read.
 
@@ -67,7 +67,7 @@ class Results:
           ValueError: if there are none.
         """
         always = ["domain", "task", "difficulty", "discount", "training_seed", "interaction", "control_timestep"]
-        paths = [path for trial in trials for config in configs for path in self._of_all_seeds(trial, config)]
+        paths = [path for config in configs for path in self._complete(trials, config)]
         if not paths:
             raise ValueError(f"{self.path} holds no episodes of this experiment; `physexp reproduce` it first")
         frame = records.read(paths, [*always, *columns])
@@ -80,19 +80,23 @@ class Results:
         frames = []
         for config in configs:
             for folder in sorted((self.path / "runs").glob(f"{_without_seed(config)}-seed*")):
-                rows = run_lib.Run(folder).metrics()
-                if rows and rows[-1]["frames"] >= config.agent.frames:  # A run that goes on is no result yet.
-                    frames.append(pandas.DataFrame(rows).assign(
+                run = run_lib.Run(folder)
+                if run.is_finished:
+                    frames.append(pandas.DataFrame(run.metrics()).assign(
                         domain=config.domain, task=config.task, difficulty=config.difficulty,
-                        discount=config.agent.discount, training_seed=run_lib.Run(folder).config.agent.seed,
+                        discount=config.agent.discount, training_seed=run.config.agent.seed,
                     ))  # fmt: skip
         if not frames:
             raise ValueError(f"{self.path} holds no finished runs of this experiment; `physexp reproduce` it first")
         frame = pandas.concat(frames, ignore_index=True)
         return frame.assign(condition=_labels(frame))
 
-    def _of_all_seeds(self, trial: Trial, config: config_lib.TrainConfig) -> list[Path]:
-        return sorted((self.path / "episodes" / trial.name).glob(f"{_without_seed(config)}-seed*.parquet"))
+    def _complete(self, trials: Sequence[Trial], config: config_lib.TrainConfig) -> list[Path]:
+        """The episodes of the seeds of a condition that have played all of the trials."""
+        pattern = f"{_without_seed(config)}-seed*.parquet"
+        folders = [self.path / "episodes" / trial.name for trial in trials]
+        names = set.intersection(*({path.name for path in folder.glob(pattern)} for folder in folders))
+        return [folder / name for folder in folders for name in sorted(names)]
 
 
 def _without_seed(config: config_lib.TrainConfig) -> str:

@@ -34,8 +34,9 @@ def find_claims(frame) -> list[claims.Claim]:
 def draw(frame):
     """A panel for each kind of observation."""
     curves = learning.smoothed(frame)
-    figure, panels = figures.new(columns=2, sharey=True)
-    for axes, kind in zip(panels, conditions.OBSERVATIONS, strict=True):
+    kinds = [kind for kind in conditions.OBSERVATIONS if (frame.task == kind).any()]
+    figure, panels = figures.new(columns=len(kinds), sharey=True, squeeze=False)
+    for axes, kind in zip(panels[0], kinds, strict=True):
         names = [conditions.label("which_is_heavier", kind, beta) for beta in conditions.DIFFICULTIES]
         learning.draw_panel(axes, curves, names, [rf"$\beta$ = {beta:g}" for beta in conditions.DIFFICULTIES], _CHANCE)
         for number, beta in enumerate(conditions.DIFFICULTIES):
@@ -44,7 +45,7 @@ def draw(frame):
                       clip_on=False, markersize=4)  # fmt: skip
         axes.set_title(f"from {kind}")
         axes.legend(loc="lower right", bbox_to_anchor=(1, 0.12))
-    panels[0].set_ylabel("share of right answers")
+    panels[0, 0].set_ylabel("share of right answers")
     return figure
 
 

@@ -43,12 +43,13 @@ def find_claims(frame) -> list[claims.Claim]:
 def draw(frame):
     """A panel for each condition."""
     curves = learning.smoothed(frame)
-    figure, panels = figures.new(columns=4, width=2.0, height=2.2, sharey=True)
-    for axes, condition in zip(panels, conditions.TOWERS, strict=True):
-        name = conditions.label(condition.domain, condition.task, None)
+    tasks = [condition.task for condition in conditions.TOWERS if (frame.task == condition.task).any()]
+    figure, panels = figures.new(columns=len(tasks), width=2.0, height=2.2, sharey=True, squeeze=False)
+    for axes, task in zip(panels[0], tasks, strict=True):
+        name = conditions.label("towers", task, None)
         learning.draw_panel(axes, curves, [name], ["median"], _CHANCE)
-        axes.set_title(condition.task.replace("_", ", "))
-    panels[0].set_ylabel("share of right answers")
+        axes.set_title(task.replace("_", ", "))
+    panels[0, 0].set_ylabel("share of right answers")
     return figure
 
 

@@ -7,6 +7,7 @@ Their values are found by going back from the last poke, on a grid.
 
 from collections.abc import Callable
 import dataclasses
+import functools
 import math
 from typing import Any
 
@@ -16,7 +17,8 @@ from scipy.stats import qmc
 
 from physexp.suite import which_is_heavier
 
-_HEAVIEST_NODES, _RATIO_NODES, _QUADRATURE_NODES = 400, 33, 24
+_HEAVIEST_NODES, _RATIO_NODES = 400, 33
+_QUADRATURE_NODES = 48  # Per half of each density; many more where there is only one state to integrate from.
 _EPISODES = 2**17  # Of the histogram; drawn evenly (Sobol), so that its error is far below 0.001.
 
 
@@ -140,13 +142,20 @@ class Solution:
 
     def summary(self) -> dict[str, Any]:
         """`value`, `accuracy`, `mean_interactions` and `histogram` (share of episodes for each number of pokes)."""
-        draws = qmc.Sobol(self.num_blocks + 1, seed=0).random(_EPISODES).clip(1e-12, 1 - 1e-12)
-        pokes, right = self.play(which_is_heavier.masses_from(draws, self.difficulty))
+        pokes, right = _evenly_drawn_episodes(self)
         shares = np.bincount(pokes, minlength=self.num_blocks + 1) / len(pokes)
         return {"value": self.value, "accuracy": float(right.mean()), "mean_interactions": float(pokes.mean()),
                 "histogram": {number: float(share) for number, share in enumerate(shares)}}  # fmt: skip
 
 
+@functools.lru_cache(maxsize=64)
+def _evenly_drawn_episodes(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
+    """Pokes and success, as `Solution.play` has them, of episodes whose masses are spread evenly."""
+    draws = qmc.Sobol(solution.num_blocks + 1, rng=0).random(_EPISODES).clip(1e-12, 1 - 1e-12)
+    return solution.play(which_is_heavier.masses_from(draws, solution.difficulty))
+
+
+@functools.lru_cache(maxsize=64)
 def solve(difficulty: float = 5.0, discount: float = 0.95, num_blocks: int = which_is_heavier.NUM_BLOCKS) -> Solution:
     """Finds the best policy, its value to better than 0.0001.
 
@@ -195,7 +204,7 @@ def _expected(known, num_blocks, heaviest, ratio, difficulty, after) -> np.ndarr
     unknown = num_blocks - known
     with np.errstate(divide="ignore"):
         log_weight = _log_ratio(heaviest, difficulty) + np.log(ratio) if known else np.full(1, -np.inf)
-    nodes, weights = np.polynomial.legendre.leggauss(_QUADRATURE_NODES)
+    nodes, weights = np.polynomial.legendre.leggauss(_QUADRATURE_NODES * (1 if known else 16))
     nodes, weights = (nodes + 1) / 2, weights / 2
     is_heavy = special.expit(np.log(unknown) - log_weight) / unknown  # Of one block among the unknown ones.
     total = np.zeros(len(heaviest))

@@ -1,0 +1,233 @@
+"""The ideal experimenter of Which is Heavier, against hand calculation, brute force and the real environment."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy import integrate
+from trainers import fresh_seed
+
+from physexp import suite
+from physexp.agents import environment_loop
+from physexp.analysis.ideal import playing, regret
+from physexp.analysis.ideal import which_is_heavier as ideal
+from physexp.suite import which_is_heavier
+
+
+def draw(generator, count, difficulty, blocks=4):
+    """Masses drawn the long way round: by numpy's Beta, the heavy block by index."""
+    masses = generator.beta(1, difficulty, (count, blocks))
+    heavy = generator.integers(blocks, size=count)
+    masses[np.arange(count), heavy] = generator.beta(difficulty, 1, count)
+    return masses, heavy
+
+
+def test_before_any_poke_all_blocks_are_equally_likely():
+    np.testing.assert_allclose(ideal.posterior(np.full((1, 4), np.nan), 3.0), np.full((1, 4), 0.25))
+
+
+def test_with_all_blocks_known_the_heaviest_is_it():
+    masses = np.array([[0.2, 0.9, 0.91, 0.1]])
+    np.testing.assert_array_equal(ideal.posterior(masses, 3.0), [[0, 0, 1, 0]])
+
+
+def test_two_uniform_blocks_are_judged_by_the_known_one_alone():
+    # Difficulty 1 makes every mass uniform: the other block is lighter than 0.7 with probability 0.7.
+    np.testing.assert_allclose(ideal.posterior(np.array([[0.7, np.nan]]), 1.0), [[0.7, 0.3]])
+
+
+def test_a_block_never_poked_can_be_the_best_answer():
+    # Two blocks, difficulty 2, mass 0.3 seen: ratio r = 0.3 / 0.7 = 3/7, so it is the heavy one with probability
+    # (3/7) / (3/7 + 1) = 0.3, and heaviest with 0.3 * (1 - 0.7^2) + 0.7 * 0.3^2 = 0.153 + 0.063 = 0.216.
+    posterior = ideal.posterior(np.array([[0.3, np.nan]]), 2.0)
+    np.testing.assert_allclose(posterior, [[0.216, 0.784]])
+    answer, poke = ideal.solve(2.0, 0.5, 2).values(np.array([[0.3, np.nan]]))
+    assert answer[0] == pytest.approx(2 * 0.784 - 1)
+    assert poke[0] == pytest.approx(0.5)  # Nothing is left to find out after it.
+    assert ideal.solve(2.0, 0.5, 2).actions(np.array([[0.3, np.nan]])) == [2 + 1]
+
+
+def test_the_posterior_depends_on_every_mass_seen():
+    lone, pair = (ideal.posterior(np.array([[0.5, other, np.nan, np.nan]]), 3.0)[0, 0] for other in (0.1, 0.45))
+    assert abs(lone - pair) > 0.01
+
+
+@pytest.mark.parametrize("difficulty", [1.0, 3.0, 10.0])
+def test_the_posterior_is_what_is_found_among_many_drawn_masses(difficulty):
+    generator = np.random.default_rng(fresh_seed())
+    masses, _ = draw(generator, 400_000, difficulty)
+    known = masses.copy()
+    known[:, 2:] = np.nan
+    likely = ideal.posterior(known, difficulty)
+    np.testing.assert_allclose(likely.sum(axis=1), 1)
+    truth = np.eye(4)[masses.argmax(axis=1)]
+    for block in range(4):  # Where it is said to be likely with about p, it is the heaviest in a share p.
+        for low, high in ((0.02, 0.2), (0.2, 0.5), (0.5, 0.8), (0.8, 0.98)):
+            rows = (likely[:, block] > low) & (likely[:, block] <= high)
+            if rows.sum() > 200:
+                expected, share = likely[rows, block].mean(), truth[rows, block].mean()
+                assert abs(share - expected) < 5 * math.sqrt(expected * (1 - expected) / rows.sum())
+
+
+def test_the_value_for_two_uniform_blocks_is_the_integral_done_by_hand():
+    # After one poke of mass m the best answer is right with probability max(m, 1 - m); poking on is worth g = 0.8.
+    # So the value is 0.8 * integral of max(2 max(m, 1 - m) - 1, 0.8) = 0.8 * 2 * (0.4 * 0.8 + integral of 2m - 1 from
+    # 0.9 to 1) = 1.6 * (0.32 + 0.09) = 0.656.
+    assert ideal.solve(1.0, 0.8, 2).value == pytest.approx(0.656, abs=1e-4)
+
+
+def test_the_value_for_two_blocks_is_the_integral_done_numerically():
+    difficulty, discount = 3.0, 0.9
+
+    def gain(mass):
+        density = 0.5 * difficulty * (mass ** (difficulty - 1) + (1 - mass) ** (difficulty - 1))
+        weight = (mass / (1 - mass)) ** (difficulty - 1)
+        lighter = 1 - (1 - mass) ** difficulty
+        right = (weight * lighter + mass**difficulty) / (weight + 1)
+        return density * max(2 * max(right, 1 - right) - 1, discount)
+
+    expected = discount * integrate.quad(gain, 0, 1, limit=400)[0]
+    assert ideal.solve(difficulty, discount, 2).value == pytest.approx(expected, abs=1e-4)
+
+
+def test_without_a_cost_of_information_all_is_found_out():
+    solution = ideal.solve(3.0, 1.0)
+    assert solution.value == pytest.approx(1.0, abs=1e-6)
+    assert solution.summary()["accuracy"] > 0.9999
+
+
+def test_when_information_costs_nearly_everything_nothing_is_worth_much():
+    # A guess is worth 2/4 - 1 = -0.5, poking once at most 0.1.
+    solution = ideal.solve(5.0, 0.1)
+    assert 0 < solution.value < 0.1
+
+
+def test_with_ever_easier_questions_one_heavy_block_is_looked_for():
+    # It is found first, second, or else (known without poking the fourth) after three pokes: 1/4, 1/4, 1/2.
+    histogram = ideal.solve(200.0, 0.95).summary()["histogram"]
+    assert [histogram[pokes] for pokes in range(5)] == pytest.approx([0, 0.25, 0.25, 0.5, 0], abs=2e-3)
+    # 0.95 / 4 + 0.95^2 / 4 + 0.95^3 / 2
+    assert ideal.solve(200.0, 0.95).value == pytest.approx(0.8918125, abs=1e-3)
+
+
+@pytest.mark.parametrize(("difficulty", "discount", "blocks"), [(3.0, 0.95, 4), (5.0, 0.99, 4), (10.0, 0.9, 6)])
+def test_what_simulated_episodes_earn_is_the_value(difficulty, discount, blocks):
+    generator = np.random.default_rng(fresh_seed())
+    masses, _ = draw(generator, 200_000, difficulty, blocks)
+    solution = ideal.solve(difficulty, discount, blocks)
+    pokes, right = solution.play(masses)
+    returns = discount**pokes * np.where(right, 1, -1)
+    assert abs(returns.mean() - solution.value) < 4.5 * returns.std() / math.sqrt(len(returns)) + 1e-4
+
+
+def test_a_finer_grid_changes_little(monkeypatch):
+    coarse = ideal.solve(3.0, 0.95).value
+    ideal.solve.cache_clear()
+    monkeypatch.setattr(ideal, "_HEAVIEST_NODES", 800)
+    monkeypatch.setattr(ideal, "_RATIO_NODES", 65)
+    monkeypatch.setattr(ideal, "_QUADRATURE_NODES", 96)
+    assert abs(ideal.solve(3.0, 0.95).value - coarse) < 1e-4
+    ideal.solve.cache_clear()
+
+
+def test_no_rule_of_thumb_earns_more():
+    generator = np.random.default_rng(fresh_seed())
+    masses, _ = draw(generator, 200_000, 3.0)
+    value = ideal.solve(3.0, 0.95).value
+    for threshold in np.linspace(0.5, 1.0, 11):  # Stop at the first block heavier than a threshold.
+        heavy = masses > threshold
+        pokes = np.where(heavy.any(axis=1), heavy.argmax(axis=1) + 1, 4)
+        seen = np.where(np.arange(4) < pokes[:, None], masses, -1)
+        returns = 0.95**pokes * np.where(seen.argmax(axis=1) == masses.argmax(axis=1), 1, -1)
+        assert returns.mean() < value + 4.5 * returns.std() / math.sqrt(len(returns))
+
+
+@pytest.mark.parametrize("control_timestep", [0.1, 0.05])
+def test_it_reads_masses_from_heights_in_the_real_environment(control_timestep):
+    seed = fresh_seed()
+    mass_of = playing.calibrate({"control_timestep": control_timestep})
+    environment = suite.load(
+        "which_is_heavier", "features", task_kwargs={"random": seed, "control_timestep": control_timestep}
+    )
+    for episode in range(20):
+        environment.reset()
+        block = episode % 4
+        height = environment.step(block).observation["heights"][block]
+        assert mass_of(height) == pytest.approx(environment.task.hidden[block], abs=1e-4)
+
+
+def test_a_poke_so_long_that_blocks_reach_the_ceiling_is_refused():
+    with pytest.raises(ValueError, match="control_timestep is 0.5 s, in which a light block reaches the ceiling"):
+        playing.calibrate({"control_timestep": 0.5})
+
+
+def test_in_the_real_environment_it_does_what_it_does_without_physics():
+    seed = fresh_seed()
+    solution = ideal.solve(3.0, 0.95)
+    environment = suite.load("which_is_heavier", "features", task_kwargs={"random": seed, "difficulty": 3.0})
+    loop = environment_loop.EnvironmentLoop(environment, playing.IdealExperimenter(solution))
+    episodes = loop.run(300)
+    masses = which_is_heavier.draw_masses(np.full(300, seed), np.arange(300), 3.0)
+    pokes, right = solution.play(masses)
+    played = np.array([episode["episode_length"] - 1 for episode in episodes])
+    won = np.array([episode["episode_return"] == 1 for episode in episodes])
+    # Masses read from heights differ by some 1e-6: a decision on the edge may fall otherwise, in one episode of many.
+    assert (played == pokes).mean() > 0.98 and (won == right).mean() > 0.98
+    assert won.mean() > 0.97
+
+
+def random_episodes(generator, count, difficulty):
+    """Masses and careless actions: pokes at random, answers at random or by what was seen, some never answered."""
+    masses, _ = draw(generator, count, difficulty)
+    actions = []
+    for row in masses:
+        pokes = generator.integers(4, size=generator.integers(0, 6))
+        label = generator.integers(4) if generator.random() < 0.5 or not len(pokes) else pokes[row[pokes].argmax()]
+        actions.append(np.append(pokes, 4 + label))
+    return masses, actions
+
+
+def test_the_costs_of_mistakes_add_up_to_the_gap():
+    generator = np.random.default_rng(fresh_seed())
+    solution = ideal.solve(3.0, 0.9)
+    masses, actions = random_episodes(generator, 60_000, 3.0)
+    right = np.array([taken[-1] - 4 == row.argmax() for taken, row in zip(actions, masses, strict=True)])
+    returns = 0.9 ** np.array([len(taken) - 1 for taken in actions]) * np.where(right, 1, -1)
+    costs = regret.regrets(solution, masses, actions, np.zeros(len(masses), bool))
+    total = sum(costs.values())
+    assert all((cost >= -1e-9).all() for cost in costs.values())
+    both = returns + total  # Its mean is the value, and its spread what luck adds to both sides.
+    assert abs(both.mean() - solution.value) < 4.5 * both.std() / math.sqrt(len(both)) + 1e-3
+
+
+def test_each_mistake_is_counted_under_its_name():
+    solution = ideal.solve(3.0, 0.95)
+    masses = np.array([[0.5, 0.9, 0.1, 0.2]] * 5)
+    actions = [
+        np.array([0, 1, 2, 3, 5]),  # Poked all; may have poked too much, but answered right.
+        np.array([0, 0, 1, 2, 3, 5]),  # The same with a second look at block 0.
+        np.array([0, 1, 2, 3, 4]),  # Answered 0 when 1 is known to be heavier.
+        np.array([4]),  # A guess at once.
+        np.zeros(100, int),  # Never answered.
+    ]
+    costs = regret.regrets(solution, masses, actions, np.array([False] * 4 + [True]))
+    assert costs["against"][2] == pytest.approx(0.95**4 * 2)  # Worth -1 instead of 1, after four pokes.
+    assert costs["again"][0] == 0 and costs["again"][1] > 0
+    assert costs["early"][3] == pytest.approx(solution.value + 0.5)  # A guess is worth 2/4 - 1.
+    assert costs["timeout"][4] > 0 and not costs["timeout"][:4].any()
+    np.testing.assert_array_equal(costs["early"][:3], 0)
+
+
+@pytest.mark.parametrize(
+    ("kwargs", "message"),
+    [
+        ({"difficulty": 0.5}, "difficulty is 0.5; give a finite number >= 1"),
+        ({"difficulty": math.nan}, "difficulty is nan; give a finite number >= 1"),
+        ({"discount": 0.0}, "discount is 0.0; give a number in"),
+        ({"discount": 1.5}, "discount is 1.5; give a number in"),
+        ({"num_blocks": 1}, "num_blocks is 1; give an integer >= 2"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(kwargs, message):
+    with pytest.raises(ValueError, match=message):
+        ideal.solve(**kwargs)

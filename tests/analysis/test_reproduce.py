@@ -1,0 +1,184 @@
+"""Reproducing experiments, as a user does it: resumable, complete, and readable at the end."""
+
+import json
+import os
+import signal
+import subprocess
+
+import numpy as np
+from pyarrow import parquet
+import pytest
+from trainers import PHYSEXP, group, wait_until
+
+from physexp.analysis import records, report, reproduce, sweep
+from physexp.analysis import run as run_lib
+from physexp.analysis.experiments import EXPERIMENTS, base, conditions
+
+NAMES = [f"which_is_heavier-features-difficulty{beta}-discount0.95-seed0" for beta in (3, 5, 10)]
+
+
+def command(folder, frames, *more):
+    return list(map(str, [PHYSEXP, "reproduce", "population", "--seeds", 1, "--observations", "features", "--frames",
+                          frames, "--results-dir", folder, *more]))  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def rehearsed(tmp_path_factory):
+    """Results of a rehearsal of one experiment."""
+    folder = tmp_path_factory.mktemp("results")
+    done = subprocess.run(command(folder, 5000), capture_output=True, text=True, check=True)
+    return base.Results(folder), done.stdout
+
+
+def test_a_reproduction_leaves_runs_episodes_a_figure_and_verdicts(rehearsed):
+    results, output = rehearsed
+    for name in NAMES:
+        run = run_lib.Run(results.path / "runs" / name)
+        assert run.is_finished and run.agent_path.exists()
+        assert not (run.path / "checkpoints").exists()
+        assert (results.path / "episodes" / "learned" / f"{name}.parquet").exists()
+    for suffix in ("svg", "png"):
+        assert (results.path / "figures" / f"population.{suffix}").stat().st_size > 5000
+    assert "0 of 3 agents are done" in output
+    assert "time left" in output
+    verdicts = [line.split()[0] for line in output.splitlines() if "95 % interval" in line]
+    assert len(verdicts) == 4 and set(verdicts) <= {"holds", "fails", "undecided"}
+
+
+def test_the_stored_rows_are_complete_and_agree_with_one_another(rehearsed):
+    results, _ = rehearsed
+    path = results.path / "episodes" / "learned" / f"{NAMES[0]}.parquet"
+    assert parquet.read_table(path).schema.equals(records.SCHEMA)
+    frame = records.read([path])
+    assert frame.length.sum() >= 10_000
+    assert frame.drop(columns=["pattern"]).notna().all(axis=None) and frame.pattern.isna().all()
+    assert (frame.difficulty == 3).all() and (frame.training_seed == 0).all() and (frame.interaction == "learned").all()
+    masses = np.stack(frame.masses.to_numpy())
+    np.testing.assert_array_equal(masses.argmax(axis=1), frame.answer)
+    np.testing.assert_allclose(np.sort(masses)[:, -1] - np.sort(masses)[:, -2], frame.mass_gap, atol=1e-6)
+    assert [len(actions) for actions in frame.actions] == list(frame.length)
+    last = np.array([actions[-1] for actions in frame.actions])
+    np.testing.assert_array_equal(np.where(last >= 4, last - 4, -1), frame.label)
+    np.testing.assert_array_equal(np.where(frame.label == frame.answer, 1, -1), frame.reward)
+    np.testing.assert_allclose(frame.time, 0.1 * frame.interactions, rtol=1e-6)
+    assert not frame.duplicated(["seed", "episode"]).any()
+
+
+def test_what_is_done_is_not_done_again(rehearsed):
+    results, _ = rehearsed
+    files = [path for path in results.path.rglob("*") if path.is_file() and "figures" not in path.parts]
+    before = {path: path.stat().st_mtime_ns for path in files}
+    done = subprocess.run(command(results.path, 5000), capture_output=True, text=True, check=True)
+    assert "3 of 3 agents are done" in done.stdout
+    assert {path: path.stat().st_mtime_ns for path in files} == before
+
+
+def test_runs_with_another_configuration_are_not_mixed_in(rehearsed):
+    results, _ = rehearsed
+    done = subprocess.run(command(results.path, 6000), capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert "was made with another configuration; move it away or choose another --results-dir" in done.stderr
+
+
+def test_the_report_has_every_figure_there_is_data_for_and_says_what_is_left_out(rehearsed):
+    results, _ = rehearsed
+    lines = []
+    markdown = report.write(results, lines.append).read_text()
+    page = (results.path / "report.html").read_text()
+    for name in ("mass_gap", "population", "learning_heavier"):  # The runs have curves, too.
+        assert f"figures/{name}.png" in markdown and (results.path / "figures" / f"{name}.png").exists()
+    assert page.count("data:image/svg+xml;base64,") == markdown.count("![")
+    for claim in EXPERIMENTS["population"].claims(EXPERIMENTS["population"].load(results)):
+        assert claim.text in markdown and claim.statistic in page
+    for name in ("waiting", "random_towers", "individual"):
+        assert f"Left out: {name}" in markdown
+    assert run_lib.commit()[:10] in markdown
+
+
+def test_a_report_of_nothing_says_what_to_do(tmp_path):
+    with pytest.raises(ValueError, match="holds no data of any agent; `physexp reproduce` makes it"):
+        report.write(base.Results(tmp_path))
+
+
+def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
+    frames = 150_000
+    with subprocess.Popen(command(tmp_path, frames, "--jobs", 1), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, start_new_session=True) as process:  # fmt: skip
+        try:
+            first, second = (tmp_path / "runs" / name for name in NAMES[:2])
+            part = tmp_path / "episodes" / "learned" / f"{NAMES[0]}.parquet"
+            wait_until(lambda: part.exists() and (second / "config.json").exists(), 120, "one run done, one begun")
+            os.kill(process.pid, signal.SIGKILL)
+            process.wait()
+            # Nobody is left to want the rest: what the sweep has started ends by itself.
+            wait_until(lambda: not group(process.pid), 60, "the sweep's processes end")
+        finally:
+            for member in group(process.pid):
+                member.kill()
+    kept = {path: path.stat().st_mtime_ns for path in (first / "agent.safetensors", first / "metrics.csv", part)}
+    done = subprocess.run(command(tmp_path, frames), capture_output=True, text=True, check=True)
+    assert "1 of 3 agents are done" in done.stdout
+    assert {path: path.stat().st_mtime_ns for path in kept} == kept
+    for name in NAMES:
+        rows = run_lib.Run(tmp_path / "runs" / name).metrics()
+        counted = [row["frames"] for row in rows]
+        assert counted == sorted(set(counted)) and counted[-1] >= frames
+
+
+def test_an_agent_that_cannot_be_trained_is_named_and_the_others_are_trained(tmp_path):
+    results = base.Results(tmp_path)
+    jobs = sweep.jobs([EXPERIMENTS["population"]], ["features"], lambda kind: 1, 3000)[:2]
+    blocked = results.run(jobs[0].config).path
+    blocked.parent.mkdir(parents=True)
+    blocked.write_text("a file where the run's folder should be")
+    lines = []
+    with pytest.raises(RuntimeError, match=f"1 of 2 agents could not be trained: {jobs[0].config.name}"):
+        sweep.run(jobs, results, 2, lines.append)
+    assert results.episodes_path(base.LEARNED, jobs[1].config).exists()
+    assert any(line.startswith(f"FAILED {jobs[0].config.name}") for line in lines)
+
+
+def test_experiments_that_need_the_same_agent_train_it_once():
+    everything = sweep.jobs(list(EXPERIMENTS.values()), conditions.OBSERVATIONS, lambda kind: 2)
+    names = [job.config.name for job in everything]
+    assert len(names) == len(set(names))
+    # Two seeds of: six conditions of Which is Heavier, the three patient ones, four of Towers.
+    assert len(names) == 2 * (6 + 3 + 4)
+    assert [job.config.agent.seed for job in everything] == [0] * 13 + [1] * 13
+    fist = next(job for job in everything if job.config.task == "fist_features")
+    assert {"learned", "random", "evaluation", "timestep0.01", "timestep0.1"} <= {trial.name for trial in fist.trials}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["waving"], "experiment is 'waving'; choose from all, mass_gap, learning_heavier"),
+        (["mass_gap", "--seeds", "0"], "seeds is 0; give an integer >= 1"),
+        (["mass_gap", "--jobs", "-1"], "jobs is -1; give an integer >= 1"),
+    ],
+)
+def test_what_makes_no_sense_is_one_readable_line(arguments, message, tmp_path):
+    done = subprocess.run([PHYSEXP, "reproduce", *arguments, "--results-dir", tmp_path / "results"],
+                          capture_output=True, text=True, check=False)  # fmt: skip
+    assert done.returncode == 2
+    assert message in done.stderr and done.stderr.count("\n") == 1
+    assert not (tmp_path / "results").exists()
+
+
+def test_an_experiment_without_agents_takes_no_training(tmp_path):
+    lines = []
+    reproduce.run([EXPERIMENTS["mass_gap"]], base.Results(tmp_path), observations=["features"], report=lines.append)
+    assert (tmp_path / "figures" / "mass_gap.png").exists()
+    assert sum(line.startswith("holds") for line in lines) == 2
+
+
+def test_the_command_for_the_ideal_prints_its_figures():
+    done = subprocess.run([PHYSEXP, "ideal", "which_is_heavier", "--difficulty", "3", "--discount", "0.95", "--json"],
+                          capture_output=True, text=True, check=True)  # fmt: skip
+    figures = json.loads(done.stdout)
+    assert list(figures) == ["value", "accuracy", "mean_interactions", "histogram"]
+    assert figures["value"] == pytest.approx(0.8385, abs=1e-3)
+    assert sum(figures["histogram"].values()) == pytest.approx(1)
+    mean = sum(int(pokes) * share for pokes, share in figures["histogram"].items())
+    assert figures["mean_interactions"] == pytest.approx(mean)
