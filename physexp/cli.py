@@ -228,19 +228,19 @@ class Bench:
 
     Attributes:
       sections: which figures; all but learning by default, since learning takes hours.
-      runs_dir: where the runs of the learning figures are, or go.
+      results_dir: where the results of the experiments are, or go, for the learning figures.
       json: print JSON.
     """
 
     sections: Positional[tuple[BenchSection, ...]] = get_args(BenchSection)[:-1]
-    runs_dir: Path = Path("runs")
+    results_dir: Path = Path("results")
     json: bool = False
 
     def run(self) -> None:
         from physexp.analysis import bench
 
         rows = []
-        for row in bench.run(self.sections, self.runs_dir):
+        for row in bench.run(self.sections, self.results_dir):
             rows.append(row)
             if not self.json:
                 print(bench.line(row), flush=True)

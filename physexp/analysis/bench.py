@@ -39,13 +39,13 @@ def line(figure: dict) -> str:
     return f"{verdict} {figure['figure']:58} {value:>12}  ({sign} {figure['target']:g})  {absolute}"
 
 
-def run(sections: Sequence[str], runs_dir: Path) -> Iterator[dict]:
+def run(sections: Sequence[str], results_dir: Path) -> Iterator[dict]:
     """Measures sections of figures, in the order given."""
     for section in sections:
         if section == "learning":
             from physexp.analysis import bench_learning
 
-            yield from bench_learning.run(runs_dir)
+            yield from bench_learning.run(results_dir)
         else:
             yield from _SECTIONS[section]()
 

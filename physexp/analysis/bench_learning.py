@@ -1,55 +1,59 @@
-"""What the default agents learn: trains the runs that are missing, evaluates them all."""
+"""What the feature agents of the experiments reach, and how long experiments, report and ideal experimenters take."""
 
 from collections.abc import Iterator
 from pathlib import Path
+import subprocess
 import sys
-from typing import Any
+import time
 
-from physexp.analysis import bench, evaluation, progress, training
-from physexp.analysis import config as config_lib
+from physexp.analysis import bench, records, sweep
 from physexp.analysis import run as run_lib
+from physexp.analysis.experiments import EXPERIMENTS, base, conditions, ideal_gap
+from physexp.analysis.ideal import which_is_heavier as ideal
 
-EPISODES = 10_000
-SEEDS = (0, 1)  # All must reach the target; the towers, which take longer, are trained once.
-# Mean discounted return to be reached at each difficulty; an ideal experimenter has 0.8385, 0.8692 and 0.8908.
-HEAVIER = {3.0: 0.79, 5.0: 0.83, 10.0: 0.86}
-TOWERS = {"fist_features": 0.98, "direct_features": 0.95}
-
-
-def run(runs_dir: Path) -> Iterator[dict]:
-    """Yields a figure for each condition: what all of its seeds reach."""
-    for difficulty, target in HEAVIER.items():
-        results = [_result(runs_dir, "which_is_heavier", "features", difficulty, seed) for seed in SEEDS]
-        yield _figure(f"return: heavier, difficulty {difficulty:g}", "mean_return", results, target)
-    for task, target in TOWERS.items():
-        results = [_result(runs_dir, "towers", task, None, seed) for seed in SEEDS[:1]]
-        yield _figure(f"right answers: towers/{task}", "success_rate", results, target)
+SHARE_OF_IDEAL = {3.0: 0.95, 5.0: 0.97, 10.0: 0.97}  # Of its return, in the median of the better half of the agents.
+RETURN = {3.0: 0.79, 5.0: 0.83, 10.0: 0.86}  # Mean discounted return, in the same.
+SUCCESS = {"fist_features": 0.98, "direct_features": 0.95}
+HOURS = 12.0  # For all experiments on features.
 
 
-def _figure(name: str, key: str, results: list[dict], target: float) -> dict:
-    values = [result[key] for result in results]
-    absolute: dict[str, Any] = {}
-    for seed, result in zip(SEEDS, results, strict=False):  # Towers have fewer seeds.
-        absolute |= {f"seed_{seed}": result[key], f"greedy_{seed}": result["greedy"][key]}
-    absolute |= {"million_frames": results[0]["frames"] / 1e6, "minutes": results[0]["minutes"]}
-    return bench.row(name, min(values), "", target, **absolute)
+def run(results_dir: Path) -> Iterator[dict]:
+    """Trains the agents that are missing, reads what all of them reached, and takes the time of the rest."""
+    results = base.Results(results_dir)
+    features = sweep.jobs(list(EXPERIMENTS.values()), ["features"], conditions.SEEDS.__getitem__)
+    sweep.run(features, results, sweep.num_cores(), lambda line: print(line, file=sys.stderr, flush=True))
+    for condition in (*conditions.HEAVIER, *conditions.TOWERS):
+        if conditions.observations(condition) == "features":
+            yield from _reached(results, condition)
+    seconds = [run_lib.Run(results.run(job.config).path).metrics()[-1]["seconds"] for job in features]
+    yield bench.row("training all agents of the experiments on features, two at a time", sum(seconds) / 2 / 3600, "h",
+                    HOURS, at_most=True, agents=len(seconds))  # fmt: skip
+    yield _timed("physexp report from stored data", ["report", "--results-dir", str(results_dir)], 60)
+    yield _timed("physexp ideal which_is_heavier", ["ideal", "which_is_heavier", "--difficulty", "3"], 20)
 
 
-def _result(runs_dir: Path, domain: str, task: str, difficulty: float | None, seed: int) -> dict:
-    """The figures of one run's evaluation; trains the run, or what is left of it, first."""
-    agent = config_lib.preset(domain, task).replace(seed=seed)
-    config = config_lib.TrainConfig(domain=domain, task=task, difficulty=difficulty, agent=agent)
-    run = run_lib.Run(runs_dir / config.name)
-    if not (run.path / "config.json").exists():
-        run.create(config)
-    if run.config != config:
-        raise ValueError(f"{run.path} was made with another configuration; move it away")
-    found = run.checkpointer.latest()
-    if found is None or int(found[0]["frames"]) < agent.frames:
-        print(f"training {config.name}", file=sys.stderr, flush=True)
-        with progress.Progress(config) as display:
-            training.train(run, display)
-    last = run.metrics()[-1]
-    figures = evaluation.evaluate(run, EPISODES).summary(agent.discount)
-    greedy = evaluation.evaluate(run, EPISODES, greedy=True).summary(agent.discount)
-    return {**figures, "greedy": greedy, "frames": last["frames"], "minutes": last["seconds"] / 60}
+def _reached(results: base.Results, condition) -> Iterator[dict]:
+    frame = results.episodes([base.EVALUATION], [condition], ["reward", "length", "label"])
+    agents = frame.assign(agent_return=records.discounted_return(frame), right=frame.reward > 0).groupby(
+        "training_seed"
+    )
+    returns, success = agents.agent_return.mean().to_numpy(), agents.right.mean().to_numpy()
+    absolute = {"agents": len(returns), "worst": returns.min(), "best": returns.max(), "right": success.mean(),
+                "million_frames": condition.agent.frames / 1e6}  # fmt: skip
+    reached = ideal_gap.median_of_top_half
+    name = frame.condition.iloc[0]
+    if condition.domain == "towers":
+        yield bench.row(f"right answers: {name}", reached(success), "", SUCCESS[condition.task], **absolute)
+        return
+    best = ideal.solve(condition.difficulty, condition.agent.discount).value
+    yield bench.row(f"return: {name}", reached(returns), "", RETURN[condition.difficulty], **absolute)
+    yield bench.row(f"return / ideal experimenter's: {name}", reached(returns) / best, "x",
+                    SHARE_OF_IDEAL[condition.difficulty], ideal=best)  # fmt: skip
+
+
+def _timed(figure: str, arguments: list[str], limit: float) -> dict:
+    """How long a command takes, from start to end."""
+    command = [sys.executable, "-c", "from physexp.cli import main; main()", *arguments]
+    start = time.perf_counter()
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    return bench.row(figure, time.perf_counter() - start, "s", limit, at_most=True)

@@ -1,5 +1,6 @@
 """How figures look: sober, readable in grey and by colour-blind readers, each as a vector file and as PNG."""
 
+import contextlib
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +27,16 @@ _STYLE: Any = {
 }
 
 
+@contextlib.contextmanager
+def style():
+    """The context in which figures are drawn and saved."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    with matplotlib.rc_context(_STYLE):
+        yield
+
+
 def new(columns: int = 1, rows: int = 1, width: float = 3.4, height: float = 2.6, **kwargs: Any):
     """A figure and its axes, [rows, columns] where there are several.
 
@@ -34,23 +45,18 @@ def new(columns: int = 1, rows: int = 1, width: float = 3.4, height: float = 2.6
       width, height: of one pair of axes, inches.
       kwargs: for `pyplot.subplots`.
     """
-    import matplotlib
-
-    matplotlib.use("Agg")
     from matplotlib import pyplot
 
-    with matplotlib.rc_context(_STYLE):
-        return pyplot.subplots(rows, columns, figsize=(width * columns, height * rows), layout="constrained", **kwargs)
+    return pyplot.subplots(rows, columns, figsize=(width * columns, height * rows), layout="constrained", **kwargs)
 
 
 def save(figure, folder: Path, name: str) -> list[Path]:
     """Writes a figure as SVG and PNG and closes it; returns the paths."""
-    import matplotlib
     from matplotlib import pyplot
 
     folder.mkdir(parents=True, exist_ok=True)
     paths = [folder / f"{name}.svg", folder / f"{name}.png"]
-    with matplotlib.rc_context(_STYLE):
+    with style():
         figure.savefig(paths[0], metadata={"Date": None})
         figure.savefig(paths[1], dpi=160)
     pyplot.close(figure)
@@ -63,13 +69,17 @@ def reference(
     """A thin line at a level, with its name at a place along it, from 0 to 1."""
     line, words = (axes.axvline, axes.get_xaxis_transform()) if vertical else (axes.axhline, axes.get_yaxis_transform())
     line(level, color=GREY, linewidth=0.8, linestyle=dashes, zorder=0)
+    if not text:
+        return
     place = dict(x=level, y=at) if vertical else dict(x=at, y=level)
     align = dict(ha="left", va="top", rotation=90) if vertical else dict(ha="right", va="bottom")
-    axes.text(**place, s=text, transform=words, color="0.3", fontsize=6.5, **align)
+    background = dict(facecolor="white", edgecolor="none", alpha=0.8, pad=0.5)
+    axes.text(**place, s=text, transform=words, color="0.3", fontsize=6.5, bbox=background, **align)
 
 
 def seeds(frame) -> str:
     """How many agents stand behind a figure: `10 agents each`."""
     counts = frame.groupby("condition").training_seed.nunique()
     low, high = int(counts.min()), int(counts.max())
-    return f"{low} agents each" if low == high else f"{low} to {high} agents each"
+    many = "agent" if high == 1 else "agents"
+    return f"{low} {many} each" if low == high else f"{low} to {high} {many} each"

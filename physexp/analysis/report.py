@@ -26,8 +26,10 @@ def write(results: base.Results, report: Callable[[str], None] = lambda line: No
       report: called with lines that tell how it goes.
 
     Raises:
-      ValueError: if there is data for no experiment but those that need none.
+      ValueError: if there is no such folder.
     """
+    if not results.path.is_dir():
+        raise ValueError(f"{results.path} is no folder; `physexp reproduce` makes one with results")
     sections, missing = [], []
     for experiment in EXPERIMENTS.values():
         try:
@@ -36,11 +38,9 @@ def write(results: base.Results, report: Callable[[str], None] = lambda line: No
             missing.append(f"{experiment.name}: {error}")
             report(f"left out {missing[-1]}")
             continue
-        figures.save(experiment.draw(frame), results.path / "figures", experiment.name)
+        figures.save(experiment.figure(frame), results.path / "figures", experiment.name)
         sections.append((experiment, experiment.claims(frame)))
         report(f"drew {experiment.name}")
-    if not any(experiment.conditions for experiment, _ in sections):
-        raise ValueError(f"{results.path} holds no data of any agent; `physexp reproduce` makes it")
     markdown = results.path / "report.md"
     markdown.write_text(_markdown(sections, missing, results))
     (results.path / "report.html").write_text(_page(sections, missing, results))

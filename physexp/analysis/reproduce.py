@@ -1,7 +1,6 @@
 """Reproducing the paper: trains the agents of experiments, lets them play, draws the figures and tests the claims."""
 
 from collections.abc import Callable, Sequence
-import os
 
 from physexp.analysis import figures, sweep
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions
@@ -44,12 +43,12 @@ def run(experiments: Sequence[base.Experiment], results: base.Results, *, observ
         if value is not None and value < 1:
             raise ValueError(f"{name} is {value}; give an integer >= 1")
     wanted = sweep.jobs(experiments, observations, lambda kind: num_seeds or conditions.SEEDS[kind], frames)
-    sweep.run(wanted, results, num_processes or len(os.sched_getaffinity(0)), report)
+    sweep.run(wanted, results, num_processes or sweep.num_cores(), report)
     for experiment in experiments:
         if experiment.prepare is not None:
             experiment.prepare(results)
         frame = experiment.load(results)
-        for path in figures.save(experiment.draw(frame), results.path / "figures", experiment.name):
+        for path in figures.save(experiment.figure(frame), results.path / "figures", experiment.name):
             report(str(path))
         for claim in experiment.claims(frame):
             estimate = claim.estimate

@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from concurrent import futures
 import dataclasses
 import multiprocessing
+import os
 
 from physexp.analysis import config as config_lib
 from physexp.analysis import progress, records, training
@@ -42,6 +43,11 @@ def jobs(experiments: Sequence[base.Experiment], observations: Sequence[str], nu
                 trials = wanted.setdefault(dataclasses.replace(condition, agent=agent), [])
                 trials += [trial for trial in experiment.trials if trial not in trials]
     return [Job(config, tuple(wanted[config])) for config in sorted(wanted, key=lambda config: config.agent.seed)]
+
+
+def num_cores() -> int:
+    """How many agents to train at a time: each has one busy process."""
+    return len(os.sched_getaffinity(0))
 
 
 def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report: Callable[[str], None]) -> None:

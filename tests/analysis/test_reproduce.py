@@ -97,8 +97,9 @@ def test_the_report_has_every_figure_there_is_data_for_and_says_what_is_left_out
 
 
 def test_a_report_of_nothing_says_what_to_do(tmp_path):
-    with pytest.raises(ValueError, match="holds no data of any agent; `physexp reproduce` makes it"):
-        report.write(base.Results(tmp_path))
+    with pytest.raises(ValueError, match="nothing is no folder; `physexp reproduce` makes one with results"):
+        report.write(base.Results(tmp_path / "nothing"))
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_killed_sweep_goes_on_where_it_was(tmp_path):

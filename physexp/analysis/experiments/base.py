@@ -7,7 +7,7 @@ from typing import Any
 
 from physexp.analysis import claims as claims_lib
 from physexp.analysis import config as config_lib
-from physexp.analysis import records
+from physexp.analysis import figures, records
 from physexp.analysis import run as run_lib
 from physexp.analysis.experiments import conditions
 
@@ -139,3 +139,8 @@ class Experiment:
     load: Callable[[Results], Any]
     claims: Callable[[Any], list[claims_lib.Claim]]
     draw: Callable[[Any], Any]
+
+    def figure(self, frame) -> Any:
+        """Draws the figure as it is to look."""
+        with figures.style():
+            return self.draw(frame)

@@ -9,6 +9,7 @@ from physexp.suite import which_is_heavier
 
 _DISCOUNT = 0.99
 _SHOWN = 4000  # Episodes drawn as dots.
+_FEWEST = 20  # Episodes that a mean is drawn of.
 _BINS = np.linspace(0, 1, 11)
 
 
@@ -39,10 +40,12 @@ def find_claims(frame) -> list[claims.Claim]:
 
 def draw(frame):
     """One agent of each difficulty: dots, trend, spread, and the ideal experimenter's mean."""
-    figure, panels = figures.new(columns=3, width=2.3, height=2.3, sharey=True)
+    present = [beta for beta in conditions.DIFFICULTIES if (frame.difficulty == beta).any()]
+    figure, panels = figures.new(columns=len(present), width=2.3, height=2.3, sharey=True, squeeze=False)
     centers = (_BINS[1:] + _BINS[:-1]) / 2
-    for axes, beta in zip(panels, conditions.DIFFICULTIES, strict=True):
-        rows = frame[(frame.difficulty == beta) & (frame.training_seed == 0) & (frame.label >= 0)]
+    for axes, beta in zip(panels[0], present, strict=True):
+        rows = frame[(frame.difficulty == beta) & (frame.label >= 0)]
+        rows = rows[rows.training_seed == rows.training_seed.min()]
         gaps, pokes = rows.mass_gap.to_numpy(float), rows.interactions.to_numpy(float)
         generator = np.random.default_rng(0)
         spread = generator.uniform(-0.3, 0.3, min(_SHOWN, len(rows)))  # Pokes are whole numbers: dots would coincide.
@@ -50,7 +53,7 @@ def draw(frame):
                      rasterized=True)  # fmt: skip
         bins = np.digitize(gaps, _BINS[1:-1])
         means, deviations = (
-            np.array([function(pokes[bins == b]) if (bins == b).any() else np.nan for b in range(len(centers))])
+            [function(pokes[bins == b]) if (bins == b).sum() >= _FEWEST else np.nan for b in range(len(centers))]
             for function in (np.mean, np.std)
         )
         axes.errorbar(centers, means, deviations, fmt="s", color=figures.COLORS[2], markersize=3, linewidth=1,
@@ -61,8 +64,8 @@ def draw(frame):
         axes.plot(*_ideal_means(beta), color=figures.COLORS[1], linestyle=figures.DASHES[1], label="ideal")
         axes.set(xlabel="mass gap", title=rf"$\beta$ = {beta:g}: slope {trend.value:.2f}", xlim=(0, 1),
                  ylim=(0, 15))  # fmt: skip
-    panels[0].set_ylabel("pokes before the answer")
-    panels[-1].legend(loc="upper right", fontsize=6)
+    panels[0, 0].set_ylabel("pokes before the answer")
+    panels[0, -1].legend(loc="upper right", fontsize=6)
     return figure
 
 
@@ -81,8 +84,8 @@ EXPERIMENT = base.Experiment(
     name="individual",
     title="Individual strategy differentiation",
     section="5.3, Figure 3 (right)",
-    caption="Pokes of single agents (seed 0) against the mass gap of the episode, features, gamma 0.99; at least "
-    f"100,000 test steps, of which {_SHOWN:,} episodes are drawn; timeouts left out. Dashed: the ideal experimenter's.",
+    caption="Pokes of single agents (the first seed) against the mass gap of the episode, features, gamma 0.99; at "
+    f"least 100,000 test steps, of which {_SHOWN:,} episodes are drawn; timeouts left out. Dashed: the ideal's mean.",
     conditions=conditions.PATIENT,
     trials=(base.LONG,),
     load=lambda results: results.episodes([base.LONG], conditions.PATIENT, ["mass_gap", "interactions", "label"]),

@@ -44,7 +44,7 @@ def draw(frame):
             axes.plot([1.0], [accuracy], marker=5, color=figures.COLORS[number], transform=axes.get_yaxis_transform(),
                       clip_on=False, markersize=4)  # fmt: skip
         axes.set_title(f"from {kind}")
-        axes.legend(loc="lower right", bbox_to_anchor=(1, 0.12))
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 0.3))
     panels[0, 0].set_ylabel("share of right answers")
     return figure
 

@@ -14,8 +14,10 @@ CONDITIONS = tuple(condition for condition in conditions.HEAVIER if condition.ta
 
 def find_claims(frame) -> list[claims.Claim]:
     """Few pokes where one heavy block is likely to be the only one, all blocks where it is not."""
-    found = []
+    found: list[claims.Claim] = []
     easy, hard = (frame[frame.difficulty == beta] for beta in (10.0, 3.0))
+    if easy.empty or hard.empty:
+        return found  # Both ends are needed for the transition from one to the other.
     agents = easy.groupby("training_seed").interactions
     modes = agents.agg(lambda pokes: pokes.mode()[0]).to_numpy()
     common = dict(section="5.3", text="At difficulty 10 agents stop as soon as they find a heavy block")
@@ -44,9 +46,10 @@ def find_claims(frame) -> list[claims.Claim]:
 
 def draw(frame):
     """A histogram for each difficulty, the ideal experimenter's beside it."""
-    figure, panels = figures.new(columns=3, width=2.2, height=2.2, sharey=True)
+    present = [beta for beta in conditions.DIFFICULTIES if (frame.difficulty == beta).any()]
+    figure, panels = figures.new(columns=len(present), width=2.2, height=2.2, sharey=True, squeeze=False)
     bins = np.arange(_LONGEST + 1)
-    for number, (axes, beta) in enumerate(zip(panels, conditions.DIFFICULTIES, strict=True)):
+    for number, (axes, beta) in enumerate(zip(panels[0], present, strict=True)):
         pokes = frame.interactions[frame.difficulty == beta].clip(upper=_LONGEST)
         axes.bar(bins, np.bincount(pokes, minlength=len(bins)) / len(pokes), color=figures.COLORS[number], width=0.8,
                  alpha=0.75, label="agents")  # fmt: skip
@@ -54,11 +57,11 @@ def draw(frame):
         best = np.zeros(len(bins))
         best[: len(solution["histogram"])] = list(solution["histogram"].values())
         axes.stairs(best, np.arange(len(bins) + 1) - 0.5, color=figures.GREY, linewidth=1.3, label="ideal")
-        figures.reference(axes, _ALL_BLOCKS, "all blocks", vertical=True)
+        figures.reference(axes, _ALL_BLOCKS, "all blocks" if beta == present[-1] else "", vertical=True)
         axes.set(xlabel="pokes before the answer", title=rf"$\beta$ = {beta:g}", xticks=bins[::2])
         axes.set_xticklabels([*bins[:-1:2], f"≥{_LONGEST}"])
-    panels[0].set_ylabel("share of episodes")
-    panels[-1].legend(loc="upper right")
+    panels[0, 0].set_ylabel("share of episodes")
+    panels[0, -1].legend(loc="upper right")
     figure.suptitle(figures.seeds(frame), fontsize=7, x=0.99, ha="right")
     return figure
 
