@@ -13,6 +13,9 @@ from physexp.analysis import config as config_lib
 
 BenchSection = Literal["reset", "batch", "training", "peers", "pixels", "pretrained", "learning"]
 
+_EXTRAS = {"matplotlib": "analysis", "pandas": "analysis", "stable_baselines3": "bench", "sb3_contrib": "bench"}
+"""Libraries that some commands need, and the extra that brings each."""
+
 
 @dataclasses.dataclass
 class Tasks:
@@ -288,6 +291,11 @@ def main() -> None:
     except (ValueError, OSError) as error:
         print(f"physexp: {error}", file=sys.stderr)
         sys.exit(2)
+    except ModuleNotFoundError as error:
+        if error.name not in _EXTRAS:
+            raise
+        print(f"physexp: {error.name} is not installed; pip install 'physexp[{_EXTRAS[error.name]}]'", file=sys.stderr)
+        sys.exit(1)
     except RuntimeError as error:
         print(f"physexp: {error}", file=sys.stderr)
         sys.exit(1)

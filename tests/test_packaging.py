@@ -14,7 +14,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 
-NOT_SOURCE = shutil.ignore_patterns(".*", "__pycache__", "build", "dist", "runs", "*.egg-info")
+NOT_SOURCE = shutil.ignore_patterns(".*", "__pycache__", "build", "dist", "runs", "results", "*.egg-info")
 
 # Runs without `site`, so that no .pth file of an editable install puts the checkout on the path.
 PLAY_EVERY_TASK = """

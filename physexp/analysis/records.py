@@ -1,7 +1,6 @@
 """Records of played episodes: tidy tables, one row an episode, in Parquet files."""
 
 import io
-import math
 from pathlib import Path
 from typing import Any
 
@@ -104,8 +103,3 @@ def read(paths: list[Path], columns: list[str] | None = None):
 def discounted_return(frame) -> np.ndarray:
     """Discounted returns of the episodes in a frame: the reward, discounted once for each action before the last."""
     return (frame.reward * frame.discount ** (frame.length - 1)).to_numpy()
-
-
-def is_missing(value) -> bool:
-    """Whether a number in a frame is null."""
-    return value is None or (isinstance(value, float) and math.isnan(value))

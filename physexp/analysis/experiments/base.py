@@ -103,13 +103,9 @@ def _without_seed(config: config_lib.TrainConfig) -> str:
     return config.name.removesuffix(f"-seed{config.agent.seed}")
 
 
-def _labels(frame):
+def _labels(frame) -> list[str]:
     """The paper's names of the conditions of rows."""
-    keys = frame[["domain", "task", "difficulty"]].drop_duplicates()
-    names = {(row.domain, row.task, row.difficulty if row.domain == "which_is_heavier" else None):
-             conditions.label(row.domain, row.task, row.difficulty) for row in keys.itertuples()}  # fmt: skip
-    found = zip(frame.domain, frame.task, frame.difficulty, strict=True)
-    return [names[d, t, b if d == "which_is_heavier" else None] for d, t, b in found]
+    return [conditions.label(*key) for key in zip(frame.domain, frame.task, frame.difficulty, strict=True)]
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

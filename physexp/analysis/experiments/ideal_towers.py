@@ -4,6 +4,7 @@ import json
 
 from physexp.agents import checkpointing
 from physexp.analysis.experiments import base, conditions
+from physexp.analysis.ideal import towers
 
 # How coarsely the observer sees: metres for features, differing pixels for images.
 RESOLUTIONS = {"features": (0.0, 0.001, 0.003, 0.01, 0.03), "pixels": (0.0, 10.0, 30.0, 100.0, 300.0)}
@@ -11,8 +12,6 @@ RESOLUTIONS = {"features": (0.0, 0.001, 0.003, 0.01, 0.03), "pixels": (0.0, 10.0
 
 def prepare(results: base.Results) -> None:
     """Computes the ideal experimenters for all tasks and resolutions that are not there yet."""
-    from physexp.analysis.ideal import towers  # Simulates: nothing that only reads needs it.
-
     for condition in conditions.TOWERS:
         path = _path(results, condition.task)
         if not path.exists():

@@ -204,7 +204,7 @@ def _expected(known, num_blocks, heaviest, ratio, difficulty, after) -> np.ndarr
     unknown = num_blocks - known
     with np.errstate(divide="ignore"):
         log_weight = _log_ratio(heaviest, difficulty) + np.log(ratio) if known else np.full(1, -np.inf)
-    nodes, weights = np.polynomial.legendre.leggauss(_QUADRATURE_NODES * (1 if known else 16))
+    nodes, weights = special.roots_legendre(_QUADRATURE_NODES * (1 if known else 16))
     nodes, weights = (nodes + 1) / 2, weights / 2
     is_heavy = special.expit(np.log(unknown) - log_weight) / unknown  # Of one block among the unknown ones.
     total = np.zeros(len(heaviest))
