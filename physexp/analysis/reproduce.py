@@ -46,7 +46,7 @@ def run(experiments: Sequence[base.Experiment], results: base.Results, *, observ
     sweep.run(wanted, results, num_processes or sweep.num_cores(), report)
     for experiment in experiments:
         if experiment.prepare is not None:
-            experiment.prepare(results)
+            experiment.prepare(results, report)
         frame = experiment.load(results)
         for path in figures.save(experiment.figure(frame), results.path / "figures", experiment.name):
             report(str(path))

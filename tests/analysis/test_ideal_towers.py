@@ -80,8 +80,8 @@ def test_an_action_that_tells_the_count_is_taken_once():
 
 
 def test_what_is_seen_decides_what_is_done_next():
-    # Action 0 tells whether there are 1 or 2 bodies, or more. Only after it, action 1 tells 1 from 2, and action 2 tells
-    # 3, 4 and 5 apart. So two interactions always do, and no fixed sequence of two would.
+    # Action 0 tells whether there are 1 or 2 bodies, or more. Only after it, action 1 tells 1 from 2, and action 2
+    # tells 3, 4 and 5 apart. So two interactions always do, and no fixed sequence of two would.
     def tells(sequence):
         if sequence == (0,):
             return [count > 2 for count in COUNTS]

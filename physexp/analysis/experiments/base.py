@@ -119,7 +119,8 @@ class Experiment:
       caption: what the figure shows.
       conditions: the agents it needs, of each of which several seeds are trained.
       trials: what each of them plays.
-      prepare: makes what needs no agent and takes time, and keeps it with the results; None where nothing does.
+      prepare: makes what needs no agent and takes time, keeps it with the results, and reports lines that tell how it
+        goes; None where nothing does.
       load: from the results to a tidy DataFrame; pure reading.
       claims: from that to what holds.
       draw: from that to a matplotlib figure.
@@ -131,7 +132,7 @@ class Experiment:
     caption: str
     conditions: tuple[config_lib.TrainConfig, ...] = ()
     trials: tuple[Trial, ...] = ()
-    prepare: Callable[[Results], None] | None = None
+    prepare: Callable[[Results, Callable[[str], None]], None] | None = None
     load: Callable[[Results], Any]
     claims: Callable[[Any], list[claims_lib.Claim]]
     draw: Callable[[Any], Any]

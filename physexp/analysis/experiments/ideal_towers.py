@@ -1,5 +1,6 @@
 """The ideal experimenters of Towers, computed once and kept with the results."""
 
+from collections.abc import Callable
 import json
 
 from physexp.agents import checkpointing
@@ -7,14 +8,15 @@ from physexp.analysis.experiments import base, conditions
 from physexp.analysis.ideal import towers
 
 # How coarsely the observer sees: metres for features, differing pixels for images.
-RESOLUTIONS = {"features": (0.0, 0.001, 0.003, 0.01, 0.03), "pixels": (0.0, 10.0, 30.0, 100.0, 300.0)}
+RESOLUTIONS = {"features": (0.0, 0.001, 0.003, 0.01, 0.03), "pixels": (0.0, 10.0, 30.0, 100.0)}
 
 
-def prepare(results: base.Results) -> None:
-    """Computes the ideal experimenters for all tasks and resolutions that are not there yet."""
+def prepare(results: base.Results, report: Callable[[str], None]) -> None:
+    """Computes the ideal experimenters of all tasks that are not there yet; `report` is told which."""
     for condition in conditions.TOWERS:
         path = _path(results, condition.task)
         if not path.exists():
+            report(f"searching for the ideal experimenter of {condition.task}")
             path.parent.mkdir(parents=True, exist_ok=True)
             resolutions = RESOLUTIONS[conditions.observations(condition)]
             rows = towers.curve(condition.task, resolutions, condition.agent.discount)

@@ -66,7 +66,7 @@ def _count_chances(group: Group) -> np.ndarray:
 def split(group: Group, apart: np.ndarray, resolution: float) -> list[tuple[float, Group]]:
     """Splits a group of patterns into those that can be told apart.
 
-    Patterns that differ by no more than the resolution are linked; a group is what is linked directly or through others.
+    Patterns that differ by no more than the resolution are linked; a group is all that is linked, also through others.
 
     Args:
       group: the patterns.
@@ -235,10 +235,10 @@ class Search:
         return max(answer, *(low for low, _ in values)), max(answer, *(high for _, high in values))
 
     def _action_bounds(self, sequence, group, action) -> tuple[float, float]:
-        after = [
-            (chance, self._bounds((*sequence, action), part)) for chance, part in self._after(sequence, group, action)
-        ]
-        low, high = (sum(chance * bounds[side] for chance, bounds in after) for side in (0, 1))
+        low = high = 0.0
+        for chance, part in self._after(sequence, group, action):
+            least, most = self._bounds((*sequence, action), part)
+            low, high = low + chance * least, high + chance * most
         return self._objective.act(low), self._objective.act(high)
 
     def _collect(self, sequence, group, leaves) -> None:
