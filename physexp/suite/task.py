@@ -133,6 +133,21 @@ class QuestionTask(composer.Task):
         """For each feature, the MJCF sensors that make it up and its shape."""
 
     @property
+    @abc.abstractmethod
+    def effects(self) -> Sequence[tuple[str, tuple[float, float, float]]]:
+        """What each interaction action does, to be shown: the thing it acts on, and a force (N) or velocity (m/s)."""
+
+    @property
+    @abc.abstractmethod
+    def interaction_names(self) -> Sequence[str]:
+        """What each interaction action does, in words."""
+
+    @property
+    @abc.abstractmethod
+    def label_names(self) -> Sequence[str]:
+        """The answers, in words."""
+
+    @property
     def held_joints(self) -> Sequence:
         """Joints that look at rest until they have moved by more than TOUCH_TOLERANCE."""
         return ()
@@ -180,6 +195,11 @@ class QuestionTask(composer.Task):
     @property
     def num_labels(self) -> int:
         return self.rules.num_labels
+
+    @property
+    def action_names(self) -> list[str]:
+        """What each action does or says, in words."""
+        return [*self.interaction_names, *(f"answer: {name}" for name in self.label_names)]
 
     @property
     def hidden(self) -> np.ndarray:

@@ -21,7 +21,8 @@ PUSH_FORCE = 50.0  # N
 FIST_START = (-0.32, 0.0, 0.25)  # m: at the height of the middle cube, 0.17 m clear of the tower
 FIST_SPEED = 1.0  # m/s
 _FIST_REACH = 0.4  # m: leaves half a block's room at the wall, and its force is limited
-_DIRECTIONS = np.array([(1, 0), (-1, 0), (0, 1), (0, -1)], float)  # +x, -x, +y, -y
+_DIRECTIONS = np.array([(1, 0), (-1, 0), (0, 1), (0, -1)], float)
+_DIRECTION_NAMES = ("+x", "-x", "+y", "-y")
 
 _ROOM = dict(mat_size=[0.6, 0.6], camera_pos=[0.35, -3.4, 2.0], camera_target=[-0.03, 0, 0.17],
              fovy=21.5)  # fmt: skip
@@ -62,6 +63,18 @@ class Towers(task.QuestionTask):
     @property
     def controls(self):
         return self._actuator.controls
+
+    @property
+    def effects(self):
+        return self._actuator.effects
+
+    @property
+    def interaction_names(self):
+        return self._actuator.interaction_names
+
+    @property
+    def label_names(self):
+        return ["1 body", *(f"{count} bodies" for count in range(2, tower.NUM_BLOCKS + 1))]
 
     @property
     def sensors(self):
@@ -138,6 +151,16 @@ class DirectActuator:
         """Action 4 * block + direction pushes the block in that direction, N [20, 10]."""
         return PUSH_FORCE * np.kron(np.eye(tower.NUM_BLOCKS), _DIRECTIONS)
 
+    @property
+    def effects(self):
+        """The force on a block of each action, N."""
+        return [(f"block_{k}", (PUSH_FORCE * x, PUSH_FORCE * y, 0.0))
+                for k in range(tower.NUM_BLOCKS) for x, y in _DIRECTIONS]  # fmt: skip
+
+    @property
+    def interaction_names(self):
+        return [f"push block {k} {name}" for k in range(tower.NUM_BLOCKS) for name in _DIRECTION_NAMES]
+
 
 class FistActuator:
     """Sets the velocity of the fist (paper, Section 6.2)."""
@@ -161,6 +184,15 @@ class FistActuator:
     def controls(self) -> np.ndarray:
         """Action `direction` holds the velocity in that direction, m/s [4, 2]."""
         return FIST_SPEED * _DIRECTIONS
+
+    @property
+    def effects(self):
+        """The velocity of the fist of each action, m/s."""
+        return [("fist", (FIST_SPEED * x, FIST_SPEED * y, 0.0)) for x, y in _DIRECTIONS]
+
+    @property
+    def interaction_names(self):
+        return [f"move the fist {name}" for name in _DIRECTION_NAMES]
 
 
 @SUITE.add("features", "direct")

@@ -76,6 +76,18 @@ class WhichIsHeavier(task.QuestionTask):
         return POKE_FORCE * np.eye(NUM_BLOCKS)
 
     @property
+    def effects(self):
+        return [(f"block_{k}", (0.0, 0.0, POKE_FORCE)) for k in range(NUM_BLOCKS)]
+
+    @property
+    def interaction_names(self):
+        return [f"poke block {k}" for k in range(NUM_BLOCKS)]
+
+    @property
+    def label_names(self):
+        return [f"block {k} is heaviest" for k in range(NUM_BLOCKS)]
+
+    @property
     def sensors(self):
         return {"heights": (self._height_sensors, (NUM_BLOCKS,))}
 

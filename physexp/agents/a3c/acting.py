@@ -117,7 +117,15 @@ def _collect(steps, lengths, answers) -> Round:
 
 
 class A3CActor(core.Actor):
-    """Plays one environment with a fixed network, carrying the LSTM's state through each episode."""
+    """Plays one environment with a fixed network, carrying the LSTM's state through each episode.
+
+    Attributes:
+      policy: probabilities of the actions when the last one was selected, float64 [A].
+      value: what the network expected of the rest of the episode then.
+    """
+
+    policy: np.ndarray
+    value: float
 
     def __init__(self, network: networks.RecurrentActorCritic, seed: int = 0, greedy: bool = False):
         """Wraps a network; `seed` determines the actions drawn, `greedy` takes the likeliest ones instead."""
@@ -128,7 +136,8 @@ class A3CActor(core.Actor):
     @torch.inference_mode()
     def select_action(self, observation) -> int:
         tensors = {name: torch.as_tensor(value)[None] for name, value in observation.items()}
-        logits, _, self._state = self._network.step(self._network.encode(tensors), self._state)
+        logits, values, self._state = self._network.step(self._network.encode(tensors), self._state)
+        self.policy, self.value = torch.softmax(logits[0].double(), dim=-1).cpu().numpy(), float(values[0])
         if self._greedy:
             return int(logits.argmax())
         return int(sample(logits, self._generator)[0])
