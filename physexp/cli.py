@@ -86,7 +86,7 @@ class Evaluate:
     """Play episodes with a trained agent and measure how well it answers.
 
     Attributes:
-      run_dir: the folder of a run.
+      target: the folder of a run, or domain/task for the agent that comes with the package.
       episodes: how many to play.
       interaction: learned, or random: interaction actions are replaced by uniformly drawn ones (paper, Section 5.3).
       greedy: take the likeliest action instead of drawing one.
@@ -95,7 +95,7 @@ class Evaluate:
       json: print JSON.
     """
 
-    run_dir: Positional[Path]
+    target: Positional[str]
     episodes: int = 1000
     interaction: Literal["learned", "random"] = "learned"
     greedy: bool = False
@@ -105,13 +105,49 @@ class Evaluate:
 
     def run(self) -> None:
         from physexp.analysis import evaluation
-        from physexp.analysis import run as run_lib
 
-        run = run_lib.Run(self.run_dir)
+        network, config = evaluation.find_agent(self.target)
         seed = evaluation.SEED if self.seed is None else self.seed
-        played = evaluation.evaluate(run, self.episodes, self.interaction, self.greedy, seed,
-                                     device=self.device)  # fmt: skip
-        _show(played.summary(run.config.agent.discount), self.json)
+        played = evaluation.play(network, config, self.episodes, self.interaction, self.greedy, seed,
+                                 device=self.device)  # fmt: skip
+        _show(played.summary(config.agent.discount), self.json)
+
+
+@dataclasses.dataclass
+class Replay:
+    """Write episodes of a trained agent for the rerun viewer: the scene, what the agent saw, believed and did.
+
+    Attributes:
+      target: the folder of a run, or domain/task for the agent that comes with the package.
+      compare: another one, to be shown side by side on the same instances.
+      episodes: how many.
+      output: the file; by default replay.rrd.
+      interaction: learned, or random: interaction actions are replaced by uniformly drawn ones (paper, Section 5.3).
+      select: any, or those that are wrong or right, the longest, or the hardest.
+      seed: of the environments and the actions; by default one that training never uses.
+      view: open the viewer afterwards.
+      web: open the viewer in a browser afterwards.
+    """
+
+    target: Positional[str]
+    compare: str | None = None
+    episodes: int = 4
+    output: Path = Path("replay.rrd")
+    interaction: Literal["learned", "random"] = "learned"
+    select: Literal["any", "wrong", "right", "longest", "hardest"] = "any"
+    seed: int | None = None
+    view: bool = False
+    web: bool = False
+
+    def run(self) -> None:
+        from physexp.analysis import evaluation, replay
+
+        seed = evaluation.SEED if self.seed is None else self.seed
+        targets = [self.target] if self.compare is None else [self.target, self.compare]
+        path = replay.replay(targets, self.episodes, self.output, self.interaction, self.select, seed, _tell)
+        print(path)
+        if self.view or self.web:
+            replay.view(path, self.web)
 
 
 @dataclasses.dataclass
@@ -312,6 +348,7 @@ def _parse(arguments: list[str]):
         Annotated[Tasks, tyro.conf.subcommand("tasks")],
         Annotated[Train, tyro.conf.subcommand("train", default=train)],
         Annotated[Evaluate, tyro.conf.subcommand("evaluate")],
+        Annotated[Replay, tyro.conf.subcommand("replay")],
         Annotated[Publish, tyro.conf.subcommand("publish")],
         Annotated[Ideal, tyro.conf.subcommand("ideal")],
         Annotated[Reproduce, tyro.conf.subcommand("reproduce")],

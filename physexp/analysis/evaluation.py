@@ -3,12 +3,14 @@
 from collections.abc import Sequence
 import dataclasses
 import functools
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import torch
 
-from physexp.agents import devices, networks
+from physexp import suite
+from physexp.agents import devices, networks, pretrained
 from physexp.agents.a3c import acting
 from physexp.agents.a3c import agent as agent_lib
 from physexp.analysis import config as config_lib
@@ -98,6 +100,24 @@ def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
     network = agent_lib.make_network(training.make_environment(config, 0, 1, 1), config.agent)
     network.load_state_dict(run.variables())
     return network.eval()
+
+
+def find_agent(target: str) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
+    """A trained agent's network, and what it plays.
+
+    Args:
+      target: the folder of a run, or `domain/task` for the agent that comes with the package.
+
+    Raises:
+      ValueError: if it is neither.
+    """
+    run = run_lib.Run(Path(target))
+    domain, _, task = target.partition("/")
+    if (run.path / "config.json").exists() or (domain, task) not in suite.ALL_TASKS:
+        return load_network(run), run.config
+    agent = pretrained.load(domain, task)
+    fields = {"domain": domain, "task": task, "difficulty": agent.card["difficulty"], "agent": agent.card["agent"]}
+    return agent.network, config_lib.TrainConfig.from_json(fields)
 
 
 def evaluate(run: run_lib.Run, num_episodes: int, interaction: str = "learned", greedy: bool = False,

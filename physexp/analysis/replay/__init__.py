@@ -1,0 +1,68 @@
+"""Replays: episodes recorded with all that was seen, believed and done, and written for the rerun viewer."""
+
+from collections.abc import Callable, Sequence
+import functools
+from pathlib import Path
+import subprocess
+
+from physexp.analysis import evaluation
+from physexp.analysis.replay import recording, selection, writing
+from physexp.analysis.replay.recording import Episode, EpisodeRecorder
+
+__all__ = ["Episode", "EpisodeRecorder", "replay", "view"]
+
+
+def replay(targets: Sequence[str], count: int, output: Path, interaction: str = "learned",
+           select: selection.Selection = "any", seed: int = evaluation.SEED,
+           report: Callable[[str], None] = lambda line: None) -> Path:  # fmt: skip
+    """Plays episodes with trained agents and writes them for the viewer.
+
+    Args:
+      targets: a run's folder or `domain/task`; several are shown side by side, on the instances the first has played.
+      count: how many episodes.
+      output: the file.
+      interaction, select, seed: see `selection.select`.
+      report: called with lines that tell how it goes.
+
+    Returns:
+      The path of the file.
+
+    Raises:
+      ValueError: if a target is no agent, or agents that are to be compared play different tasks.
+    """
+    agents = [evaluation.find_agent(target) for target in targets]
+    network, config = agents[0]
+    for _, other in agents[1:]:
+        if _what(other) != _what(config):
+            raise ValueError(
+                f"{targets[0]} plays {_what(config)}, {targets[1]} {_what(other)}; compare agents that play the same"
+            )
+    chosen = list(selection.select(network, config, count, select, interaction, seed))
+    if len(chosen) < count:
+        report(f"only {len(chosen)} episodes are {select}")
+    groups = [functools.partial(_episodes, targets, agents, episode, interaction) for episode in chosen]
+    return writing.write(output, groups, report)
+
+
+def _what(config) -> str:
+    """What a configuration's agent plays, in words."""
+    options = "".join(f", {name} {value:g}" for name, value in config.task_kwargs.items())
+    return f"{config.domain}/{config.task}{options}"
+
+
+def _episodes(targets, agents, episode, interaction) -> list[Episode]:
+    """One instance as the first agent has played it, and as the others play it."""
+    seed, number, actions = episode
+    (network, config), *others = agents
+    title = targets[0] if interaction == "learned" else f"{targets[0]}, {interaction} interaction"
+    first = recording.reenact(network, config, seed, number, actions, title)
+    rest = [
+        recording.reenact(other, other_config, seed, number, None, target)
+        for target, (other, other_config) in zip(targets[1:], others, strict=True)
+    ]
+    return [first, *rest]
+
+
+def view(path: Path, web: bool) -> None:
+    """Opens a file in the viewer, or in the browser's, until that is closed."""
+    subprocess.run([str(writing.PROGRAM), *(["--web-viewer"] if web else []), str(path)], check=True)

@@ -1,0 +1,196 @@
+"""Recording episodes: an observer of the environment loop, and the re-enactment of episodes known by numbers."""
+
+from collections.abc import Mapping, Sequence
+import dataclasses
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from physexp import suite
+from physexp.agents import core, environment_loop, networks
+from physexp.agents.a3c import acting
+from physexp.analysis import config as config_lib
+
+
+@dataclasses.dataclass(frozen=True)
+class Things:
+    """What moves in a scene, as shapes.
+
+    Attributes:
+      names: of K things.
+      kinds: `box` or `sphere`.
+      sizes: half edges or radii, m, float64 [K, 3].
+      colors: float64 [K, 4].
+    """
+
+    names: tuple[str, ...]
+    kinds: tuple[str, ...]
+    sizes: np.ndarray
+    colors: np.ndarray
+
+
+@dataclasses.dataclass(frozen=True)
+class Episode:
+    """One episode of T actions, as it went.
+
+    Attributes:
+      domain, task: what was played.
+      task_kwargs: that differ from the defaults, without the seed.
+      seed, number: seed of the environment and index of the episode; they rebuild it.
+      agent: who played, in words.
+      hidden: the hidden property.
+      answer: the right label.
+      observations: for each name, what was seen before each action and at the end, [T + 1, ...].
+      actions: int64 [T].
+      rewards: float64 [T].
+      policies: probabilities of all actions before each, float64 [T, A]; of no length where the actor has none.
+      values: what the actor expected before each action, float64 [T], or of no length.
+      things: the shapes in the scene.
+      times: when they were where, s, float64 [F].
+      positions, rotations: their true poses at every physics step, float64 [F, K, 3] and [F, K, 3, 3].
+    """
+
+    domain: str
+    task: str
+    task_kwargs: dict[str, Any]
+    seed: int
+    number: int
+    agent: str
+    hidden: np.ndarray
+    answer: int
+    observations: dict[str, np.ndarray]
+    actions: np.ndarray
+    rewards: np.ndarray
+    policies: np.ndarray
+    values: np.ndarray
+    things: Things
+    times: np.ndarray
+    positions: np.ndarray
+    rotations: np.ndarray
+
+
+class EpisodeRecorder(environment_loop.Observer):
+    """Watches an environment and records each episode, with the poses of everything at every physics step."""
+
+    def __init__(self, environment: suite.Environment, domain: str, task: str,
+                 task_kwargs: Mapping[str, Any] | None = None, actor: core.Actor | None = None,
+                 agent: str = ""):  # fmt: skip
+        """Prepares to watch.
+
+        Args:
+          environment: the environment that is going to be played.
+          domain, task, task_kwargs: what it was loaded with.
+          actor: who plays it; its `policy` and `value` are recorded where it has them.
+          agent: who plays, in words.
+        """
+        self._environment, self._actor = environment, actor
+        chosen = {name: value for name, value in (task_kwargs or {}).items() if name != "random"}
+        self._facts: dict[str, Any] = {"domain": domain, "task": task, "agent": agent, "task_kwargs": chosen}
+        environment.add_extra_hook("after_substep", lambda physics, random_state: self._note_poses(physics))
+
+    def observe_first(self, environment, timestep) -> None:
+        self._seen = [timestep.observation]
+        self._actions: list[int] = []
+        self._rewards: list[float] = []
+        self._policies: list[np.ndarray] = []
+        self._values: list[float] = []
+        self._poses: list[tuple] = []
+        model = environment.physics.model.ptr
+        self._geoms = [geom for geom in range(model.ngeom) if model.body_weldid[model.geom_bodyid[geom]] != 0]
+        self._things = _things(model, self._geoms)
+        self._note_poses(environment.physics)
+
+    def observe(self, environment, timestep, action) -> None:
+        policy = getattr(self._actor, "policy", None)
+        if policy is not None:
+            self._policies.append(policy)
+            self._values.append(getattr(self._actor, "value", np.nan))
+        self._seen.append(timestep.observation)
+        self._actions.append(int(action))
+        self._rewards.append(float(timestep.reward))
+
+    def get_metrics(self) -> dict[str, Any]:
+        """Nothing: what was recorded is in `episode`."""
+        return {}
+
+    @property
+    def episode(self) -> Episode:
+        """The episode so far."""
+        task = self._environment.task
+        times, positions, rotations = (np.array(values) for values in zip(*self._poses, strict=True))
+        return Episode(
+            **self._facts, seed=task.options.random, number=task.episode, hidden=np.array(task.hidden),
+            answer=task.correct_answer,
+            observations={name: np.stack([seen[name] for seen in self._seen]) for name in self._seen[0]},
+            actions=np.array(self._actions, np.int64), rewards=np.array(self._rewards),
+            policies=np.array(self._policies), values=np.array(self._values), things=self._things, times=times,
+            positions=positions, rotations=rotations,
+        )  # fmt: skip
+
+    def _note_poses(self, physics) -> None:
+        data = physics.data
+        self._poses.append((data.time, data.geom_xpos[self._geoms], data.geom_xmat[self._geoms].reshape(-1, 3, 3)))
+
+
+def _things(model: mujoco.MjModel, geoms: Sequence[int]) -> Things:
+    """The shapes of some geoms, named after the entities they belong to."""
+    kinds = {int(mujoco.mjtGeom.mjGEOM_BOX): "box", int(mujoco.mjtGeom.mjGEOM_SPHERE): "sphere"}
+    sizes = model.geom_size[geoms].copy()
+    spheres = model.geom_type[geoms] == mujoco.mjtGeom.mjGEOM_SPHERE
+    sizes[spheres] = sizes[spheres, :1]
+    return Things(
+        names=tuple(model.geom(geom).name.split("/")[-2] for geom in geoms),
+        kinds=tuple(kinds[int(model.geom_type[geom])] for geom in geoms),
+        sizes=sizes,
+        colors=model.geom_rgba[geoms].copy(),
+    )
+
+
+class Reenactor(core.Actor):
+    """Does what was done before, while another actor says what it would think of it."""
+
+    def __init__(self, actor: core.Actor, actions: Sequence[int]):
+        """Takes these actions in its first episode, with the beliefs of `actor`."""
+        self._actor, self._actions = actor, [int(action) for action in actions]
+
+    def __getattr__(self, name: str):
+        """What the other actor tells of itself: `policy`, `value`."""
+        return getattr(self._actor, name)
+
+    def observe_first(self, timestep):
+        self._left = list(self._actions)
+        self._actor.observe_first(timestep)
+
+    def select_action(self, observation) -> int:
+        self._actor.select_action(observation)
+        return self._left.pop(0)
+
+    def observe(self, action, next_timestep):
+        self._actor.observe(action, next_timestep)
+
+    def update(self):
+        self._actor.update()
+
+
+def reenact(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig, seed: int, number: int,
+            actions: Sequence[int] | None, agent: str = "") -> Episode:  # fmt: skip
+    """Plays an episode in the composer environment and records it.
+
+    Args:
+      network: of the agent that played it, for its beliefs.
+      config: what it plays.
+      seed, number: the episode, as `evaluation.Episodes` has it.
+      actions: what was done in it; None to let the agent do what it likes.
+      agent: who played, in words.
+    """
+    environment = suite.load(config.domain, config.task, task_kwargs={**config.task_kwargs, "random": int(seed)})
+    environment.task.next_episode = int(number)
+    actor: core.Actor = acting.A3CActor(network)
+    if actions is not None:
+        actor = Reenactor(actor, actions)
+    recorder = EpisodeRecorder(environment, config.domain, config.task, config.task_kwargs, actor, agent)
+    environment_loop.EnvironmentLoop(environment, actor, [recorder]).run_episode()
+    episode = recorder.episode
+    environment.close()
+    return episode

@@ -1,0 +1,62 @@
+"""Which episodes to look at."""
+
+from collections.abc import Iterator
+from typing import Literal
+
+import numpy as np
+
+from physexp.agents import networks
+from physexp.analysis import config as config_lib
+from physexp.analysis import evaluation, records
+
+Selection = Literal["any", "wrong", "right", "longest", "hardest"]
+_MOST = 10_000  # Episodes played in search of enough.
+
+
+def select(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig, count: int,
+           selection: Selection = "any", interaction: str = "learned",
+           seed: int = evaluation.SEED) -> Iterator[tuple[int, int, np.ndarray]]:  # fmt: skip
+    """Plays episodes and chooses some.
+
+    Args:
+      network, config, interaction, seed: as for `evaluation.play`.
+      count: how many are wanted, >= 1.
+      selection: the first ones, the first wrong or right ones, those with the most interactions, or the hardest: with
+        the smallest mass gap, or the glue patterns that take this agent the longest.
+
+    Yields:
+      Seed, number and actions of each chosen episode; fewer than wanted where there are not enough.
+
+    Raises:
+      ValueError: if count is below one, or none of many episodes is as wanted.
+    """
+    if count < 1:
+        raise ValueError(f"episodes is {count}; give a number >= 1")
+    size = max(count, 256)
+    while True:
+        played = evaluation.play(network, config, size if selection != "any" else count, interaction, seed=seed)
+        order = _order(played, selection)
+        if len(order) >= count or size >= _MOST or selection == "any":
+            break
+        size = min(4 * size, _MOST)
+    if not len(order):
+        raise ValueError(f"none of {size} episodes is {selection}; choose another selection")
+    for index in order[:count]:
+        yield int(played.seeds[index]), int(played.numbers[index]), played.actions[index]
+
+
+def _order(played: evaluation.Episodes, selection: Selection) -> np.ndarray:
+    """Indices of the episodes that are as wanted, the best first."""
+    if selection == "wrong":
+        return np.flatnonzero(played.rewards < 0)
+    if selection == "right":
+        return np.flatnonzero(played.rewards > 0)
+    if selection == "longest":
+        return np.argsort(-played.interactions, kind="stable")
+    if selection == "hardest":
+        if played.hidden.ndim == 2:
+            return np.argsort(records.mass_gaps(played.hidden), kind="stable")
+        _, pattern = np.unique(played.hidden, return_inverse=True)
+        typical = np.bincount(pattern, played.interactions) / np.bincount(pattern)
+        return np.argsort(-typical[pattern], kind="stable")
+    return np.arange(len(played.lengths))

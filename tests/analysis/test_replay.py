@@ -1,0 +1,345 @@
+"""Replays: what is recorded is what happened, and what is written is what was recorded."""
+
+import functools
+from pathlib import Path
+import shutil
+import signal
+import subprocess
+import sys
+
+import numpy as np
+from PIL import Image
+import pytest
+from rerun.chunk import RrdReader
+from scipy.spatial import transform
+from trainers import PHYSEXP, fresh_seed, wait_until
+
+from physexp import suite
+from physexp.agents import core, environment_loop
+from physexp.analysis import evaluation, replay
+from physexp.analysis.replay import recording, selection, writing
+
+TASKS = [("which_is_heavier", "features"), ("towers", "fist_features"), ("towers", "direct_pixels")]
+
+
+class Careless(core.Actor):
+    """Acts at random for a while, then answers; its beliefs are made up but known."""
+
+    def __init__(self, environment, interactions, seed):
+        self._task, self._interactions = environment.task, interactions
+        self._generator = np.random.default_rng(seed)
+
+    def observe_first(self, timestep):
+        self._left = self._interactions
+
+    def select_action(self, observation):
+        self.policy = self._generator.dirichlet(np.ones(self._task.rules.num_actions))
+        self.value = float(self._generator.uniform(-1, 1))
+        self._left -= 1
+        first = self._task.num_interactions
+        return int(self._generator.integers(first) if self._left >= 0 else first + self._generator.integers(2))
+
+    def observe(self, action, next_timestep):
+        pass
+
+    def update(self):
+        pass
+
+
+class Watcher:
+    """Keeps what the loop shows it."""
+
+    def observe_first(self, environment, timestep):
+        self.seen, self.actions = [timestep.observation], []
+
+    def observe(self, environment, timestep, action):
+        self.seen.append(timestep.observation)
+        self.actions.append(action)
+
+    def get_metrics(self):
+        return {}
+
+
+def record(domain, task, interactions=5, seed=None):
+    """A recorded episode, and what another observer has seen of it."""
+    seed = fresh_seed() if seed is None else seed
+    environment = suite.load(domain, task, task_kwargs={"random": seed})
+    actor, watcher = Careless(environment, interactions, seed), Watcher()
+    recorder = replay.EpisodeRecorder(environment, domain, task, {"random": seed}, actor, "a careless agent")
+    environment_loop.EnvironmentLoop(environment, actor, [watcher, recorder]).run_episode()
+    return recorder.episode, watcher, environment
+
+
+def place(environment, thing):
+    """Where a thing is in the simulation."""
+    model = environment.physics.model
+    (geom,) = [g for g in range(model.ngeom) if f"{thing}/geom" in model.geom(g).name]
+    return environment.physics.data.geom_xpos[geom].copy()
+
+
+def chunks(path, entity):
+    """The columns of an entity in a file, as a dictionary; those of static data are left out."""
+    found = {}
+    for chunk in RrdReader(str(path)).stream():
+        if str(chunk.entity_path) == entity and not chunk.is_static:
+            batch = chunk.to_record_batch()
+            for name, column in zip(batch.schema.names, batch.columns, strict=True):
+                found.setdefault(name, []).extend(column.to_pylist())
+    return found
+
+
+@pytest.fixture(scope="module", params=TASKS, ids="/".join)
+def written(request, tmp_path_factory):
+    """A recorded episode and the file it was written to."""
+    episode, watcher, environment = record(*request.param)
+    path = writing.write(tmp_path_factory.mktemp("replay") / "one.rrd", [lambda: [episode]])
+    return episode, watcher, environment, path
+
+
+def test_a_recorder_keeps_what_happened(written):
+    episode, watcher, environment, _ = written
+    assert (episode.seed, episode.number) == (environment.task.options.random, 0)
+    np.testing.assert_array_equal(episode.hidden, environment.task.hidden)
+    assert episode.answer == environment.task.correct_answer
+    np.testing.assert_array_equal(episode.actions, watcher.actions)
+    for name, values in episode.observations.items():
+        np.testing.assert_array_equal(values, [seen[name] for seen in watcher.seen])
+    np.testing.assert_allclose(episode.policies.sum(axis=1), 1)
+    assert len(episode.policies) == len(episode.values) == len(episode.actions) == 6
+    assert abs(episode.rewards.sum()) == 1
+
+
+def test_poses_are_kept_at_every_physics_step_and_end_where_the_physics_is(written):
+    episode, _, environment, _ = written
+    substeps = environment.task.options.substeps
+    assert len(episode.times) == 5 * substeps + 1  # Five interactions; the answer takes no time.
+    np.testing.assert_allclose(np.diff(episode.times), environment.task.options.physics_timestep)
+    for k, name in enumerate(episode.things.names):
+        geom = next(
+            g
+            for g in range(environment.physics.model.ngeom)
+            if f"{name}/geom" in environment.physics.model.geom(g).name
+        )
+        np.testing.assert_array_equal(episode.positions[-1, k], environment.physics.data.geom_xpos[geom])
+    assert not np.array_equal(episode.positions[0], episode.positions[-1])
+
+
+def test_a_written_file_passes_reruns_own_check_and_is_small(written):
+    *_, path = written
+    done = subprocess.run([writing.PROGRAM, "rrd", "verify", path], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert path.stat().st_size < 1e6
+
+
+def test_poses_and_observations_read_back_are_those_of_the_episode(written):
+    episode, _, environment, path = written
+    for k, name in enumerate(episode.things.names):
+        columns = chunks(path, f"/world/things/{name}")
+        assert [round(time.total_seconds(), 6) for time in columns["time"]] == pytest.approx(
+            list(episode.times), abs=1e-6
+        )
+        moved = np.array(columns["Transform3D:translation"])[:, 0]
+        np.testing.assert_array_equal(moved, episode.positions[:, k].astype(np.float32))
+        turned = transform.Rotation.from_quat(np.array(columns["Transform3D:quaternion"])[:, 0]).as_matrix()
+        np.testing.assert_allclose(turned, episode.rotations[:, k], atol=1e-5)
+    for name, values in episode.observations.items():
+        if values.dtype == np.uint8:
+            images = np.array(chunks(path, f"/seen/{name}")["Image:buffer"], np.uint8).reshape(values.shape)
+            np.testing.assert_array_equal(images, values)
+        elif values.ndim == 3:
+            read = [np.array(chunks(path, f"/seen/{name}/{letter}")["Scalars:scalars"]) for letter in "xyz"]
+            np.testing.assert_array_equal(np.stack(read, axis=-1), values)
+        else:
+            np.testing.assert_array_equal(chunks(path, f"/seen/{name}")["Scalars:scalars"], values)
+
+
+def test_beliefs_actions_and_outcome_are_written(written):
+    episode, _, environment, path = written
+    first = environment.task.num_interactions
+    np.testing.assert_allclose(chunks(path, "/belief/history")["Scalars:scalars"], episode.policies[:, first:])
+    np.testing.assert_allclose(np.ravel(chunks(path, "/belief/value")["Scalars:scalars"]), episode.values)
+    words = [text[0] for text in chunks(path, "/did/actions")["TextLog:text"]]
+    assert words == [f"step {t}: {environment.task.action_names[a]}" for t, a in enumerate(episode.actions)]
+    open_question, end = [text[0] for text in chunks(path, "/did/outcome")["TextDocument:text"]]
+    assert "The question is open" in open_question
+    verdict = "right" if episode.rewards[-1] > 0 else f"wrong; it is: {environment.task.label_names[episode.answer]}"
+    assert f"That is {verdict}." in end
+
+
+def test_what_is_hidden_has_an_entity_of_its_own_which_is_switched_off(written):
+    episode, _, _, path = written
+    names = {str(chunk.entity_path) for chunk in RrdReader(str(path)).stream()}
+    hidden = {name for name in names if name.startswith("/world/hidden/")}
+    if episode.domain == "which_is_heavier":
+        assert hidden == {f"/world/hidden/mass_{k}" for k in range(4)}
+    else:
+        from physexp.suite import tower
+
+        glued = np.flatnonzero(tower.PATTERNS[int(episode.hidden)])
+        assert hidden == {f"/world/hidden/glue_{k}" for k in glued}
+    command = [writing.PROGRAM, "rrd", "print", "-vvv", path]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    override = printed.partition("ViewContents/overrides/world/hidden")[2]
+    table = override.partition("EntityBehavior:visible")[2].partition("METADATA")[0]
+    assert "[false]" in table and "[true]" not in table
+
+
+def test_an_arrow_shows_where_the_action_acts_and_which_way(written):
+    episode, _, environment, path = written
+    columns = chunks(path, "/world/action")
+    origins, vectors = (np.array(columns[f"Arrows3D:{name}"])[:, 0] for name in ("origins", "vectors"))
+    substeps = environment.task.options.substeps
+    for step in range(5):
+        thing, effect = environment.task.effects[episode.actions[step]]
+        frame = step * substeps + 1
+        k = episode.things.names.index(thing)
+        np.testing.assert_allclose(origins[frame], episode.positions[frame, k], atol=1e-6)
+        np.testing.assert_allclose(
+            vectors[frame] / np.linalg.norm(vectors[frame]), effect / np.linalg.norm(effect), atol=1e-6
+        )
+
+
+@pytest.mark.parametrize(("domain", "task"), TASKS[:2] + [("towers", "direct_features")])
+def test_the_effects_that_are_shown_are_those_of_the_physics(domain, task):
+    environment = suite.load(domain, task, task_kwargs={"random": fresh_seed()})
+    for action, (thing, effect) in enumerate(environment.task.effects):
+        environment.reset()
+        geom = next(
+            g
+            for g in range(environment.physics.model.ngeom)
+            if f"{thing}/geom" in environment.physics.model.geom(g).name
+        )
+        before = environment.physics.data.geom_xpos[geom].copy()
+        environment.step(action)
+        moved = environment.physics.data.geom_xpos[geom] - before
+        assert moved @ effect > 0.9 * np.linalg.norm(moved) * np.linalg.norm(effect) > 0
+
+
+def test_the_ideal_posterior_beside_an_agent_follows_its_pokes():
+    episode, _, _ = record("which_is_heavier", "features")
+    posteriors = writing.ideal_posteriors(episode)
+    assert posteriors.shape == (7, 4)
+    np.testing.assert_allclose(posteriors[0], 0.25)  # Nothing is known yet.
+    np.testing.assert_allclose(posteriors.sum(axis=1), 1)
+    poked = set()
+    for step, action in enumerate(episode.actions[:-1]):
+        again = action in poked
+        poked.add(int(action))
+        assert np.array_equal(posteriors[step], posteriors[step + 1]) == again
+
+
+@pytest.mark.parametrize(("domain", "task"), TASKS)
+def test_an_episode_known_by_its_numbers_is_enacted_as_it_was(domain, task):
+    network, config = evaluation.find_agent(f"{domain}/{task}")
+    played = evaluation.play(network, config, 3, seed=fresh_seed())
+    for index in range(3):
+        episode = recording.reenact(network, config, played.seeds[index], played.numbers[index], played.actions[index])
+        np.testing.assert_array_equal(episode.actions, played.actions[index])
+        np.testing.assert_array_equal(episode.hidden, played.hidden[index])
+        assert episode.rewards.sum() == played.rewards[index]
+        chosen = episode.policies[np.arange(len(episode.actions)), episode.actions]
+        assert (chosen > 1e-6).all()  # The beliefs are those that led to the actions.
+
+
+def test_a_process_killed_while_writing_leaves_the_earlier_episodes_readable(tmp_path):
+    path = tmp_path / "replay.rrd"
+    program = f"""
+import sys, time
+sys.path.insert(0, {str(Path(__file__).parent)!r})
+from pathlib import Path
+import test_replay
+from physexp.analysis.replay import writing
+
+def group(number):
+    if number == 2:
+        time.sleep(1000)
+    return [test_replay.record("towers", "fist_features", seed=number)[0]]
+
+groups = [lambda number=number: group(number) for number in range(4)]
+writing.write(Path({str(path)!r}), groups, lambda line: print(line, flush=True))
+"""
+    with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as process:
+        lines = []
+        wait_until(lambda: lines.append(process.stdout.readline()) or "2 of 4" in lines[-1], 60, "two episodes written")
+        process.send_signal(signal.SIGKILL)
+    subprocess.run([writing.PROGRAM, "rrd", "verify", path], check=True, capture_output=True)
+    assert [entry.kind for entry in RrdReader(str(path)).recordings()] == ["recording"] * 2
+
+
+def test_two_agents_are_shown_side_by_side_on_the_same_instances(tmp_path):
+    lines = []
+    path = replay.replay(["towers/fist_features"] * 2, 1, tmp_path / "both.rrd", report=lines.append)
+    assert len(lines) == 1
+    names = {str(chunk.entity_path) for chunk in RrdReader(str(path)).stream()}
+    assert {"/A/world/things/fist", "/B/world/things/fist", "/A/belief/value", "/B/belief/value"} <= names
+
+
+def test_agents_of_different_tasks_are_not_compared(tmp_path):
+    with pytest.raises(ValueError, match="towers/fist_features plays towers/fist_features, which_is_heavier/features"):
+        replay.replay(["towers/fist_features", "which_is_heavier/features"], 1, tmp_path / "x.rrd")
+
+
+def test_a_selection_is_what_it_says():
+    network, config = evaluation.find_agent("which_is_heavier/features")
+    play = functools.partial(evaluation.play, network, config)
+    everything = play(256, seed=5)
+    kinds = ("any", "right", "longest", "hardest")
+    chosen = {kind: list(selection.select(network, config, 5, kind, seed=5)) for kind in kinds}
+    rewards = dict(zip(zip(everything.seeds, everything.numbers, strict=True), everything.rewards, strict=True))
+    assert all(rewards[seed, number] > 0 for seed, number, _ in chosen["right"])
+    lengths = sorted((len(actions) for actions in everything.actions), reverse=True)
+    assert [len(actions) for _, _, actions in chosen["longest"]] == lengths[:5]
+    gaps = np.sort(everything.hidden)[:, -1] - np.sort(everything.hidden)[:, -2]
+    hardest = np.argsort(gaps)[:5]
+    assert [seed for seed, _, _ in chosen["hardest"]] == list(everything.seeds[hardest])
+    wrong = list(selection.select(network, config, 2, "wrong", interaction="random", seed=5))
+    for seed, number, actions in wrong:
+        environment = suite.load("which_is_heavier", "features", task_kwargs={**config.task_kwargs, "random": seed})
+        environment.task.next_episode = number
+        environment.reset()
+        for action in actions:
+            timestep = environment.step(int(action))
+        assert timestep.last() and timestep.reward == -1
+
+
+@pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="needs xvfb-run: apt-get install xvfb mesa-vulkan-drivers")
+def test_the_viewer_opens_a_file_and_shows_it(tmp_path):
+    episode, _, _ = record("towers", "fist_features")
+    path = writing.write(tmp_path / "one.rrd", [lambda: [episode]])
+    picture = tmp_path / "viewer.png"
+    command = ["xvfb-run", "-a", writing.PROGRAM, path, "--screenshot-to", picture, "--window-size", "1280x800"]
+    environment = {"HOME": str(tmp_path), "PATH": "/usr/bin:/bin"}
+    subprocess.run([writing.PROGRAM, "analytics", "disable"], env=environment, check=True, capture_output=True)
+    subprocess.run(command, env=environment, check=True, capture_output=True, timeout=120)
+    pixels = np.asarray(Image.open(picture).convert("RGB"))
+    colors, counts = np.unique(pixels.reshape(-1, 3), axis=0, return_counts=True)
+    assert len(colors) > 200  # Text, curves, shaded cubes: much more than a background.
+    assert counts.max() < 0.95 * counts.sum()
+    from physexp.suite import block
+
+    red = np.array(block.COLORS[0][:3])  # The face of block 0, in whatever light.
+    seen = colors[np.linalg.norm(colors, axis=1) > 0].astype(float)
+    hue = seen / np.linalg.norm(seen, axis=1, keepdims=True) - red / np.linalg.norm(red)
+    assert counts[np.linalg.norm(colors, axis=1) > 0][np.linalg.norm(hue, axis=1) < 0.08].sum() > 300
+
+
+def test_the_command_writes_a_file_and_names_it(tmp_path):
+    path = tmp_path / "some" / "file.rrd"
+    done = subprocess.run([PHYSEXP, "replay", "which_is_heavier/features", "--episodes", "2", "--output", path],
+                          capture_output=True, text=True, check=True)  # fmt: skip
+    assert done.stdout.splitlines()[-1] == str(path)
+    assert len(RrdReader(str(path)).recordings()) == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["towers/features"], "towers/features holds no run (no config.json); give the folder of a run"),
+        (["towers/fist_features", "--episodes", "0"], "episodes is 0; give a number >= 1"),
+    ],
+)
+def test_what_makes_no_sense_is_one_readable_line(arguments, message, tmp_path):
+    command = [PHYSEXP, "replay", *arguments, "--output", tmp_path / "x.rrd"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 2 and message in done.stderr and done.stderr.count("\n") == 1
+    assert not (tmp_path / "x.rrd").exists()
