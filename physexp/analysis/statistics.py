@@ -42,10 +42,10 @@ def proportion(outcomes: Sequence[bool] | np.ndarray) -> Estimate:
 
 
 def mean(values: Sequence[float] | np.ndarray) -> Estimate:
-    """The mean of independent values, [N], with Student's interval; a single value has an infinite one."""
+    """The mean of independent values, [N], with Student's interval; infinite for less than two values."""
     from scipy import stats
 
-    average = float(np.mean(values))
+    average = float(np.mean(values)) if len(values) else math.nan
     if len(values) < 2:
         return Estimate(average, -math.inf, math.inf)
     half = stats.t.ppf((1 + _LEVEL) / 2, len(values) - 1) * float(np.std(values, ddof=1)) / math.sqrt(len(values))
@@ -67,18 +67,36 @@ def ratio_of_means(numerators: Sequence[float] | np.ndarray, denominators: Seque
     """How many times as large the values of one group are as those of another, by their geometric means.
 
     Args:
-      numerators, denominators: independent positive values, [N] and [M]; Welch's interval of the logarithms.
+      numerators, denominators: independent values, [N] and [M]; Welch's interval of the logarithms, which is infinite
+        for a single value and where one is not positive and finite.
     """
     from scipy import stats
 
-    logs = [np.log(numerators), np.log(denominators)]
+    groups = [np.asarray(group, float) for group in (numerators, denominators)]
+    if not all(np.all((group > 0) & (group < math.inf)) for group in groups):
+        return Estimate(math.nan, 0.0, math.inf)
+    logs = [np.log(group) for group in groups]
     value = float(logs[0].mean() - logs[1].mean())
     if min(map(len, logs)) < 2:
         return Estimate(math.exp(value), 0.0, math.inf)
-    if all(np.ptp(group) == 0 for group in logs):
+    squares = [float(group.var(ddof=1)) / len(group) for group in logs]
+    if not sum(squares):
         return Estimate(*[math.exp(value)] * 3)
-    interval = stats.ttest_ind(*logs, equal_var=False).confidence_interval(_LEVEL)
-    return Estimate(math.exp(value), math.exp(interval.low), math.exp(interval.high))
+    freedom = sum(squares) ** 2 / sum(part**2 / (len(group) - 1) for part, group in zip(squares, logs, strict=True))
+    half = float(stats.t.ppf((1 + _LEVEL) / 2, freedom)) * math.sqrt(sum(squares))
+    return Estimate(math.exp(value), math.exp(value - half), math.exp(value + half))
+
+
+def ratio_of_pairs(numerators: Sequence[float] | np.ndarray, denominators: Sequence[float] | np.ndarray) -> Estimate:
+    """The geometric mean of ratios, [N] of independent pairs, with Student's interval of their logarithms.
+
+    The interval is infinite for a single pair and where a value is not positive and finite.
+    """
+    top, bottom = np.asarray(numerators, float), np.asarray(denominators, float)
+    if not np.all((np.minimum(top, bottom) > 0) & (np.maximum(top, bottom) < math.inf)):
+        return Estimate(math.nan, 0.0, math.inf)
+    logs = mean(np.log(top / bottom))
+    return Estimate(math.exp(logs.value), math.exp(logs.low), math.exp(logs.high))
 
 
 def bootstrap(
@@ -98,11 +116,16 @@ def bootstrap(
 def slope(x: np.ndarray, y: np.ndarray) -> Estimate:
     """The slope of an ordinary least-squares line; x and y [N] are pairs.
 
-    The interval allows for a spread of y that changes with x (White's standard error, HC1).
+    The interval allows for a spread of y that changes with x (White's standard error, HC1); it is infinite for fewer
+    than three pairs and where all x are the same.
     """
     centered = x - x.mean()
     square = float(centered @ centered)
+    if square == 0:
+        return Estimate(math.nan, -math.inf, math.inf)
     value = float(centered @ (y - y.mean())) / square
+    if len(x) < 3:
+        return Estimate(value, -math.inf, math.inf)
     residuals = y - y.mean() - value * centered
     error = math.sqrt(float((centered**2) @ (residuals**2)) * len(x) / (len(x) - 2)) / square
     return Estimate(value, value - _NORMAL_975 * error, value + _NORMAL_975 * error)

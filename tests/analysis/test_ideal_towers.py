@@ -24,7 +24,8 @@ class MadeWorld:
     """
 
     def __init__(self, num_actions, tells):
-        self.task = types.SimpleNamespace(num_interactions=num_actions, control_timestep=0.1)
+        rules = types.SimpleNamespace(step_limit=26)
+        self.task = types.SimpleNamespace(num_interactions=num_actions, control_timestep=0.1, rules=rules)
         self.steps, self._tells, self._expanded = 0, tells, {()}
         self._num_actions = num_actions
 
@@ -196,9 +197,22 @@ def test_from_pixels_the_first_touch_tells_as_well():
     assert all(episode["episode_return"] == 1 for episode in episodes)
 
 
-def test_the_summary_can_be_written_as_json():
+def test_the_summary_can_be_written_as_json_even_where_the_count_cannot_be_known():
     summary = solve(MadeWorld(1, lambda sequence: COUNTS)).summary()
     assert json.loads(json.dumps(summary))["mean_seconds"] == pytest.approx(0.1)
+    blind = towers.solve("fist_features", 0.5, objective="time", max_depth=2,
+                         trajectories=MadeWorld(1, lambda sequence: [0] * PATTERNS))  # fmt: skip
+    assert json.loads(json.dumps(blind.summary(), allow_nan=False))["value"] is None
+
+
+def test_an_answer_must_come_within_the_time_limit():
+    # Two actions are allowed and the fist needs two to touch: only one is left for it, then a guess. It is right in one
+    # case of five, -0.6; acting before it discounts the loss.
+    solution = towers.solve("fist_features", 0.0, 0.98, task_kwargs={"time_limit": 0.2})
+    assert solution.value == pytest.approx(0.98 * -0.6) and solution.bound == pytest.approx(solution.value)
+    environment = suite.load("towers", "fist_features", task_kwargs={"random": fresh_seed(), "time_limit": 0.2})
+    episodes = environment_loop.EnvironmentLoop(environment, towers.IdealExperimenter(solution)).run(5)
+    assert all(episode["episode_length"] == 2 for episode in episodes)
 
 
 @pytest.mark.parametrize(

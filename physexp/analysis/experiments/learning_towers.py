@@ -15,19 +15,18 @@ def find_claims(frame) -> list[claims.Claim]:
     final = learning.final_success(frame)
     found = []
     for name in final.condition.unique():
-        rates = np.sort(final.success_rate[final.condition == name])[::-1]
-        best = rates[: -(-len(rates) // 2)]  # The paper shows the better half.
+        rates = final.success_rate[final.condition == name]
         found.append(claims.Claim(
             text="All four conditions are solved nearly perfectly", section="6.3", condition=name,
-            statistic="share of right answers at the end of training, mean of the better half of the agents",
-            estimate=statistics.mean(best), above=_NEARLY_PERFECT,
+            statistic="share of right answers at the end of training, mean of agents",
+            estimate=statistics.mean(rates), above=_NEARLY_PERFECT,
         ))  # fmt: skip
     reached = learning.frames_to_reach(frame, _LEARNED)
     for kind in conditions.OBSERVATIONS:
-        fist, direct = (
-            reached.frames[reached.condition == conditions.label("towers", f"{actuator}_{kind}", None)].to_numpy()
-            for actuator in ("fist", "direct")
-        )
+        names = [conditions.label("towers", f"{actuator}_{kind}", None) for actuator in ("fist", "direct")]
+        # Where not all learn, what counts is the time within the shortest training.
+        shortest = frame[frame.condition.isin(names)].groupby(["condition", "training_seed"]).frames.max().min()
+        fist, direct = (np.minimum(reached.frames[reached.condition == name], shortest) for name in names)
         if len(fist) and len(direct):
             found.append(claims.Claim(
                 text="The fist leads to faster learning than direct actuation", section="6.3", condition=kind,

@@ -16,7 +16,7 @@ def find_claims(frame) -> list[claims.Claim]:
     for condition, ratio in randomized.length_ratios(frame).items():
         found.append(claims.Claim(
             text="The effect of randomized interaction on episode length is small", section="5.3", condition=condition,
-            statistic="pokes before an answer, learned over randomized, ratio of means", estimate=ratio,
+            statistic="pokes before an answer, learned over randomized, mean ratio of agents", estimate=ratio,
             above=0.67, below=1.5,
             reason="Our agents go on until they know: poked at random, they need more pokes to see every block, and "
             "wait for them, where the paper's answered after about as many as usual.",

@@ -42,7 +42,7 @@ def length_ratios(frame) -> dict[str, statistics.Estimate]:
     """By condition: pokes before an answer, learned over randomized."""
     agents = per_agent(frame)
     return {
-        condition: statistics.ratio_of_means(*_paired(agents, condition, "length"))
+        condition: statistics.ratio_of_pairs(*_paired(agents, condition, "length"))
         for condition in agents.condition.unique()
     }
 

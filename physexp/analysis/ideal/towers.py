@@ -140,11 +140,15 @@ class Solution:
         return np.array(found, np.int64)
 
     def summary(self) -> dict[str, Any]:
-        """`value`, `bound`, `accuracy`, `mean_interactions`, `mean_seconds`, `histogram` of interactions."""
+        """`value`, `bound`, `accuracy`, `mean_interactions`, `mean_seconds`, `histogram` of interactions.
+
+        The value is None where the count cannot be known for certain within the depth of the search.
+        """
         interactions, right = self.outcomes().T
         mean = float(_PRIOR @ interactions)
         shares = np.bincount(interactions, _PRIOR)
-        return {"value": self.value, "bound": self.bound, "accuracy": float(_PRIOR @ right), "mean_interactions": mean,
+        value, bound = (figure if math.isfinite(figure) else None for figure in (self.value, self.bound))
+        return {"value": value, "bound": bound, "accuracy": float(_PRIOR @ right), "mean_interactions": mean,
                 "mean_seconds": mean * self.control_timestep,
                 "histogram": {number: float(share) for number, share in enumerate(shares)}}  # fmt: skip
 
@@ -175,6 +179,9 @@ def solve(task: str = "fist_features", resolution: float = 0.0, discount: float 
         raise ValueError(f"resolution is {resolution!r}; give a finite number >= 0 (m, or pixels)")
     if not (isinstance(discount, (int, float)) and 0 < discount <= 1):
         raise ValueError(f"discount is {discount!r}; give a number in (0, 1]")
+    for name, limit in (("max_depth", max_depth), ("max_steps", max_steps)):
+        if not isinstance(limit, int) or limit < 1:
+            raise ValueError(f"{name} is {limit!r}; give an integer >= 1")
     if objective not in OBJECTIVES:
         raise ValueError(f"objective is {objective!r}; choose from {', '.join(OBJECTIVES)}")
     trajectories = trajectories or trajectories_lib.Trajectories(task, task_kwargs)
@@ -229,6 +236,8 @@ class Search:
         answer, hope = self._objective.answer(group), self._objective.act(self._objective.known)
         if answer == self._objective.known:
             return answer, answer
+        if len(sequence) >= self._trajectories.task.rules.step_limit - 1:
+            return answer, answer  # The last action in time is the answer.
         if not self._trajectories.is_expanded(sequence):
             return answer, max(answer, hope)
         values = [self._action_bounds(sequence, group, action) for action in self._actions]
@@ -263,7 +272,8 @@ class Search:
     def _decide(self, sequence, group) -> Node:
         label = int(_count_chances(group).argmax())
         answer = self._objective.answer(group)
-        if answer == self._objective.known or not self._trajectories.is_expanded(sequence):
+        ends = len(sequence) >= self._trajectories.task.rules.step_limit - 1
+        if ends or answer == self._objective.known or not self._trajectories.is_expanded(sequence):
             return Node(group, None, label)
         lows = [self._action_bounds(sequence, group, action)[0] for action in self._actions]
         action = int(np.argmax(lows))

@@ -74,6 +74,8 @@ class Trajectories:
         for actions in np.array(sequences).T:
             timestep = self._batch.step(np.repeat(actions, NUM_PATTERNS), rows)
             self.steps += len(rows)
+        if self._batch.num_divergences:
+            raise RuntimeError("the simulation of a tower diverged; nothing can be said about what can be told apart")
         for number, sequence in enumerate(sequences):
             its = slice(NUM_PATTERNS * number, NUM_PATTERNS * (number + 1))
             yield sequence, {name: value[its].copy() for name, value in timestep.observation.items()}

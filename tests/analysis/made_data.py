@@ -1,0 +1,306 @@
+"""Made data for every experiment: frames as its `load` gives them, from worlds in which we know what is true.
+
+`WORLDS[experiment][world](num_agents, generator)` makes a frame. The world called `paper` is as the paper says; in each
+of the others some claims are false. Agents of a condition differ from each other by noise.
+"""
+
+from collections.abc import Callable
+import functools
+import math
+
+import numpy as np
+import pandas
+import pyarrow
+from scipy import special
+
+from physexp.analysis import records
+from physexp.analysis.experiments import conditions, population, waiting
+from physexp.analysis.ideal import regret
+
+NUM_AGENTS = 6
+_EPISODES = 300  # Of each agent.
+_CURVE_POINTS = 200
+_BUDGET = 4_000_000  # Environment steps of a learning curve.
+
+
+def label(config) -> str:
+    """The name of a condition."""
+    return conditions.label(config.domain, config.task, config.difficulty)
+
+
+def episodes(config, training_seed: int, columns: dict[str, np.ndarray], interaction: str = "learned",
+             control_timestep: float = 0.1) -> dict[str, np.ndarray]:  # fmt: skip
+    """The columns of one agent's episodes."""
+    told = {
+        "domain": config.domain, "task": config.task, "discount": config.agent.discount, "interaction": interaction,
+        "difficulty": math.nan if config.difficulty is None else config.difficulty, "training_seed": training_seed,
+        "control_timestep": control_timestep, "condition": label(config),
+    }  # fmt: skip
+    count = len(next(iter(columns.values())))
+    return {name: np.full(count, value) for name, value in told.items()} | columns
+
+
+def table(agents: list[dict[str, np.ndarray]]) -> pandas.DataFrame:
+    """The episodes of all agents, with the types they have when read from files."""
+    columns = {name: np.concatenate([agent[name] for agent in agents]) for name in agents[0]}
+    conditions_of_rows = columns.pop("condition")
+    schema = pyarrow.schema([records.SCHEMA.field(name) for name in columns])
+    return pyarrow.table(columns, schema).to_pandas().assign(commit="made", condition=conditions_of_rows)
+
+
+def answers(success: float, count: int) -> dict[str, np.ndarray]:
+    """Labels and rewards of episodes, so many of which are right that the share is exact to one episode."""
+    right = np.arange(count) < round(success * count)
+    return {"label": np.zeros(count, int), "reward": np.where(right, 1.0, -1.0)}
+
+
+def with_timeouts(columns: dict[str, np.ndarray], share: float, **values: float) -> dict[str, np.ndarray]:
+    """Adds episodes that ended unanswered; `values` of their other columns."""
+    count = round(share * len(columns["label"]))
+    added = {"label": -1, "reward": -1.0, "interactions": 100, **values}
+    return {name: np.concatenate([column, np.full(count, added[name])]) for name, column in columns.items()}
+
+
+# How the masses turn out: the share of small gaps for the difficulties 3, 5 and 10.
+
+
+def mass_gaps(num_agents, generator, small=(0.4, 0.2, 0.05)):
+    """Mass gaps, which are drawn by no agent."""
+    frames = []
+    for beta, share in zip(conditions.DIFFICULTIES, small, strict=True):
+        is_small = np.arange(3000) < 3000 * share
+        gaps = np.where(is_small, generator.uniform(0, 0.1, 3000), generator.uniform(0.1, 1, 3000))
+        frames.append(pandas.DataFrame({"difficulty": beta, "mass_gap": gaps}))
+    return pandas.concat(frames, ignore_index=True)
+
+
+# Learning curves: success rises from chance to its plateau.
+
+
+def curves(num_agents, generator, plateaus: dict[str, float], chance: float,
+           learned_at: dict[str, float]) -> pandas.DataFrame:  # fmt: skip
+    """Rows of metrics, as `Results.curves` gives them.
+
+    Args:
+      plateaus: success at the end, by the name of a condition.
+      chance: success at the beginning.
+      learned_at: environment steps after which a curve is half way, by the name of a condition.
+    """
+    frames = np.linspace(_BUDGET / _CURVE_POINTS, _BUDGET, _CURVE_POINTS)
+    found = []
+    for config in (*conditions.HEAVIER, *conditions.TOWERS):
+        name = label(config)
+        if name not in plateaus:
+            continue
+        for seed in range(num_agents):
+            plateau = plateaus[name] + generator.normal(0, 0.004)
+            middle = learned_at[name] * np.exp(generator.normal(0, 0.05))
+            rising = chance + (plateau - chance) * special.expit((frames - middle) / 100_000)
+            found.append(pandas.DataFrame({
+                "frames": frames.astype(int), "success_rate": rising + generator.normal(0, 0.003, len(frames)),
+                "domain": config.domain, "task": config.task, "difficulty": config.difficulty,
+                "discount": config.agent.discount, "training_seed": seed, "condition": name,
+            }))  # fmt: skip
+    return pandas.concat(found, ignore_index=True)
+
+
+def learning_heavier(num_agents, generator, features=(0.85, 0.9, 0.95), pixels=(0.7, 0.8, 0.9)):
+    names = [label(config) for config in conditions.HEAVIER]
+    return curves(num_agents, generator, dict(zip(names, (*features, *pixels), strict=True)), 0.25,
+                  dict.fromkeys(names, 1e6))  # fmt: skip
+
+
+def learning_towers(num_agents, generator, plateau=0.985, fist=1e6, direct=2e6):
+    names = [label(config) for config in conditions.TOWERS]
+    learned_at = {name: fist if name.startswith("F") else direct for name in names}
+    return curves(num_agents, generator, dict.fromkeys(names, plateau), 0.2, learned_at)
+
+
+# Episodes of Which is Heavier.
+
+
+def pokes(num_agents, generator, means=(5.0, 3.0, 2.0), spread=0.5, long=0.0):
+    """Interactions of feature agents.
+
+    Args:
+      means: for the difficulties 3, 5 and 10.
+      spread: standard deviation over episodes.
+      long: share of the episodes that last 30 interactions or more.
+    """
+    agents = []
+    for config, mean in zip(population.CONDITIONS, means, strict=True):
+        for seed in range(num_agents):
+            interactions = generator.normal(mean + generator.normal(0, 0.02), spread, _EPISODES)
+            interactions = interactions.round().clip(0, 29).astype(int)
+            interactions[: round(long * _EPISODES)] = generator.integers(30, 90, round(long * _EPISODES))
+            agents.append(episodes(config, seed, {"interactions": interactions}))
+    return table(agents)
+
+
+def slopes(num_agents, generator, slope=-4.0, odd_one=None):
+    """Interactions that depend on the mass gap, and timeouts that would turn the slope about if they counted.
+
+    Args:
+      slope: of interactions on the gap.
+      odd_one: another slope, of one agent only.
+    """
+    agents = []
+    for config in conditions.PATIENT:
+        for seed in range(num_agents):
+            gaps = generator.uniform(0, 1, _EPISODES)
+            mine = slope if odd_one is None or seed else odd_one
+            lengths = 6 + (mine + generator.normal(0, 0.1)) * (gaps - 0.5) + generator.normal(0, 0.5 + gaps)
+            columns = {"mass_gap": gaps, "interactions": lengths.round().clip(0).astype(int),
+                       "label": np.zeros(_EPISODES, int)}  # fmt: skip
+            columns = with_timeouts(columns, 0.2, mass_gap=1.0 if slope < 0 else 0.0)
+            agents.append(episodes(config, seed, columns))
+    return table(agents)
+
+
+def _interactions(mean, count, generator):
+    """Interactions with this very mean but for rounding, at least 0."""
+    drawn = generator.poisson(mean, count)
+    drawn[0] += max(0, round(mean * count) - drawn.sum())
+    return drawn
+
+
+def learned_and_random(configs, num_agents, generator, gain: float, ratio: float) -> pandas.DataFrame:
+    """Episodes with learned and with randomized interaction; a third of the learned ones more run out of time.
+
+    Args:
+      configs: the conditions.
+      gain: by how much the share of right answers is higher with learned interaction.
+      ratio: of the interactions, learned over randomized.
+    """
+    agents = []
+    for config in configs:
+        for seed in range(num_agents):
+            random, length = 0.7 + generator.normal(0, 0.03), 6 * np.exp(generator.normal(0, 0.02))
+            learned = random + gain + generator.normal(0, 0.01)
+            for interaction, success, mean in (("learned", learned, length * ratio), ("random", random, length)):
+                columns = answers(success, _EPISODES)
+                columns["interactions"] = _interactions(mean, _EPISODES, generator)
+                if interaction == "learned":
+                    columns = with_timeouts(columns, 1 / 3)
+                columns["time"] = 0.1 * columns["interactions"]
+                agents.append(episodes(config, seed, columns, interaction))
+    return table(agents)
+
+
+def random_heavier(num_agents, generator, gain=0.15, ratio=1.0):
+    return learned_and_random(conditions.HEAVIER, num_agents, generator, gain, ratio)
+
+
+def random_towers(num_agents, generator, gain=0.15, ratio=0.6):
+    frame = learned_and_random(conditions.TOWERS, num_agents, generator, gain, ratio)
+    frame.attrs["ideal"] = {label(config): (4.0, 1.0) for config in conditions.TOWERS}
+    return frame
+
+
+# Episodes of the towers.
+
+
+def waiting_fists(num_agents, generator, slowdown=10.0, worst=0.9):
+    """Fist agents in slower and slower time.
+
+    Args:
+      slowdown: how many times as many interactions come before the answer at the finest control step as at the one of
+        training; 10 is as many seconds.
+      worst: share of right answers at the finest control step; it is 0.97 at that of training.
+    """
+    agents = []
+    steps = np.array(waiting.CONTROL_TIMESTEPS)
+    for config in waiting.CONDITIONS:
+        for seed in range(num_agents):
+            base = 16 * np.exp(generator.normal(0, 0.03))
+            offset = generator.normal(0, 0.01)
+            for step in steps:
+                fineness = np.log(steps[-1] / step) / np.log(steps[-1] / steps[0])  # From 0 to 1.
+                columns = answers(0.97 + (worst - 0.97) * fineness + offset, 100)
+                lengths = base * slowdown**fineness * np.exp(generator.normal(0, 0.1, 100))
+                columns["interactions"] = lengths.round().astype(int)
+                columns["time"] = columns["interactions"] * step
+                del columns["label"]
+                agents.append(episodes(config, seed, columns, control_timestep=step))
+    return table(agents)
+
+
+# Agents against the ideal experimenter.
+
+
+def ideal_gap(num_agents, generator, share=0.985):
+    """A row for each agent; `share` of the ideal's return is what it has."""
+    rows = []
+    for config in (*conditions.HEAVIER, *conditions.TOWERS):
+        ideal_return = 0.8
+        for seed in range(num_agents):
+            agent_return = ideal_return * (share + generator.normal(0, 0.0005))
+            row = {"condition": label(config), "domain": config.domain, "difficulty": config.difficulty,
+                   "training_seed": seed, "agent_return": agent_return, "return_error": 0.002,
+                   "accuracy": 0.9, "interactions": 3.0,
+                   "ideal_return": ideal_return, "ideal_accuracy": 0.95, "ideal_interactions": 2.5}  # fmt: skip
+            if config.domain == "which_is_heavier":
+                parts = generator.dirichlet(np.ones(len(regret.KINDS))) * abs(ideal_return - agent_return)
+                row |= dict(zip(regret.KINDS, parts, strict=True))
+            rows.append(row)
+    frame = pandas.DataFrame(rows)
+    frame.attrs["towers"] = {config.task: list(_resolutions()) for config in conditions.TOWERS}
+    return frame
+
+
+def _resolutions():
+    for objective in ("time", "return"):
+        for number, resolution in enumerate((0.0, 0.001, 0.003, 0.01)):
+            yield {"objective": objective, "resolution": resolution, "value": 0.9, "accuracy": 1.0,
+                   "mean_interactions": 3.0 + number, "mean_seconds": 0.3 + 0.1 * number}  # fmt: skip
+
+
+_World = Callable[[int, np.random.Generator], pandas.DataFrame]
+
+WORLDS: dict[str, dict[str, _World]] = {
+    "mass_gap": {
+        "paper": mass_gaps,
+        "easy ones are hard": functools.partial(mass_gaps, small=(0.05, 0.2, 0.4)),
+    },
+    "learning_heavier": {
+        "paper": learning_heavier,
+        "hard ones are easy": functools.partial(learning_heavier, features=(0.95, 0.9, 0.85), pixels=(0.9, 0.8, 0.7)),
+        "little more than chance": functools.partial(
+            learning_heavier, features=(0.3, 0.35, 0.4), pixels=(0.25, 0.3, 0.35)
+        ),  # fmt: skip
+    },
+    "population": {
+        "paper": pokes,
+        "always all and long": functools.partial(pokes, means=(6.0, 6.0, 6.0), long=0.1),
+        "hardly any": functools.partial(pokes, means=(0.1, 0.1, 0.1), spread=0.2),
+    },
+    "individual": {
+        "paper": slopes,
+        "hard ones are quick": functools.partial(slopes, slope=4.0),
+    },
+    "random_heavier": {
+        "paper": random_heavier,
+        "chance helps and is quick": functools.partial(random_heavier, gain=-0.15, ratio=2.5),
+        "chance is slow": functools.partial(random_heavier, ratio=0.4),
+    },
+    "learning_towers": {
+        "paper": learning_towers,
+        "slow fist": functools.partial(learning_towers, fist=2e6, direct=1e6),
+        "good but not perfect": functools.partial(learning_towers, plateau=0.925),
+    },
+    "waiting": {
+        "paper": waiting_fists,
+        "as many steps": functools.partial(waiting_fists, slowdown=1.0),
+        "ever more steps": functools.partial(waiting_fists, slowdown=40.0),
+        "lost in fine time": functools.partial(waiting_fists, worst=0.4),
+    },
+    "random_towers": {
+        "paper": random_towers,
+        "chance helps and is quick": functools.partial(random_towers, gain=-0.15, ratio=1.6),
+    },
+    "ideal_gap": {
+        "paper": ideal_gap,
+        "clumsy agents": functools.partial(ideal_gap, share=0.9),
+        "agents who cheat": functools.partial(ideal_gap, share=1.05),
+    },
+}

@@ -1,0 +1,260 @@
+"""Claims hold where the data say so and fail where they say the opposite: each is tried on data we have made."""
+
+import functools
+import math
+
+import made_data
+import numpy as np
+import pytest
+from trainers import fresh_seed
+
+from physexp.analysis import claims, statistics
+from physexp.analysis.experiments import EXPERIMENTS, individual, learning, population, randomized
+from physexp.analysis.experiments import ideal_gap as ideal_gap_lib
+
+HOLDS, FAILS, UNDECIDED = claims.HOLDS, claims.FAILS, claims.UNDECIDED
+
+# Every claim that our experiments make, and the made worlds in which it is false. In all others it is true.
+FALSE_IN = {
+    "mass_gap": {
+        "Lower values of beta make small mass gaps, hence hard instances, likelier": {"easy ones are hard"},
+    },
+    "learning_heavier": {
+        "Agents are trained successfully from features and from pixels": {"little more than chance"},
+        "More difficult problems plateau at progressively lower performance": {"hard ones are easy"},
+    },
+    "population": {
+        "At difficulty 10 agents stop as soon as they find a heavy block": {"always all and long", "hardly any"},
+        "At difficulty 3 agents poke all four blocks before answering": {"hardly any"},
+        "The vast majority of episodes ends in less than 30 steps": {"always all and long"},
+    },
+    "individual": {
+        "The smaller the mass gap, the longer an agent experiments": {"hard ones are quick"},
+    },
+    "random_heavier": {
+        "Learned interaction leads to more accurate answers than randomized interaction": {"chance helps and is quick"},
+        "The effect of randomized interaction on episode length is small": {"chance helps and is quick",
+                                                                            "chance is slow"},
+    },
+    "learning_towers": {
+        "All four conditions are solved nearly perfectly": {"good but not perfect"},
+        "The fist leads to faster learning than direct actuation": {"slow fist"},
+    },
+    "waiting": {
+        "With smaller control steps the time to answer stays about the same, in up to ten times the steps": {
+            "as many steps", "ever more steps"
+        },
+        "Accuracy drops little with the control step": {"lost in fine time"},
+    },
+    "random_towers": {
+        "Learned interaction leads to more accurate answers than randomized interaction": {"chance helps and is quick"},
+        "Agents tend to answer more quickly when following their learned interaction": {"chance helps and is quick"},
+    },
+    "ideal_gap": {
+        "Feature agents reach 95% of the ideal experimenter's return": {"clumsy agents"},
+        "Feature agents reach 97% of the ideal experimenter's return": {"clumsy agents"},
+        "No agent beats the ideal experimenter": {"agents who cheat"},
+    },
+}  # fmt: skip
+
+# What one agent decides: claims that are about no agent, or about an agent's own episodes.
+DECIDED_BY_ONE = {
+    ("mass_gap", "difference of the shares of mass gaps below 0.1"),
+    ("individual", "the same in the agent of 1 where it is least sure"),
+    ("ideal_gap", "share of the ideal's return, the best agent; interval: of its episodes; 1 % allowed for luck"),
+    ("population", "modal number of pokes, all agents pooled; interval: range over agents"),
+    ("population", "share of such episodes, mean of agents"),  # One of each difficulty is three.
+}
+
+WORLDS = [(name, world) for name, worlds in made_data.WORLDS.items() for world in worlds]
+
+
+def generator():
+    return np.random.default_rng(fresh_seed())
+
+
+@functools.cache
+def _made(name, world, num_agents):
+    seed = fresh_seed()
+    frame = made_data.WORLDS[name][world](num_agents, np.random.default_rng(seed))
+    return seed, frame, EXPERIMENTS[name].claims(frame)
+
+
+def made(name, world="paper", num_agents=made_data.NUM_AGENTS):
+    """The frame of an experiment in a world, and its claims; the same for all tests, since they only read it."""
+    seed, frame, found = _made(name, world, num_agents)
+    print("made with seed", seed)
+    return frame, found
+
+
+def claim(low, high, above=-math.inf, below=math.inf):
+    return claims.Claim(text="", section="", condition="", statistic="", above=above, below=below,
+                        estimate=statistics.Estimate((low + high) / 2, low, high))  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "low, high, verdict",
+    [
+        (1.1, 1.9, HOLDS),
+        (1.0, 1.9, UNDECIDED),  # 1 itself is not in the range: the interval crosses the border.
+        (1.1, 2.0, UNDECIDED),
+        (0.5, 2.5, UNDECIDED),
+        (0.5, 1.0, FAILS),  # Nothing of it is in the range.
+        (2.0, 2.5, FAILS),
+        (0.5, 0.9, FAILS),
+        (2.1, 2.5, FAILS),
+        (1.0, 1.0, FAILS),
+        (1.5, 1.5, HOLDS),
+        (-math.inf, math.inf, UNDECIDED),
+        (math.nan, math.nan, UNDECIDED),
+    ],
+)
+def test_a_claim_holds_where_the_interval_is_in_the_range_and_fails_where_all_of_it_is_outside(low, high, verdict):
+    assert claim(low, high, above=1, below=2).verdict == verdict
+
+
+@pytest.mark.parametrize("limits", [dict(above=0), dict(below=0)])
+def test_a_range_with_one_end_has_one_border(limits):
+    inside, outside = ((0.1, 9.0), (-9.0, -0.1)) if "above" in limits else ((-9.0, -0.1), (0.1, 9.0))
+    assert claim(*inside, **limits).verdict == HOLDS
+    assert claim(*outside, **limits).verdict == FAILS
+    assert claim(-0.1, 0.1, **limits).verdict == UNDECIDED
+    assert claim(0.0, 0.0, **limits).verdict == FAILS
+    assert claim(-math.inf, math.inf, **limits).verdict == UNDECIDED
+
+
+def test_the_range_wanted_is_told_in_words():
+    assert claim(0, 1, above=0.5).wanted == "> 0.5"
+    assert claim(0, 1, below=0).wanted == "< 0"
+    assert claim(0, 1, above=0.67, below=1.5).wanted == "0.67 to 1.5"
+
+
+def test_every_experiment_has_a_world_that_is_as_the_paper_says_and_others():
+    assert set(made_data.WORLDS) == set(EXPERIMENTS) == set(FALSE_IN)
+    for worlds in made_data.WORLDS.values():
+        assert "paper" in worlds and len(worlds) > 1
+
+
+@pytest.mark.parametrize("name, world", WORLDS)
+def test_each_claim_holds_or_fails_as_the_world_is(name, world):
+    _, found = made(name, world)
+    assert {one.text for one in found} == set(FALSE_IN[name])  # A claim that is new has to be tried here, too.
+    verdicts = {(one.text, one.condition, one.statistic, one.estimate): one.verdict for one in found}
+    expected = {key: FAILS if world in FALSE_IN[name][key[0]] else HOLDS for key in verdicts}
+    assert verdicts == expected
+
+
+@pytest.mark.parametrize("name", EXPERIMENTS)
+def test_every_claim_can_fail_at_either_end_of_its_range(name):
+    failed: dict[tuple, set[str]] = {}
+    for world in made_data.WORLDS[name]:
+        for one in made(name, world)[1]:
+            ends = {"above"} if one.above > -math.inf else set()
+            ends |= {"below"} if one.below < math.inf else set()
+            left = failed.setdefault((one.text, one.condition, one.statistic), ends)
+            if one.verdict == FAILS:
+                assert world != "paper"
+                left.discard("above" if one.estimate.value <= one.above else "below")
+    assert failed and not any(failed.values()), failed  # What is left was never gone beyond.
+
+
+@pytest.mark.parametrize("name, world", WORLDS)
+def test_one_agent_decides_nothing_about_agents(name, world):
+    _, found = made(name, world, 1)
+    assert {one.text for one in found} == set(FALSE_IN[name])
+    for one in found:
+        if (name, one.statistic) in DECIDED_BY_ONE:
+            assert one.verdict == (FAILS if world in FALSE_IN[name][one.text] else HOLDS)
+        else:
+            assert one.verdict == UNDECIDED, one
+
+
+@pytest.mark.parametrize("name", EXPERIMENTS)
+def test_a_claim_says_what_was_measured_and_where_it_is_from(name):
+    _, found = made(name)
+    for one in found:
+        assert one.text and one.section and one.condition and one.statistic
+        assert one.above < one.below
+        assert one.estimate.low <= one.estimate.value <= one.estimate.high
+    told = [(one.text, one.condition, one.statistic) for one in found]
+    assert len(set(told)) == len(told)
+
+
+@pytest.mark.parametrize("name", sorted(set(EXPERIMENTS) - {"mass_gap"}))
+def test_claims_are_made_of_the_conditions_there_are(name):
+    frame, everything = made(name)
+    everything = {(one.text, one.condition, one.statistic): one for one in everything}
+    for condition in frame.condition.unique():
+        for one in EXPERIMENTS[name].claims(frame[frame.condition == condition]):
+            assert one.condition.split(",")[0] == condition
+            assert one == everything[one.text, one.condition, one.statistic]  # The others make no difference to it.
+
+
+def test_timeouts_count_neither_for_the_accuracy_nor_for_the_length_of_randomized_interaction():
+    frame = made_data.random_heavier(2, generator())
+    agents = randomized.per_agent(frame)
+    for one in agents.itertuples():
+        rows = frame[(frame.condition == one.condition) & (frame.training_seed == one.training_seed)
+                     & (frame.interaction == one.interaction)]  # fmt: skip
+        assert (rows.label < 0).any() == (one.interaction == "learned")
+        rows = rows[rows.label >= 0]
+        assert one.accuracy == (rows.reward > 0).sum() / len(rows)
+        assert one.length == pytest.approx(rows.interactions.sum() / len(rows))
+
+
+def test_an_agent_who_answers_only_when_it_chooses_its_pokes_is_left_out():
+    frame = made_data.random_towers(4, generator())
+    lost = (frame.training_seed == 2) & (frame.interaction == "random")
+    silent = frame.assign(label=frame.label.where(~lost, -1))
+    without = frame[frame.training_seed != 2]
+    assert EXPERIMENTS["random_towers"].claims(silent) == EXPERIMENTS["random_towers"].claims(without)
+
+
+def test_one_agent_whose_slope_is_another_makes_the_claim_about_each_agent_fail():
+    found = individual.find_claims(made_data.slopes(made_data.NUM_AGENTS, generator(), odd_one=4.0))
+    assert len(found) == 6
+    for one in found:
+        # The mean of five times -4 and once 4 has an interval of t_5 * 3.27 / sqrt(6) = 3.4 about -2.7: undecided.
+        assert one.verdict == (FAILS if one.condition.endswith("each agent") else UNDECIDED)
+
+
+def test_modes_that_differ_between_agents_leave_the_claim_undecided():
+    few, many = (made_data.pokes(2, generator(), means=(5.0, 3.0, mean), spread=0.2) for mean in (2.0, 5.0))
+    mixed = few.assign(interactions=few.interactions.where(few.training_seed == 0, many.interactions))
+    modal = next(one for one in population.find_claims(mixed) if one.statistic.startswith("modal"))
+    assert (modal.estimate.low, modal.estimate.high) == (2, 5)
+    assert modal.verdict == UNDECIDED
+
+
+def test_success_at_the_end_is_that_of_the_last_twentieth_of_training():
+    frame = made_data.learning_towers(2, generator())
+    final = learning.final_success(frame)
+    for one in final.itertuples():
+        run = frame[(frame.condition == one.condition) & (frame.training_seed == one.training_seed)]
+        # 200 rows, the last at 4 M frames: those from 3.8 M on are the last eleven.
+        assert one.success_rate == pytest.approx(run.success_rate.to_numpy()[-11:].mean())
+
+
+def test_a_level_is_reached_where_the_mean_of_five_rows_is_first_at_it():
+    frame = made_data.learning_towers(1, generator())
+    frame = frame[frame.condition == "F-F"].copy()
+    frame["success_rate"] = [0.2] * 100 + [0.9] * 100
+    step = int(frame.frames.iloc[0])  # Of the first row.
+    # After k rows of 0.9 the mean of the last five is 0.2 + 0.14 k: 0.62 after three, and 0.9 after five.
+    for level, row in ((0.5, 103), (0.61, 103), (0.7, 104), (0.89, 105)):
+        assert learning.frames_to_reach(frame, level).frames.tolist() == [row * step]
+    assert learning.frames_to_reach(frame, 0.95).frames.tolist() == [math.inf]
+    assert learning.frames_to_reach(frame.sample(frac=1, random_state=0), 0.61).frames.tolist() == [103 * step]
+
+
+@pytest.mark.parametrize("never, verdict", [("direct", HOLDS), ("fist", FAILS)])
+def test_an_actuator_with_which_nobody_learns_is_the_slower_one(never, verdict):
+    frame = made_data.learning_towers(made_data.NUM_AGENTS, generator(), **{never: 1e9})
+    found = [one for one in EXPERIMENTS["learning_towers"].claims(frame) if "faster" in one.text]
+    assert [one.verdict for one in found] == [verdict, verdict]
+
+
+def test_the_better_half_is_the_larger_one_where_the_number_is_odd():
+    assert ideal_gap_lib.median_of_top_half(np.array([1.0, 5.0, 3.0, 2.0, 4.0])) == 4  # Of 5, 4, 3.
+    assert ideal_gap_lib.median_of_top_half(np.array([1.0, 4.0, 3.0, 2.0])) == 3.5  # Of 4, 3.
+    assert ideal_gap_lib.median_of_top_half(np.array([0.7])) == 0.7
