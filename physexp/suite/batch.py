@@ -47,9 +47,7 @@ class BatchEnvironment:
         self._num_threads = int(num_threads)
         self._controls = task.controls
         self._everyone = np.arange(self.num_environments)
-        self._seeds = np.array([seeding.environment_seed(task.options.random, i) for i in range(self.num_environments)])
-        self._next_episodes = np.zeros(self.num_environments, np.int64)
-        self._needs_reset = np.ones(self.num_environments, bool)
+        self.reseed(task.options.random)
         self._structures = np.zeros(self.num_environments, np.int64)
         self._answers = np.zeros(self.num_environments, np.int64)
         self._steps = np.zeros(self.num_environments, np.int64)
@@ -57,6 +55,14 @@ class BatchEnvironment:
         self._hidden: np.ndarray | None = None
         self._groups: dict[int, _Group] = {}
         self._observations = task.blank_observations(self.num_environments)
+
+    def reseed(self, random) -> None:
+        """Takes another seed: every environment starts its first episode next; `random` as in `task_kwargs`."""
+        self._task.reseed(random)
+        seed = self._task.options.random
+        self._seeds = np.array([seeding.environment_seed(seed, i) for i in range(self.num_environments)])
+        self._next_episodes = np.zeros(self.num_environments, np.int64)
+        self._needs_reset = np.ones(self.num_environments, bool)
 
     # Specs are those of the single environment.
 

@@ -213,6 +213,11 @@ class QuestionTask(composer.Task):
         """Index of the right label in the current episode; never observable."""
         return int(self.answers(self.hidden[None])[0])
 
+    def reseed(self, random) -> None:
+        """Takes another seed: the next reset starts its first episode; `random` as in `Options`."""
+        self.options = dataclasses.replace(self.options, random=random)
+        self.next_episode = 0
+
     @property
     def episode(self) -> int:
         """Index of the current episode, -1 before the first."""

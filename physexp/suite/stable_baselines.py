@@ -1,0 +1,71 @@
+"""A batch of environments for Stable-Baselines3 (and sb3-contrib), whose vector environments reset at once."""
+
+from typing import Any
+
+from gymnasium import spaces
+import numpy as np
+from stable_baselines3.common.vec_env import base_vec_env
+
+from physexp import suite
+from physexp.suite import gymnasium as gymnasium_lib
+
+
+class VecEnv(base_vec_env.VecEnv):
+    """Many environments that step together; an episode that ends is followed by the next one in the same step.
+
+    `infos[i]` then has `terminal_observation` and `correct_answer`, and `TimeLimit.truncated`, which is never true:
+    running out of time is a wrong answer.
+    """
+
+    def __init__(self, domain: str, task: str, num_envs: int, num_threads: int = 1, **task_kwargs: Any):
+        """Loads a batch; arguments as for `suite.load_batch`.
+
+        Raises:
+          ValueError: for an unknown name or a bad argument.
+        """
+        self._batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
+        self.render_mode = None
+        super().__init__(num_envs, gymnasium_lib.observation_space(self._batch.observation_spec()),
+                         spaces.Discrete(self._batch.action_spec().num_values))  # fmt: skip
+
+    def reset(self):
+        if self._seeds[0] is not None:  # `seed` has been called: it takes effect with the next reset.
+            self._batch.reseed(self._seeds[0])
+        self._reset_seeds()
+        self._reset_options()
+        return dict(self._batch.reset().observation)
+
+    def step_async(self, actions: np.ndarray) -> None:
+        self._actions = actions
+
+    def step_wait(self):
+        timestep = self._batch.step(self._actions)
+        ended = timestep.last()
+        observation = dict(timestep.observation)
+        infos: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
+        if ended.any():
+            answers, rows = self._batch.correct_answers, np.flatnonzero(ended)
+            for row in rows:
+                terminal = {name: value[row] for name, value in observation.items()}
+                infos[row] = {"terminal_observation": terminal, "correct_answer": int(answers[row]),
+                              "TimeLimit.truncated": False}  # fmt: skip
+            first = self._batch.reset(rows).observation
+            for name, value in observation.items():
+                observation[name] = value.copy()
+                observation[name][rows] = first[name]
+        return observation, timestep.reward.astype(np.float32), ended, infos
+
+    def close(self) -> None:
+        self._batch.close()
+
+    def get_attr(self, attr_name: str, indices=None) -> list[Any]:
+        return [getattr(self, attr_name)] * len(list(self._get_indices(indices)))
+
+    def set_attr(self, attr_name: str, value: Any, indices=None) -> None:
+        raise NotImplementedError("the environments of a batch have no attributes of their own")
+
+    def env_method(self, method_name: str, *method_args, indices=None, **method_kwargs) -> list[Any]:
+        raise NotImplementedError("the environments of a batch have no methods of their own")
+
+    def env_is_wrapped(self, wrapper_class, indices=None) -> list[bool]:
+        return [False] * len(list(self._get_indices(indices)))

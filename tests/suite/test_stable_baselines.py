@@ -1,0 +1,53 @@
+"""Our batches under Stable-Baselines3: its conventions, and a learner of sb3-contrib that learns on them."""
+
+import numpy as np
+from sb3_contrib import RecurrentPPO
+from stable_baselines3.common import vec_env
+
+from physexp import suite
+from physexp.suite import stable_baselines
+
+
+def test_an_episode_that_ends_is_followed_by_the_next_in_the_same_step(seed):
+    vector = stable_baselines.VecEnv("which_is_heavier", "features", 5, random=seed)
+    batch = suite.load_batch("which_is_heavier", "features", 5, {"random": seed})
+    observation = vector.reset()
+    np.testing.assert_array_equal(observation["heights"], batch.reset().observation["heights"])
+    generator = np.random.default_rng(seed)
+    for _ in range(40):
+        actions, answers = generator.integers(8, size=5), batch.correct_answers
+        expected = batch.step(actions)
+        observation, rewards, dones, infos = vector.step(actions)
+        np.testing.assert_array_equal(rewards, expected.reward)
+        np.testing.assert_array_equal(dones, expected.last())
+        for row in range(5):
+            if dones[row]:
+                np.testing.assert_array_equal(
+                    infos[row]["terminal_observation"]["heights"], expected.observation["heights"][row]
+                )
+                assert infos[row]["correct_answer"] == answers[row]
+                assert not observation["heights"][row].any()  # Every block is at rest again.
+            else:
+                assert infos[row] == {}
+                np.testing.assert_array_equal(observation["heights"][row], expected.observation["heights"][row])
+        if dones.any():
+            batch.reset(np.flatnonzero(dones))
+
+
+def test_recurrent_ppo_of_sb3_contrib_learns_to_beat_chance():
+    batch = stable_baselines.VecEnv("which_is_heavier", "features", 64, random=0, difficulty=20.0)
+    vector = vec_env.VecNormalize(batch, norm_reward=False)  # Heights are tenths of a metre.
+    learner = RecurrentPPO("MultiInputLstmPolicy", vector, n_steps=16, batch_size=512, n_epochs=10, learning_rate=3e-3,
+                           ent_coef=0.05, gamma=0.95, gae_lambda=1.0, seed=0,
+                           policy_kwargs={"lstm_hidden_size": 32, "net_arch": []})  # fmt: skip
+    learner.learn(60_000)
+    observation, states, starts = vector.reset(), None, np.ones(64, bool)
+    verdicts = []
+    for _ in range(40):
+        actions, states = learner.predict(observation, states, starts)
+        observation, rewards, starts, _ = vector.step(actions)
+        verdicts += list(rewards[starts])
+    right, total = sum(verdict > 0 for verdict in verdicts), len(verdicts)
+    # Chance is a quarter right: 4 standard deviations above it, and half as much again, is no luck.
+    assert total > 100
+    assert right / total > 0.25 + 4 * np.sqrt(0.25 * 0.75 / total)
