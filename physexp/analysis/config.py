@@ -26,7 +26,7 @@ def _prior(num_interactions: int, label: float) -> tuple[float, ...]:
 PRESETS = {
     ("which_is_heavier", "features"): _HEAVIER,
     ("which_is_heavier", "pixels"): _HEAVIER_PIXELS,
-    ("towers", "direct_features"): _TOWERS.replace(frames=600_000, action_prior=_prior(20, -1.0)),
+    ("towers", "direct_features"): _TOWERS.replace(frames=1_000_000, action_prior=_prior(20, -1.0)),
     ("towers", "fist_features"): _TOWERS.replace(frames=500_000, action_prior=_prior(4, -3.0)),
     ("towers", "direct_pixels"): _TOWERS_PIXELS.replace(frames=400_000, action_prior=_prior(20, -1.0)),
     ("towers", "fist_pixels"): _TOWERS_PIXELS.replace(frames=500_000, action_prior=_prior(4, -3.0)),
