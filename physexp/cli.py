@@ -47,6 +47,7 @@ class Train:
       task: the task; `physexp tasks` lists them.
       difficulty: the paper's beta, for Which is Heavier.
       control_timestep: time between actions, s.
+      replay_every: environment steps between replays, which go into the run's folder; 0 for none.
       agent: the agent.
       run_dir: the run's folder; by default one named after the run, under runs/.
       resume: continue the run in that folder, with its own configuration.
@@ -57,6 +58,7 @@ class Train:
     agent: OmitArgPrefixes[config_lib.a3c.A3CConfig]
     difficulty: float | None = None
     control_timestep: float | None = None
+    replay_every: int = 1_000_000
     run_dir: Path | None = None
     resume: bool = False
 
@@ -67,7 +69,7 @@ class Train:
 
         config = config_lib.TrainConfig(
             domain=self.domain, task=self.task, difficulty=self.difficulty, control_timestep=self.control_timestep,
-            agent=self.agent,
+            replay_every=self.replay_every, agent=self.agent,
         )  # fmt: skip
         run = run_lib.Run(self.run_dir or Path("runs") / config.name)
         if self.resume:

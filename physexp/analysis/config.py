@@ -48,14 +48,23 @@ class TrainConfig:
       task: the task's name.
       difficulty: the paper's beta, for Which is Heavier only; None for the task's default.
       control_timestep: time between actions, s; None for the task's default.
+      replay_every: environment steps between replays that training writes; 0 for none.
       agent: the agent's configuration.
+
+    Raises:
+      ValueError: if `replay_every` is no integer >= 0.
     """
 
     domain: str
     task: str
     difficulty: float | None = None
     control_timestep: float | None = None
+    replay_every: int = 0
     agent: a3c.A3CConfig
+
+    def __post_init__(self):
+        if not isinstance(self.replay_every, int) or isinstance(self.replay_every, bool) or self.replay_every < 0:
+            raise ValueError(f"replay_every is {self.replay_every!r}; give an integer >= 0")
 
     @property
     def task_kwargs(self) -> dict:

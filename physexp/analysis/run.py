@@ -4,6 +4,7 @@ config.json       the whole configuration, with versions and seeds
 metrics.csv       a row every few seconds of training
 episodes.parquet  the episodes of one update for each of those rows, a part for each checkpoint
 checkpoints/      the shared variables (safetensors) and the facts beside them (JSON)
+replays/*.rrd     episodes for the rerun viewer
 agent.safetensors the network alone, in half precision, once `keep_agent_only` has put it in their place
 """
 
@@ -140,8 +141,7 @@ class Run:
         found = self.checkpointer.latest()
         if found is None:
             raise ValueError(f"{self.path} holds no checkpoint yet; let the training write one")
-        prefix = "network/"
-        return {name.removeprefix(prefix): value for name, value in found[0].items() if name.startswith(prefix)}
+        return network_variables(found[0])
 
     def keep_agent_only(self) -> None:
         """Keeps the network, in half precision, in the place of checkpoints and episodes: this run will not go on."""
@@ -188,6 +188,12 @@ class Run:
         for part in (self.path / "episodes.parquet").glob("part-*.parquet"):
             if int(part.stem.removeprefix("part-")) > frames:
                 part.unlink()
+
+
+def network_variables(tensors: dict[str, torch.Tensor]) -> dict[str, torch.Tensor]:
+    """The network's variables by name, of a checkpoint's tensors."""
+    prefix = "network/"
+    return {name.removeprefix(prefix): value for name, value in tensors.items() if name.startswith(prefix)}
 
 
 def renderer(config: config_lib.TrainConfig) -> str:

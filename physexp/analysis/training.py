@@ -15,6 +15,7 @@ from physexp.analysis import config as config_lib
 from physexp.analysis import run as run_lib
 
 ROW_SECONDS = 5.0  # Between rows of metrics.csv.
+_REPLAY_SEED = 2_000_003  # Of the episode that replays show, apart from those of training and evaluation.
 
 
 def make_environment(config: config_lib.TrainConfig, seed: int, num_environments: int, num_threads: int):
@@ -84,7 +85,7 @@ class _Recorder:
         self._seconds = 0.0
         self._started = self._checkpointed = time.monotonic()
         self._row_started = 0.0  # Set by the first update: the workers take a while to start.
-        self._frames_at_row = 0
+        self._frames_at_row = self._replayed = 0
         self._window: list[agent_lib.Update] = []
         self._snapshot: dict | None = None
         self._later: list[agent_lib.Update] = []
@@ -100,7 +101,7 @@ class _Recorder:
         agent.restore(tensors)
         self._frames, self._updates = int(tensors["frames"]), int(tensors["updates"])
         self._episodes, self._seconds = facts["episodes"], facts["seconds"]
-        self._frames_at_row = self._frames
+        self._frames_at_row = self._replayed = self._frames
         self._run.rewind(self._frames)
 
     def add(self, update: agent_lib.Update) -> None:
@@ -146,12 +147,25 @@ class _Recorder:
             columns = {name: sum((record[name] for record in self._records), []) for name in self._records[0]}
             self._run.append_episodes(self._frames, columns)
             self._records = []
+        if self._config.replay_every and self._frames - self._replayed >= self._config.replay_every:
+            self._write_replay(tensors)
         facts = {"episodes": self._episodes, "seconds": self._elapsed(), "versions": run_lib.versions()}
         self._run.checkpointer.save(tensors, facts)
         self._checkpointed = time.monotonic()
         later, self._later = self._later, []
         for update in later:
             self.add(update)
+
+    def _write_replay(self, tensors: dict) -> None:
+        """Lets the agent as it is now play one episode, always the same, and writes it for the viewer."""
+        from physexp.analysis.replay import recording, writing  # Takes seconds to import, and most runs do without.
+
+        network = agent_lib.make_network(make_environment(self._config, 0, 1, 1), self._config.agent)
+        network.load_state_dict(run_lib.network_variables(tensors))
+        title = f"{self._config.name} after {self._frames:,} steps"
+        path = self._run.path / "replays" / f"{self._frames:015d}.rrd"
+        writing.write(path, [lambda: [recording.reenact(network, self._config, _REPLAY_SEED, 0, None, title)]])
+        self._replayed = self._frames
 
     def _elapsed(self) -> float:
         return self._seconds + time.monotonic() - self._started

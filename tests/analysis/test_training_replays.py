@@ -1,0 +1,54 @@
+"""Training writes replays of the agent as it becomes, into the run's folder."""
+
+import dataclasses
+import subprocess
+
+import pytest
+from rerun.chunk import RrdReader
+
+from physexp.agents.a3c import config as a3c
+from physexp.analysis import config as config_lib
+from physexp.analysis import run as run_lib
+from physexp.analysis import training
+from physexp.analysis.replay import writing
+
+SMALL = config_lib.TrainConfig(
+    domain="which_is_heavier", task="features", difficulty=10.0,
+    agent=a3c.A3CConfig(num_workers=1, envs_per_worker=32, frames=6000, checkpoint_seconds=0.05),
+)  # fmt: skip
+
+
+def trained(path, **changes):
+    run = run_lib.Run(path)
+    run.create(dataclasses.replace(SMALL, **changes))
+    training.train(run)
+    return run
+
+
+def test_replays_are_written_with_the_checkpoints_once_enough_steps_have_passed(tmp_path):
+    run = trained(tmp_path / "run", replay_every=2000)
+    replays = sorted((run.path / "replays").glob("*.rrd"))
+    frames = [int(path.stem) for path in replays]
+    assert 1 <= len(frames) <= 3
+    assert all(later - earlier >= 2000 for earlier, later in zip([0, *frames], frames, strict=False))
+    for path in replays:
+        subprocess.run([writing.PROGRAM, "rrd", "verify", path], check=True, capture_output=True)
+        (recording,) = RrdReader(str(path)).recordings()
+        assert f"after {int(path.stem):,} steps" in recording.recording_id
+
+
+def test_every_replay_shows_the_same_instance(tmp_path):
+    run = trained(tmp_path / "run", replay_every=1000)
+    names = {
+        RrdReader(str(path)).recordings()[0].recording_id.split("-")[0] for path in (run.path / "replays").iterdir()
+    }
+    assert names == {str(training._REPLAY_SEED)}
+
+
+def test_without_the_option_there_are_none(tmp_path):
+    assert not (trained(tmp_path / "run").path / "replays").exists()
+
+
+def test_a_negative_number_is_refused():
+    with pytest.raises(ValueError, match="replay_every is -1; give an integer >= 0"):
+        dataclasses.replace(SMALL, replay_every=-1)
