@@ -1,5 +1,7 @@
 """The command line. Heavy libraries are imported by the command that needs them, so that `--help` is quick."""
 
+from collections.abc import Callable
+import contextlib
 import dataclasses
 import json
 from pathlib import Path
@@ -13,7 +15,8 @@ from physexp.analysis import config as config_lib
 
 BenchSection = Literal["reset", "batch", "training", "peers", "pixels", "pretrained", "learning"]
 
-_EXTRAS = {"matplotlib": "analysis", "pandas": "analysis", "stable_baselines3": "bench", "sb3_contrib": "bench"}
+_EXTRAS = {"matplotlib": "analysis", "pandas": "analysis", "stable_baselines3": "bench", "sb3_contrib": "bench",
+           "tensorboard": "tensorboard"}  # fmt: skip
 """Libraries that some commands need, and the extra that brings each."""
 
 
@@ -50,6 +53,7 @@ class Train:
       replay_every: environment steps between replays, which go into the run's folder; 0 for none.
       agent: the agent.
       run_dir: the run's folder; by default one named after the run, under runs/.
+      tensorboard: write the metrics for TensorBoard too.
       resume: continue the run in that folder, with its own configuration.
     """
 
@@ -60,6 +64,7 @@ class Train:
     control_timestep: float | None = None
     replay_every: int = 1_000_000
     run_dir: Path | None = None
+    tensorboard: bool = False
     resume: bool = False
 
     def run(self) -> None:
@@ -78,8 +83,18 @@ class Train:
         else:
             suite.load_task(config.domain, config.task, config.task_kwargs)  # Refuses what no run can be made of.
             run.create(config)
-        with progress.Progress(run.config) as display:
-            training.train(run, display)
+        with contextlib.ExitStack() as stack:
+            logs: list[Callable[[dict], None]] = [stack.enter_context(progress.Progress(run.config))]
+            if self.tensorboard:
+                from physexp.analysis import tensorboard
+
+                logs.append(stack.enter_context(tensorboard.TensorBoard(run)))
+
+            def report(row: dict) -> None:
+                for log in logs:
+                    log(row)
+
+            training.train(run, report)
         print(run.path)
 
 

@@ -1,0 +1,33 @@
+"""Metrics for TensorBoard are those of the CSV."""
+
+import subprocess
+
+from tensorboard.backend.event_processing import event_accumulator
+from trainers import PHYSEXP
+
+from physexp.analysis import run as run_lib
+
+COMMAND = [PHYSEXP, "train", "which_is_heavier", "features", "--num-workers", "1", "--envs-per-worker", "32"]
+
+
+def logged(run):
+    accumulator = event_accumulator.EventAccumulator(str(run.path / "tensorboard"))
+    accumulator.Reload()
+    return {name: accumulator.Scalars(name) for name in accumulator.Tags()["scalars"]}
+
+
+def test_every_metric_is_logged_at_its_steps(tmp_path):
+    run = run_lib.Run(tmp_path / "run")
+    subprocess.run([*COMMAND, "--frames", "3000", "--run-dir", run.path, "--tensorboard"], check=True)
+    scalars, rows = logged(run), run.metrics()
+    assert set(scalars) == set(run_lib.METRICS) - {"frames"}
+    for name, points in scalars.items():
+        assert [point.step for point in points] == [row["frames"] for row in rows]
+        for point, row in zip(points, rows, strict=True):
+            assert abs(point.value - row[name]) <= 1e-4 * abs(row[name]) + 1e-6  # The CSV has six digits.
+
+
+def test_without_the_option_there_is_no_log(tmp_path):
+    run = run_lib.Run(tmp_path / "run")
+    subprocess.run([*COMMAND, "--frames", "1000", "--run-dir", run.path], check=True)
+    assert not (run.path / "tensorboard").exists() and run.metrics()
