@@ -168,6 +168,28 @@ class Replay:
 
 
 @dataclasses.dataclass
+class Play:
+    """Play yourself, in the terminal, beside the ideal experimenter and a trained agent.
+
+    Attributes:
+      domain: the domain.
+      task: the task; features need no GL.
+      difficulty: the paper's beta, for Which is Heavier.
+      seed: of the environment; by default one from the operating system.
+    """
+
+    domain: Positional[str]
+    task: Positional[str]
+    difficulty: float | None = None
+    seed: int | None = None
+
+    def run(self) -> None:
+        from physexp.analysis import play
+
+        play.play(self.domain, self.task, self.difficulty, self.seed)
+
+
+@dataclasses.dataclass
 class Publish:
     """Keep a run's agent, in half precision, as one that `physexp.agents.load_pretrained` returns.
 
@@ -366,6 +388,7 @@ def _parse(arguments: list[str]):
         Annotated[Train, tyro.conf.subcommand("train", default=train)],
         Annotated[Evaluate, tyro.conf.subcommand("evaluate")],
         Annotated[Replay, tyro.conf.subcommand("replay")],
+        Annotated[Play, tyro.conf.subcommand("play")],
         Annotated[Publish, tyro.conf.subcommand("publish")],
         Annotated[Ideal, tyro.conf.subcommand("ideal")],
         Annotated[Reproduce, tyro.conf.subcommand("reproduce")],
