@@ -10,6 +10,7 @@ from physexp.analysis import config as config_lib
 from physexp.analysis import progress, records, training
 from physexp.analysis import run as run_lib
 from physexp.analysis.experiments import base
+from physexp.suite import task
 
 _POLL_SECONDS = 5.0
 
@@ -131,7 +132,7 @@ def _play(this: run_lib.Run, trial: base.Trial):
         evaluation.load_network(this), dataclasses.replace(config, control_timestep=timestep), trial.num_episodes,
         trial.interaction, num_threads=1, num_steps=trial.num_steps,
     )  # fmt: skip
-    return records.table(played, config, trial.interaction, timestep or 0.1)
+    return records.table(played, config, trial.interaction, timestep or task.Options.control_timestep)
 
 
 class _Meter:

@@ -242,3 +242,11 @@ def test_interference_changes_what_the_environment_gets_and_what_is_recorded():
     assert episodes.lengths.tolist() == [1] * 8
     assert episodes.actions.tolist() == [[6] * 8]
     np.testing.assert_array_equal(episodes.rewards[0], np.where(episodes.answers == 2, 1, -1))
+
+
+def test_a_round_to_be_looked_at_can_be_received_after_its_sender_has_ended():
+    inputs = torch.arange(6.0, requires_grad=True).reshape(2, 3)
+    episodes = acting.Round(inputs, np.zeros((1, 2), int), np.zeros((1, 2)), np.ones(2, int), np.zeros(2, int))
+    looked_at = episodes.detached()
+    assert isinstance(looked_at.inputs, np.ndarray)  # A tensor would be fetched from the process that sent it.
+    np.testing.assert_array_equal(looked_at.inputs, [[0, 1, 2], [3, 4, 5]])

@@ -26,7 +26,7 @@ class Round:
       answers: the right labels, int64 [B]: for records, not for learning.
     """
 
-    inputs: torch.Tensor | None
+    inputs: torch.Tensor | np.ndarray | None
     actions: np.ndarray
     rewards: np.ndarray
     lengths: np.ndarray
@@ -37,12 +37,16 @@ class Round:
         return int(self.lengths.sum())
 
     def detached(self) -> "Round":
-        """The same round, to be looked at but not to be learned from."""
-        return dataclasses.replace(self, inputs=None if self.inputs is None else self.inputs.detach().cpu())
+        """The same round, to be looked at but not to be learned from.
+
+        Its inputs are a plain array: a tensor sent to another process can be received only while its sender lives.
+        """
+        assert isinstance(self.inputs, torch.Tensor)
+        return dataclasses.replace(self, inputs=self.inputs.detach().cpu().numpy())
 
     def packed_inputs(self, order: np.ndarray) -> torch.Tensor:
         """The inputs, episodes in the given order: [N, F]."""
-        assert self.inputs is not None
+        assert isinstance(self.inputs, torch.Tensor)
         played = np.arange(len(self.actions))[:, None] < self.lengths
         places = played.ravel().cumsum().reshape(played.shape) - 1
         return self.inputs[self.packed(places, order).to(self.inputs.device)]
