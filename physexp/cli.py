@@ -6,13 +6,15 @@ import dataclasses
 import json
 from pathlib import Path
 import sys
-from typing import Annotated, Literal, Union, get_args
+from typing import Annotated, Generic, Literal, TypeVar, Union, get_args
 
 import tyro
 from tyro.conf import OmitArgPrefixes, Positional
 
+from physexp.agents import config as agent_config
 from physexp.analysis import config as config_lib
 
+Config = TypeVar("Config", bound=agent_config.AgentConfig)
 BenchSection = Literal["reset", "batch", "training", "peers", "pixels", "pretrained", "learning"]
 
 _EXTRAS = {"matplotlib": "analysis", "pandas": "analysis", "stable_baselines3": "bench", "sb3_contrib": "bench",
@@ -42,8 +44,8 @@ class Tasks:
 
 
 @dataclasses.dataclass
-class Train:
-    """Train an agent.
+class Train(Generic[Config]):
+    """Train an agent; `--agent ppo --help` shows what PPO may be told.
 
     Attributes:
       domain: the domain: which_is_heavier or towers.
@@ -51,7 +53,8 @@ class Train:
       difficulty: the paper's beta, for Which is Heavier.
       control_timestep: time between actions, s.
       replay_every: environment steps between replays, which go into the run's folder; 0 for none.
-      agent: the agent.
+      agent: a3c, the paper's, or ppo.
+      config: what the agent is told.
       run_dir: the run's folder; by default one named after the run, under runs/.
       tensorboard: write the metrics for TensorBoard too.
       resume: continue the run in that folder, with its own configuration.
@@ -59,7 +62,8 @@ class Train:
 
     domain: Positional[str]
     task: Positional[str]
-    agent: OmitArgPrefixes[config_lib.a3c.A3CConfig]
+    config: OmitArgPrefixes[Config]
+    agent: Literal["a3c", "ppo"] = "a3c"
     difficulty: float | None = None
     control_timestep: float | None = None
     replay_every: int = 1_000_000
@@ -74,7 +78,7 @@ class Train:
 
         config = config_lib.TrainConfig(
             domain=self.domain, task=self.task, difficulty=self.difficulty, control_timestep=self.control_timestep,
-            replay_every=self.replay_every, agent=self.agent,
+            replay_every=self.replay_every, agent=self.config,
         )  # fmt: skip
         run = run_lib.Run(self.run_dir or Path("runs") / config.name)
         if self.resume:
@@ -116,7 +120,7 @@ class Evaluate:
     episodes: int = 1000
     interaction: Literal["learned", "random"] = "learned"
     greedy: bool = False
-    device: config_lib.a3c.Device = "auto"
+    device: agent_config.Device = "auto"
     seed: int | None = None
     json: bool = False
 
@@ -380,12 +384,14 @@ def main() -> None:
 
 
 def _parse(arguments: list[str]):
-    """The command that the arguments describe; the defaults of `train` are those of the task it names."""
-    preset = config_lib.preset(*arguments[1:3]) if arguments[:1] == ["train"] else config_lib.a3c.A3CConfig()
-    train = Train(domain=tyro.MISSING, task=tyro.MISSING, agent=preset)
+    """The command that the arguments describe; the defaults of `train` are those of its task and of its agent."""
+    algorithm: Literal["a3c", "ppo"] = "ppo" if _follows("--agent", "ppo", arguments) else "a3c"
+    preset = config_lib.preset(*(arguments[1:3] if arguments[:1] == ["train"] else ()), algorithm=algorithm)
+    train: Train = Train(domain=tyro.MISSING, task=tyro.MISSING, config=preset, agent=algorithm)
+    train_type = Train[config_lib.ALGORITHMS[algorithm]]  # type: ignore[valid-type]
     commands = Union[  # noqa: UP007
         Annotated[Tasks, tyro.conf.subcommand("tasks")],
-        Annotated[Train, tyro.conf.subcommand("train", default=train)],
+        Annotated[train_type, tyro.conf.subcommand("train", default=train)],
         Annotated[Evaluate, tyro.conf.subcommand("evaluate")],
         Annotated[Replay, tyro.conf.subcommand("replay")],
         Annotated[Play, tyro.conf.subcommand("play")],
@@ -399,6 +405,10 @@ def _parse(arguments: list[str]):
     ]
     description = "Environments in which an agent must experiment, and agents that learn to."
     return tyro.cli(commands, prog="physexp", description=description, args=arguments)  # type: ignore[call-overload]
+
+
+def _follows(flag: str, value: str, arguments: list[str]) -> bool:
+    return f"{flag}={value}" in arguments or (flag, value) in zip(arguments, arguments[1:], strict=False)
 
 
 def _tell(line: str) -> None:

@@ -1,6 +1,5 @@
 """The command line as a user runs it."""
 
-import functools
 import json
 from pathlib import Path
 import resource
@@ -10,7 +9,6 @@ import sys
 import pytest
 
 from physexp import suite
-from physexp.agents.a3c import agent as agent_lib
 from physexp.agents.a3c import config as a3c
 from physexp.analysis import config as config_lib
 from physexp.analysis import run as run_lib
@@ -41,7 +39,7 @@ def untrained(tmp_path):
     )
     run = run_lib.Run(tmp_path / "run")
     run.create(config)
-    agent = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent)
+    agent = training.make_agent(config)
     run.checkpointer.save(agent.save(), {"episodes": 0, "seconds": 0.0, "versions": run_lib.versions()})
     return run
 

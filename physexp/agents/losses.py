@@ -61,8 +61,36 @@ def actor_critic_losses(logits: torch.Tensor, values: torch.Tensor, actions: tor
       entropy of the policy (nats).
     """
     log_probabilities = torch.log_softmax(logits, dim=-1)
-    taken = log_probabilities.gather(-1, actions[..., None]).squeeze(-1)
-    policy_loss = -(taken * advantages.detach()).mean()
-    baseline_loss = 0.5 * (returns - values).square().mean()
-    entropy = -(log_probabilities.exp() * log_probabilities).sum(-1).mean()
-    return policy_loss, baseline_loss, entropy
+    policy_loss = -(_of_actions(log_probabilities, actions) * advantages.detach()).mean()
+    return policy_loss, _baseline_loss(values, returns), _entropy(log_probabilities)
+
+
+def clipped_losses(logits: torch.Tensor, values: torch.Tensor, actions: torch.Tensor, behaviour: torch.Tensor,
+                   returns: torch.Tensor, advantages: torch.Tensor, clip: float):  # fmt: skip
+    """The three losses of PPO (Schulman et al., 2017, equations 7 and 9), averaged over all leading axes.
+
+    Args:
+      logits, values, actions, returns, advantages: as for `actor_critic_losses`.
+      behaviour: log probabilities of the actions under the policy that took them, [...].
+      clip: epsilon: past a ratio of 1 - epsilon or 1 + epsilon, an action gains nothing more.
+
+    Returns:
+      Policy loss, -min(ratio times the advantage, clipped ratio times the advantage); baseline loss, half the squared
+      error of the values; and the mean entropy of the policy (nats).
+    """
+    log_probabilities = torch.log_softmax(logits, dim=-1)
+    ratios = (_of_actions(log_probabilities, actions) - behaviour).exp()
+    gains = torch.minimum(ratios * advantages, ratios.clamp(1 - clip, 1 + clip) * advantages)
+    return -gains.mean(), _baseline_loss(values, returns), _entropy(log_probabilities)
+
+
+def _of_actions(log_probabilities: torch.Tensor, actions: torch.Tensor) -> torch.Tensor:
+    return log_probabilities.gather(-1, actions[..., None]).squeeze(-1)
+
+
+def _baseline_loss(values: torch.Tensor, returns: torch.Tensor) -> torch.Tensor:
+    return 0.5 * (returns - values).square().mean()
+
+
+def _entropy(log_probabilities: torch.Tensor) -> torch.Tensor:
+    return -(log_probabilities.exp() * log_probabilities).sum(-1).mean()

@@ -11,8 +11,7 @@ import numpy as np
 from safetensors import torch as safetensors
 import torch
 
-from physexp.agents import checkpointing, networks
-from physexp.agents.a3c import acting
+from physexp.agents import acting, checkpointing, networks
 
 FOLDER = Path(__file__).with_name("pretrained_agents")
 _DEFAULT_DIFFICULTY = 5
@@ -31,9 +30,9 @@ class Pretrained:
     network: networks.RecurrentActorCritic
     card: dict[str, Any]
 
-    def actor(self, seed: int = 0, greedy: bool = False) -> acting.A3CActor:
+    def actor(self, seed: int = 0, greedy: bool = False) -> acting.RecurrentActor:
         """An actor with this network; `seed` determines its actions, `greedy` takes the likeliest ones instead."""
-        return acting.A3CActor(self.network, seed, greedy)
+        return acting.RecurrentActor(self.network, seed, greedy)
 
 
 def name(domain: str, task: str, difficulty: float | None) -> str:

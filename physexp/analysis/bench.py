@@ -4,7 +4,6 @@ Machines are noisy: a figure is the median over repetitions in which both sides 
 """
 
 from collections.abc import Callable, Iterator, Sequence
-import functools
 from pathlib import Path
 import statistics
 import time
@@ -176,19 +175,18 @@ def _training() -> Iterator[dict]:
 
 def training_rate(task: tuple[str, str], seconds: float) -> float:
     """Frames per second of the default agent on two workers, from scratch, once all workers are under way."""
-    from physexp.agents.a3c import agent as agent_lib
     from physexp.analysis import config as config_lib
     from physexp.analysis import training
 
-    config = config_lib.TrainConfig(domain=task[0], task=task[1], agent=config_lib.preset(*task))
-    agent = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent)
+    preset = config_lib.A3C[task]
+    agent = training.make_agent(config_lib.TrainConfig(domain=task[0], task=task[1], agent=preset))
     heard: set[int] = set()
     start, frames, at_start = None, 0, 0
     for update in agent.updates(poll_seconds=0.1):
         if update is not None:
-            heard.add(update.worker)
+            heard.add(update.seed)
             frames = int(update.metrics["frames"])
-        if start is None and len(heard) == config.agent.num_workers:
+        if start is None and len(heard) == preset.num_workers:
             start, at_start = time.perf_counter(), frames
         if start is not None and time.perf_counter() - start > seconds:
             rate = (frames - at_start) / (time.perf_counter() - start)

@@ -121,12 +121,12 @@ def _bare_network_rate(task: tuple[str, str]) -> float:
     """Each image passes forward once to act, and forward and backward to train, in rounds like those of training."""
     import torch
 
+    from physexp.agents import agent as agent_lib
     from physexp.agents import losses
-    from physexp.agents.a3c import agent as agent_lib
     from physexp.analysis import config as config_lib
 
     torch.set_num_threads(1)
-    config = config_lib.preset(*task)
+    config = config_lib.A3C[task]
     environment = suite.load_batch(*task, 1)
     network = agent_lib.make_network(environment, config)
     shape = (_ROUND_STEPS, config.envs_per_worker, rendering.SIZE, rendering.SIZE, 3)

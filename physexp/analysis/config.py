@@ -3,9 +3,17 @@
 Imports nothing heavy, since the command line is made from it.
 """
 
+from collections.abc import Mapping
 import dataclasses
 
+from physexp.agents import config as agent_config
 from physexp.agents.a3c import config as a3c
+from physexp.agents.ppo import config as ppo
+
+ALGORITHMS: dict[str, type[agent_config.AgentConfig]] = {
+    config.algorithm: config for config in (a3c.A3CConfig, ppo.PPOConfig)
+}
+"""The configurations of the agents that there are, by name."""
 
 _HEAVIER = a3c.A3CConfig(envs_per_worker=128, trace=0.98, observation_scale=80.0)
 # Simulation is what a tower costs, not learning: smaller updates and more of them. Blocks move by their own size.
@@ -23,7 +31,7 @@ def _prior(num_interactions: int, label: float) -> tuple[float, ...]:
     return (0.0,) * num_interactions + (label,) * 5
 
 
-PRESETS = {
+A3C = {
     ("which_is_heavier", "features"): _HEAVIER,
     ("which_is_heavier", "pixels"): _HEAVIER_PIXELS,
     ("towers", "direct_features"): _TOWERS.replace(frames=1_000_000, action_prior=_prior(20, -1.0)),
@@ -31,12 +39,31 @@ PRESETS = {
     ("towers", "direct_pixels"): _TOWERS_PIXELS.replace(frames=400_000, action_prior=_prior(20, -1.0)),
     ("towers", "fist_pixels"): _TOWERS_PIXELS.replace(frames=500_000, action_prior=_prior(4, -3.0)),
 }
-"""The default configuration of each task's agent; `docs/performance.md` says how they were found."""
+"""The default configuration of each task's A3C; `docs/performance.md` says how they were found."""
 
 
-def preset(domain: str = "", task: str = "") -> a3c.A3CConfig:
-    """The default configuration of a task's agent; A3C's own for a task without a preset."""
-    return PRESETS.get((domain, task), a3c.A3CConfig())
+def _ppo(preset: a3c.A3CConfig, **changes) -> ppo.PPOConfig:
+    """What PPO is told: what A3C is told of the task, and what is its own."""
+    shared = {field.name: getattr(preset, field.name) for field in dataclasses.fields(agent_config.AgentConfig)}
+    return ppo.PPOConfig(**{**shared, **changes})
+
+
+PPO = {
+    ("which_is_heavier", "features"): _ppo(_HEAVIER, frames=1_500_000, learning_rate=3e-3),
+    ("which_is_heavier", "pixels"): _ppo(_HEAVIER_PIXELS, learning_rate=5e-4, num_environments=64),
+    **{
+        ("towers", task): _ppo(A3C["towers", task], learning_rate=1e-3, num_environments=32, num_minibatches=2)
+        for task in ("direct_features", "fist_features", "direct_pixels", "fist_pixels")
+    },
+}
+"""The same of PPO."""
+
+_PRESETS: Mapping[str, Mapping[tuple[str, str], agent_config.AgentConfig]] = {"a3c": A3C, "ppo": PPO}
+
+
+def preset(domain: str = "", task: str = "", *, algorithm: str = "a3c") -> agent_config.AgentConfig:
+    """The default configuration of a task's agent; the algorithm's own for a task without a preset."""
+    return _PRESETS[algorithm].get((domain, task)) or ALGORITHMS[algorithm]()
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -60,7 +87,7 @@ class TrainConfig:
     difficulty: float | None = None
     control_timestep: float | None = None
     replay_every: int = 0
-    agent: a3c.A3CConfig
+    agent: agent_config.AgentConfig
 
     def __post_init__(self):
         if not isinstance(self.replay_every, int) or isinstance(self.replay_every, bool) or self.replay_every < 0:
@@ -76,12 +103,16 @@ class TrainConfig:
     def name(self) -> str:
         """A name for the run's folder."""
         difficulty = "" if self.difficulty is None else f"-difficulty{self.difficulty:g}"
-        return f"{self.domain}-{self.task}{difficulty}-discount{self.agent.discount:g}-seed{self.agent.seed}"
+        algorithm = "" if isinstance(self.agent, a3c.A3CConfig) else f"-{self.agent.algorithm}"
+        discount = f"-discount{self.agent.discount:g}"
+        return f"{self.domain}-{self.task}{difficulty}{algorithm}{discount}-seed{self.agent.seed}"
 
     def to_json(self) -> dict:
-        return dataclasses.asdict(self)
+        fields = dataclasses.asdict(self)
+        return {**fields, "agent": {"algorithm": self.agent.algorithm, **fields["agent"]}}
 
     @classmethod
     def from_json(cls, fields: dict) -> "TrainConfig":
         agent = {**fields["agent"], "action_prior": tuple(fields["agent"].get("action_prior", ()))}  # JSON has lists.
-        return cls(**{**fields, "agent": a3c.A3CConfig(**agent)})
+        algorithm = ALGORITHMS[agent.pop("algorithm", "a3c")]
+        return cls(**{**fields, "agent": algorithm(**agent)})

@@ -10,9 +10,8 @@ import numpy as np
 import torch
 
 from physexp import suite
-from physexp.agents import devices, networks, pretrained
-from physexp.agents.a3c import acting
-from physexp.agents.a3c import agent as agent_lib
+from physexp.agents import acting, devices, networks, pretrained
+from physexp.agents import agent as agent_lib
 from physexp.analysis import config as config_lib
 from physexp.analysis import run as run_lib
 from physexp.analysis import statistics, training

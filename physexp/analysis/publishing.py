@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from physexp.agents import agent as agent_lib
 from physexp.agents import pretrained
-from physexp.agents.a3c import agent as agent_lib
 from physexp.analysis import config as config_lib
 from physexp.analysis import evaluation, training
 from physexp.analysis import run as run_lib
@@ -59,7 +59,9 @@ def command(config: config_lib.TrainConfig) -> str:
     words = ["physexp", "train", config.domain, config.task]
     for name, value in config.task_kwargs.items():
         words += [f"--{name.replace('_', '-')}", f"{value:g}"]
-    preset = dataclasses.asdict(config_lib.preset(config.domain, config.task))
+    preset = dataclasses.asdict(config_lib.preset(config.domain, config.task, algorithm=config.agent.algorithm))
+    if config.agent.algorithm != config_lib.preset().algorithm:
+        words += ["--agent", config.agent.algorithm]
     for name, value in dataclasses.asdict(config.agent).items():
         if value != preset[name]:
             words += _flag(name, value)

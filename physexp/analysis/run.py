@@ -24,7 +24,7 @@ from pyarrow import parquet
 from safetensors import torch as safetensors
 import torch
 
-from physexp.agents import checkpointing
+from physexp.agents import checkpointing, learning
 from physexp.analysis import config as config_lib
 
 FORMAT = 1
@@ -141,7 +141,7 @@ class Run:
         found = self.checkpointer.latest()
         if found is None:
             raise ValueError(f"{self.path} holds no checkpoint yet; let the training write one")
-        return network_variables(found[0])
+        return learning.network_variables(found[0])
 
     def keep_agent_only(self) -> None:
         """Keeps the network, in half precision, in the place of checkpoints and episodes: this run will not go on."""
@@ -188,12 +188,6 @@ class Run:
         for part in (self.path / "episodes.parquet").glob("part-*.parquet"):
             if int(part.stem.removeprefix("part-")) > frames:
                 part.unlink()
-
-
-def network_variables(tensors: dict[str, torch.Tensor]) -> dict[str, torch.Tensor]:
-    """The network's variables by name, of a checkpoint's tensors."""
-    prefix = "network/"
-    return {name.removeprefix(prefix): value for name, value in tensors.items() if name.startswith(prefix)}
 
 
 def renderer(config: config_lib.TrainConfig) -> str:

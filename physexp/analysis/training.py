@@ -5,12 +5,16 @@ import functools
 import signal
 import threading
 import time
-from typing import Any
 
 import numpy as np
 
 from physexp import suite
-from physexp.agents.a3c import agent as agent_lib
+from physexp.agents import agent as agent_lib
+from physexp.agents import learning
+from physexp.agents.a3c import agent as a3c
+from physexp.agents.a3c.config import A3CConfig
+from physexp.agents.ppo import agent as ppo
+from physexp.agents.ppo.config import PPOConfig
 from physexp.analysis import config as config_lib
 from physexp.analysis import run as run_lib
 
@@ -22,6 +26,18 @@ def make_environment(config: config_lib.TrainConfig, seed: int, num_environments
     """The environments of a run, with a seed of their own."""
     task_kwargs = {**config.task_kwargs, "random": seed}
     return suite.load_batch(config.domain, config.task, num_environments, task_kwargs, num_threads)
+
+
+def make_agent(config: config_lib.TrainConfig) -> agent_lib.Agent:
+    """The agent of a run, as it is before training."""
+    environments = functools.partial(make_environment, config)
+    match config.agent:
+        case A3CConfig():
+            return a3c.A3C(environments, config.agent)
+        case PPOConfig():
+            return ppo.PPO(environments, config.agent)
+        case _:
+            raise TypeError(f"no agent is made from {type(config.agent).__name__}")
 
 
 def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None) -> None:
@@ -38,7 +54,7 @@ def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None) -
       RuntimeError: if training cannot go on; the last checkpoint is whole.
     """
     config = run.config
-    agent = agent_lib.A3C(functools.partial(make_environment, config), config.agent)
+    agent = make_agent(config)
     run.lock()
     try:
         recorder = _Recorder(run, config, report)
@@ -51,7 +67,7 @@ def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None) -
         run.unlock()
 
 
-def _run(agent: agent_lib.A3C, recorder: "_Recorder") -> None:
+def _run(agent: agent_lib.Agent, recorder: "_Recorder") -> None:
     try:
         for update in agent.updates():
             if update is not None:
@@ -59,7 +75,7 @@ def _run(agent: agent_lib.A3C, recorder: "_Recorder") -> None:
             if recorder.checkpoint_is_due():
                 recorder.snapshot(agent.save())
         recorder.snapshot(agent.save())
-    except agent_lib.WorkerError as error:
+    except learning.AgentError as error:
         where = recorder.save_failure(error)
         raise RuntimeError(f"training stopped: {error}{where}; the last checkpoint is whole, --resume it") from None
     except OSError as error:
@@ -80,7 +96,6 @@ class _Recorder:
         self._run, self._config, self._report = run, config, report
         self.path = run.path
         self._num_interactions = suite.load_task(config.domain, config.task, config.task_kwargs).num_interactions
-        self._seeds = [agent_lib.worker_seed(config.agent.seed, worker) for worker in range(config.agent.num_workers)]
         self._frames = self._updates = self._episodes = 0
         self._seconds = 0.0
         self._started = self._checkpointed = time.monotonic()
@@ -91,7 +106,7 @@ class _Recorder:
         self._later: list[agent_lib.Update] = []
         self._records: list[dict[str, list]] = []
 
-    def resume(self, agent: agent_lib.A3C) -> None:
+    def resume(self, agent: agent_lib.Agent) -> None:
         """Puts the agent and the records back to the last checkpoint, if there is one."""
         found = self._run.checkpointer.latest()
         if found is None:
@@ -128,13 +143,12 @@ class _Recorder:
         self._snapshot = tensors
         self._write_checkpoint_when_complete()
 
-    def save_failure(self, error: agent_lib.WorkerError) -> str:
+    def save_failure(self, error: learning.AgentError) -> str:
         """Saves the episodes that made the loss diverge; returns a phrase that says where."""
-        if error.round is None:
+        if error.batch is None:
             return ""
         path = self._run.path / "failed_batch.npz"
-        arrays: dict[str, Any] = {name: np.asarray(value) for name, value in vars(error.round).items()}
-        np.savez_compressed(path, **arrays)
+        np.savez_compressed(path, **error.batch)
         return f" (the batch is in {path})"
 
     def _write_checkpoint_when_complete(self) -> None:
@@ -161,7 +175,7 @@ class _Recorder:
         from physexp.analysis.replay import recording, writing  # Takes seconds to import, and most runs do without.
 
         network = agent_lib.make_network(make_environment(self._config, 0, 1, 1), self._config.agent)
-        network.load_state_dict(run_lib.network_variables(tensors))
+        network.load_state_dict(learning.network_variables(tensors))
         title = f"{self._config.name} after {self._frames:,} steps"
         path = self._run.path / "replays" / f"{self._frames:015d}.rrd"
         writing.write(path, [lambda: [recording.reenact(network, self._config, _REPLAY_SEED, 0, None, title)]])
@@ -205,12 +219,11 @@ class _Recorder:
         """The episodes of an update as columns of `run.EPISODES`."""
         episodes = update.episodes
         size = len(episodes.lengths)
-        batch_seed, number = self._seeds[update.worker], int(update.metrics["rounds"])
-        environments = [suite.environment_seed(batch_seed, i) for i in range(size)]
+        environments = [suite.environment_seed(update.seed, i) for i in range(size)]
         return {
             "frames": [self._frames] * size,
             "seed": environments,
-            "episode": [number] * size,
+            "episode": [int(update.metrics["rounds"])] * size,
             **episode_columns(episodes, self._num_interactions),
         }
 

@@ -6,8 +6,7 @@ from scipy import stats
 import torch
 
 from physexp import suite
-from physexp.agents import environment_loop, networks
-from physexp.agents.a3c import acting
+from physexp.agents import acting, environment_loop, networks
 
 torch.set_num_threads(1)  # As a worker does; more of them only wait for each other.
 
@@ -43,7 +42,7 @@ def test_acting_logits_and_values_equal_those_of_training(domain, task):
     batch = suite.load_batch(domain, task, 24, {"random": seed})
     network = make_network(batch, seed, Recording)
     network.calibrate(acting.as_tensors(batch.reset().observation))
-    episodes = acting.play_round(network, batch, 0, np.random.default_rng(seed))
+    episodes = acting.play_round(network, batch, 0, np.random.default_rng(seed), differentiable=True)
     batch.close()
     lengths = episodes.lengths
     assert len(set(lengths)) > 2, "episodes of different lengths are what makes this hard"
@@ -51,8 +50,10 @@ def test_acting_logits_and_values_equal_those_of_training(domain, task):
     order = np.argsort(-lengths, kind="stable")
     alive = [order[lengths[order] > t] for t in range(lengths.max())]  # Longest first, as packing wants them.
     batch_sizes = torch.tensor([len(rows) for rows in alive])
+    selected = episodes.select()
+    assert selected.batch_sizes.tolist() == batch_sizes.tolist()
     with torch.no_grad():
-        logits, values = network.unroll(episodes.packed_inputs(order), batch_sizes)
+        logits, values = network.unroll(selected.inputs, batch_sizes)
     start = 0
     for t, rows in enumerate(alive):
         acted_logits, acted_values = network.seen[t]
@@ -87,7 +88,7 @@ def test_what_was_encoded_to_act_is_what_there_is_to_learn_from(task):
     packed = [seen[i][t] for t in range(episodes.lengths.max()) for i in order if t < episodes.lengths[i]]
     name = {"features": "heights", "pixels": "pixels"}[task]
     anew = network.encode({name: torch.from_numpy(np.stack(packed))})
-    acted = episodes.packed_inputs(order)
+    acted = episodes.select().inputs
     torch.testing.assert_close(acted, anew, rtol=1e-4, atol=1e-5)
     weights = torch.randn_like(anew)
     parameters = [parameter for parameter in (*network.torso.parameters(), network.lstm.weight_ih_l0)]
@@ -99,11 +100,41 @@ def test_what_was_encoded_to_act_is_what_there_is_to_learn_from(task):
 def test_packing_lays_out_all_first_steps_then_all_second_steps_in_the_given_order():
     # Episode 0 has 1 action, 1 has 3, 2 has 2; the entry of step t of episode b is 10 b + t. From the longest to the
     # shortest (1, 2, 0): first steps 10, 20, 0; second steps 11, 21; third step 12.
-    array = np.array([[0, 10, 20], [-1, 11, 21], [-1, 12, -1]])
-    zeros = np.zeros((3, 3))
-    episodes = acting.Round(None, zeros.astype(np.int64), zeros, np.array([1, 3, 2]), np.zeros(3, np.int64))
-    assert episodes.packed(array, np.array([1, 2, 0])).tolist() == [10, 20, 0, 11, 21, 12]
+    actions = np.array([[0, 10, 20], [-1, 11, 21], [-1, 12, -1]])
+    inputs = torch.tensor([[0.0], [10], [20], [11], [21], [12]])  # As they were played: episodes in their own order.
+    episodes = acting.Round(actions, np.zeros((3, 3)), np.array([1, 3, 2]), np.array([7, 8, 9]), inputs)
     assert episodes.num_frames == 6
+    selected = episodes.select()
+    assert selected.packed(selected.actions).tolist() == [10, 20, 0, 11, 21, 12]
+    assert selected.inputs[:, 0].tolist() == [10, 20, 0, 11, 21, 12]
+    assert selected.batch_sizes.tolist() == [3, 2, 1]
+    assert selected.answers.tolist() == [8, 9, 7]
+
+
+def test_selecting_some_episodes_keeps_their_steps_and_no_padding():
+    # As above, of episodes 2 and 0 only: first steps 20, 0; second step 21; nobody has a third.
+    actions = np.array([[0, 10, 20], [-1, 11, 21], [-1, 12, -1]])
+    inputs = torch.tensor([[0.0], [10], [20], [11], [21], [12]])
+    episodes = acting.Round(actions, np.zeros((3, 3)), np.array([1, 3, 2]), np.array([7, 8, 9]), inputs)
+    some = episodes.select(np.array([0, 2]))
+    assert some.packed(some.actions).tolist() == some.inputs[:, 0].tolist() == [20, 0, 21]
+    assert some.actions.shape == (2, 2)
+    assert some.answers.tolist() == [9, 7]
+
+
+@pytest.mark.parametrize(("domain", "task"), suite.ALL_TASKS)
+def test_a_transcript_gives_back_the_probabilities_and_values_of_acting(domain, task):
+    seed = fresh_seed()
+    batch = suite.load_batch(domain, task, 12, {"random": seed})
+    network = make_network(batch, seed)
+    played = acting.play_round(network, batch, 0, np.random.default_rng(seed), transcribe=True)
+    batch.close()
+    some = played.select(np.array([3, 7, 1, 11, 5]))
+    with torch.no_grad():
+        logits, values = network.unroll(network.encode(some.transcript.observation), some.batch_sizes)
+    taken = torch.log_softmax(logits, -1).gather(1, some.packed(some.actions)[:, None])[:, 0]
+    torch.testing.assert_close(taken, some.transcript.log_probabilities, atol=1e-5, rtol=1e-5)
+    torch.testing.assert_close(values, some.transcript.values, atol=1e-5, rtol=1e-5)
 
 
 def test_draws_follow_the_softmax_of_the_logits():
@@ -133,7 +164,7 @@ def test_a_round_depends_on_its_number_and_its_generator_but_not_on_earlier_roun
         network = make_network(batch, seed)
         for number in earlier:
             acting.play_round(network, batch, number, np.random.default_rng(number))
-        episodes = acting.play_round(network, batch, 2, np.random.default_rng([seed, 2]))
+        episodes = acting.play_round(network, batch, 2, np.random.default_rng([seed, 2]), differentiable=True)
         batch.close()
         return episodes
 
@@ -172,7 +203,7 @@ def test_the_lstm_starts_every_episode_from_zero():
     seed = fresh_seed()
     environment = suite.load("which_is_heavier", "features", {"random": seed})
     network = make_network(environment, seed, Recording)
-    actor = acting.A3CActor(network, seed=seed)
+    actor = acting.RecurrentActor(network, seed=seed)
     timestep = environment.reset()
     for _ in range(2):
         actor.observe_first(timestep)
@@ -188,7 +219,7 @@ def test_the_lstm_starts_every_episode_from_zero():
 def test_an_actor_plays_any_environment_of_the_suite_in_a_loop(domain, task):
     seed = fresh_seed()
     environment = suite.load(domain, task, {"random": seed})
-    actor = acting.A3CActor(make_network(environment, seed), seed=seed)
+    actor = acting.RecurrentActor(make_network(environment, seed), seed=seed)
     limit = environment.task.rules.step_limit
     metrics = environment_loop.EnvironmentLoop(environment, actor).run(3)
     environment.close()
@@ -206,7 +237,7 @@ def test_a_greedy_actor_takes_the_likeliest_action_whatever_its_seed():
     for actor_seed in (0, 1):
         environment.task.next_episode = 0
         timestep = environment.reset()
-        actor = acting.A3CActor(network, seed=actor_seed, greedy=True)
+        actor = acting.RecurrentActor(network, seed=actor_seed, greedy=True)
         actor.observe_first(timestep)
         actions = []
         while not timestep.last():
@@ -224,7 +255,7 @@ def test_actors_of_one_seed_draw_the_same_actions_and_of_two_seeds_others():
     environment.close()
 
     def draws(seed):
-        actor = acting.A3CActor(network, seed=seed)
+        actor = acting.RecurrentActor(network, seed=seed)
         return [actor.select_action(observation) for _ in range(200)]
 
     assert draws(5) == draws(5)
@@ -244,9 +275,12 @@ def test_interference_changes_what_the_environment_gets_and_what_is_recorded():
     np.testing.assert_array_equal(episodes.rewards[0], np.where(episodes.answers == 2, 1, -1))
 
 
-def test_a_round_to_be_looked_at_can_be_received_after_its_sender_has_ended():
+def test_the_arrays_of_a_round_can_be_received_after_their_sender_has_ended():
     inputs = torch.arange(6.0, requires_grad=True).reshape(2, 3)
-    episodes = acting.Round(inputs, np.zeros((1, 2), int), np.zeros((1, 2)), np.ones(2, int), np.zeros(2, int))
-    looked_at = episodes.detached()
-    assert isinstance(looked_at.inputs, np.ndarray)  # A tensor would be fetched from the process that sent it.
-    np.testing.assert_array_equal(looked_at.inputs, [[0, 1, 2], [3, 4, 5]])
+    transcript = acting.Transcript({"heights": torch.ones(2, 4)}, torch.zeros(2), torch.ones(2))
+    zeros = np.zeros((1, 2), int)
+    arrays = acting.Round(zeros, zeros, np.ones(2, int), np.zeros(2, int), inputs, transcript).arrays()
+    names = "actions rewards lengths answers inputs heights log_probabilities values"
+    assert set(arrays) == set(names.split())
+    assert all(isinstance(array, np.ndarray) for array in arrays.values())  # A tensor is fetched from its sender.
+    np.testing.assert_array_equal(arrays["inputs"], [[0, 1, 2], [3, 4, 5]])

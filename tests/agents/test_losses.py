@@ -7,8 +7,8 @@ import pytest
 import torch
 
 from physexp import suite
-from physexp.agents import losses, networks
-from physexp.agents.a3c import acting, learning
+from physexp.agents import acting, losses, networks
+from physexp.agents.a3c import learning
 
 
 def test_returns_are_the_discounted_sums_of_what_follows():
@@ -112,9 +112,39 @@ def test_a_rounds_losses_are_means_over_the_steps_that_were_played_and_no_paddin
             head.bias.zero_()
     inputs = network.encode({"heights": torch.zeros(4, 4)}).detach()
     rewards = np.array([[1, 0], [0, 0], [0, -1]], np.float32)
-    episodes = acting.Round(inputs, np.zeros((3, 2), np.int64), rewards, np.array([1, 3]), np.zeros(2, np.int64))
+    episodes = acting.Round(np.zeros((3, 2), np.int64), rewards, np.array([1, 3]), np.zeros(2, np.int64), inputs)
     batch.close()
     policy_loss, baseline_loss, entropy = learning.round_losses(network, episodes, 0.5)
     assert policy_loss.item() == pytest.approx(math.log(8) * -0.75 / 4, abs=1e-6)
     assert baseline_loss.item() == pytest.approx(0.5 * 2.3125 / 4, abs=1e-6)
     assert entropy.item() == pytest.approx(math.log(8), abs=1e-6)
+
+
+def test_the_clipped_losses_of_two_actions_are_the_ones_computed_by_hand():
+    # Logits 0, 0: both actions have probability 1/2, entropy ln 2. Action 0 was taken with probability 1/4, twice.
+    # The ratio is 2; clip 0.2 leaves 1.2. Where the advantage is 1 the gain is min(2, 1.2) = 1.2; where it is -1 the
+    # gain is min(-2, -1.2) = -2: what made a bad action likelier is not forgiven. Policy loss: -(1.2 - 2) / 2 = 0.4.
+    # Values 0.5 and 0 with returns 1 and -1: 0.5 * (0.25 + 1) / 2 = 0.3125.
+    policy_loss, baseline_loss, entropy = losses.clipped_losses(
+        torch.zeros(2, 2),
+        torch.tensor([0.5, 0.0]),
+        torch.tensor([0, 0]),
+        torch.full((2,), math.log(0.25)),
+        torch.tensor([1.0, -1.0]),
+        torch.tensor([1.0, -1.0]),
+        clip=0.2,
+    )
+    assert policy_loss.item() == pytest.approx(0.4, abs=1e-6)
+    assert baseline_loss.item() == pytest.approx(0.3125, abs=1e-6)
+    assert entropy.item() == pytest.approx(math.log(2), abs=1e-6)
+
+
+def test_an_action_that_has_gained_its_clip_is_pushed_no_further():
+    # Ratios of an action whose advantage is positive: 1 (just played) and 2 (past the clip). Only the first has a
+    # gradient, that of the plain policy gradient: pi - onehot, over the mean of two.
+    logits = torch.zeros(2, 2, requires_grad=True)
+    behaviour = torch.tensor([math.log(0.5), math.log(0.25)])
+    ones = torch.ones(2)
+    loss, _, _ = losses.clipped_losses(logits, ones, torch.tensor([0, 0]), behaviour, ones, ones, clip=0.2)
+    (gradient,) = torch.autograd.grad(loss, logits)
+    torch.testing.assert_close(gradient, torch.tensor([[-0.25, 0.25], [0.0, 0.0]]))

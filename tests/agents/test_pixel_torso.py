@@ -5,8 +5,7 @@ import pytest
 import torch
 
 from physexp import suite
-from physexp.agents import devices, networks
-from physexp.agents.a3c import acting
+from physexp.agents import acting, devices, networks
 
 SCALE = 3.0
 # What bf16, with 8 bits of precision, leaves of three convolutions and a product: a hundredth of the largest output.

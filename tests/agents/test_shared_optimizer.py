@@ -9,9 +9,9 @@ import torch
 from torch import multiprocessing
 
 from physexp import suite
-from physexp.agents import networks
-from physexp.agents.a3c import acting, learning
+from physexp.agents import acting, learning, networks
 from physexp.agents.a3c import config as config_lib
+from physexp.agents.a3c import learning as a3c
 
 torch.set_num_threads(1)  # As a worker does; more of them only wait for each other.
 CONFIG = config_lib.A3CConfig(num_workers=2, envs_per_worker=8, frames=10**9)
@@ -29,17 +29,16 @@ def apply_constant_gradient(shared, gradient):
     shared.optimizer.step()
 
 
-def learn_once(shared, lock, worker, results):
+def learn_once(shared, worker, results):
     torch.set_num_threads(1)
     batch = suite.load_batch("which_is_heavier", "features", CONFIG.envs_per_worker, {"random": worker})
     torch.manual_seed(0)
     network = networks.RecurrentActorCritic(batch.observation_spec(), 8, lstm_units=16, observation_scale=10.0)
 
-    def rounds():
-        while True:
-            yield acting.play_round(network, batch, 0, np.random.default_rng(worker), differentiable=True)
+    def play(number):
+        return acting.play_round(network, batch, number, np.random.default_rng(worker), differentiable=True)
 
-    learner = learning.A3CLearner(network, shared, lock, rounds(), worker, CONFIG)
+    learner = a3c.A3CLearner(network, shared, play, worker, CONFIG)
     metrics = learner.step()
     results.put((metrics["updates"], learner.last_round.num_frames))
 
@@ -50,7 +49,7 @@ def context():
 
 
 def test_two_processes_move_one_set_of_adam_statistics(context):
-    shared = learning.SharedVariables(make_network(), num_workers=2)
+    shared = learning.Variables(make_network(), num_workers=2).share_memory()
     before = [parameter.detach().clone() for parameter in shared.network.parameters()]
     for gradient in (1.0, 2.0):  # One process after the other, so that the order is known.
         process = context.Process(target=apply_constant_gradient, args=(shared, gradient))
@@ -71,10 +70,11 @@ def test_two_processes_move_one_set_of_adam_statistics(context):
 
 
 def test_two_learners_at_once_share_weights_statistics_and_counters(context):
-    shared = learning.SharedVariables(make_network(), num_workers=2)
+    shared = learning.Variables(make_network(), num_workers=2)
+    memory = a3c.SharedMemory(shared, context.Lock())
     before = {name: value.clone() for name, value in shared.tensors().items()}
-    lock, results = context.Lock(), context.Queue()
-    processes = [context.Process(target=learn_once, args=(shared, lock, worker, results)) for worker in range(2)]
+    results = context.Queue()
+    processes = [context.Process(target=learn_once, args=(memory, worker, results)) for worker in range(2)]
     for process in processes:
         process.start()
     reported = [results.get(timeout=90) for _ in processes]
@@ -97,16 +97,15 @@ def test_two_learners_at_once_share_weights_statistics_and_counters(context):
 
 def test_a_learner_restores_what_it_saved():
     config = CONFIG.replace(num_workers=1)
-    shared = learning.SharedVariables(make_network(), num_workers=1)
+    shared = learning.Variables(make_network())
     batch = suite.load_batch("which_is_heavier", "features", 8, {"random": 0})
     network = networks.RecurrentActorCritic(batch.observation_spec(), 8, lstm_units=16, observation_scale=10.0)
 
-    def rounds():
-        while True:
-            number = int(shared.rounds[0])
-            yield acting.play_round(network, batch, number, np.random.default_rng(number), differentiable=True)
+    def play(number):
+        return acting.play_round(network, batch, number, np.random.default_rng(number), differentiable=True)
 
-    learner = learning.A3CLearner(network, shared, multiprocessing.get_context("spawn").Lock(), rounds(), 0, config)
+    memory = a3c.SharedMemory(shared, multiprocessing.get_context("spawn").Lock())
+    learner = a3c.A3CLearner(network, memory, play, 0, config)
     learner.run(2)
     saved = learner.save()
     learner.run(3)

@@ -1,4 +1,4 @@
-"""One worker is deterministic, and a killed and resumed run ends as if nothing had happened."""
+"""One worker, or process, is deterministic, and a killed and resumed run ends as if nothing had happened."""
 
 import time
 
@@ -15,9 +15,10 @@ from physexp.analysis import training
 FRAMES = 8_000
 
 
-@pytest.fixture(scope="module")
-def uninterrupted(tmp_path_factory):
-    run = trainers.create(tmp_path_factory.mktemp("uninterrupted") / "run", frames=FRAMES, seed=trainers.fresh_seed())
+@pytest.fixture(scope="module", params=trainers.SMALL)
+def uninterrupted(request, tmp_path_factory):
+    path = tmp_path_factory.mktemp("uninterrupted") / "run"
+    run = trainers.create(path, request.param, frames=FRAMES, seed=trainers.fresh_seed())
     training.train(run)
     return run
 
@@ -75,13 +76,16 @@ def test_training_records_everything_once_and_every_episode_can_be_rebuilt(unint
 
 def test_the_same_seed_gives_the_same_weights_to_the_last_bit(uninterrupted, tmp_path):
     agent = uninterrupted.config.agent
-    again = trainers.create(tmp_path / "run", frames=FRAMES, seed=agent.seed, checkpoint_seconds=1000.0)
+    again = trainers.create(
+        tmp_path / "run", agent.algorithm, frames=FRAMES, seed=agent.seed, checkpoint_seconds=1000.0
+    )
     training.train(again)
     assert_same_weights(again, uninterrupted)
 
 
 def test_a_run_killed_at_any_moment_resumes_to_the_same_weights(uninterrupted, tmp_path):
-    run = trainers.create(tmp_path / "run", frames=FRAMES, seed=uninterrupted.config.agent.seed)
+    agent = uninterrupted.config.agent
+    run = trainers.create(tmp_path / "run", agent.algorithm, frames=FRAMES, seed=agent.seed)
     with trainers.trainer(run) as process:
         trainers.wait_for_checkpoint(process, run, beyond=0)  # The first may be of no frames at all.
         moment = np.random.default_rng(trainers.fresh_seed()).uniform(0, 1)

@@ -1,7 +1,6 @@
 """Evaluation measures what it says: figures derived by hand, the paper's randomized interaction, and seeds."""
 
 import dataclasses
-import functools
 
 import numpy as np
 import pytest
@@ -9,7 +8,6 @@ from scipy import stats
 import torch
 
 from physexp import suite
-from physexp.agents.a3c import agent as agent_lib
 from physexp.agents.a3c import config as a3c
 from physexp.analysis import config as config_lib
 from physexp.analysis import evaluation, statistics, training
@@ -33,7 +31,7 @@ def untrained(tmp_path):
     )
     run = run_lib.Run(tmp_path / "run")
     run.create(config)
-    agent = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent)
+    agent = training.make_agent(config)
     run.checkpointer.save(agent.save(), {"episodes": 0, "seconds": 0.0, "versions": run_lib.versions()})
     return run
 

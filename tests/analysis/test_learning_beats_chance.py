@@ -1,14 +1,21 @@
 """A short real training run learns to experiment, and its pokes are what it owes its answers to."""
 
+import pytest
 import trainers
 
 from physexp.analysis import evaluation, training
 
+# Small updates and an entropy cost that stays high: few frames suffice, and the agent does not learn to be silent.
+SHORT = {
+    "a3c": {"frames": 400_000, "num_workers": 2, "envs_per_worker": 64},
+    "ppo": {"frames": 100_000, "num_environments": 64},
+}
 
-def test_a_short_run_finds_the_heaviest_block_far_more_often_than_chance(tmp_path):
-    # Small updates and an entropy cost that stays high: few frames suffice, and the agent does not learn to be silent.
+
+@pytest.mark.parametrize("algorithm", SHORT)
+def test_a_short_run_finds_the_heaviest_block_far_more_often_than_chance(algorithm, tmp_path):
     run = trainers.create(
-        tmp_path / "run", frames=400_000, num_workers=2, envs_per_worker=64, seed=trainers.fresh_seed(),
+        tmp_path / "run", algorithm, **SHORT[algorithm], seed=trainers.fresh_seed(),
         entropy_cost=0.15, final_entropy_cost=0.03, checkpoint_seconds=60.0,
     )  # fmt: skip
     training.train(run)

@@ -39,18 +39,19 @@ def test_the_command_on_the_card_describes_the_same_run(published):
     _, *arguments = shlex.split(json.loads(path.read_text())["command"])
     train = cli._parse(arguments)
     assert (train.domain, train.task, train.difficulty) == ("which_is_heavier", "features", 10.0)
-    assert train.agent == run.config.agent
+    assert train.config == run.config.agent
 
 
-@pytest.mark.parametrize("task", config_lib.PRESETS)
-def test_every_field_of_an_agent_survives_the_way_over_the_command_line(task):
+@pytest.mark.parametrize("algorithm", config_lib.ALGORITHMS)
+@pytest.mark.parametrize("task", config_lib.A3C)
+def test_every_field_of_an_agent_survives_the_way_over_the_command_line(task, algorithm):
     domain, name = task
-    changed = config_lib.preset(domain, name).replace(
+    changed = config_lib.preset(domain, name, algorithm=algorithm).replace(
         seed=3, relative_pixels=False, device="cpu", trace=0.25, action_prior=(0.5, -1.0)
     )
     config = config_lib.TrainConfig(domain=domain, task=name, agent=changed)
     _, *arguments = shlex.split(publishing.command(config))
-    assert cli._parse(arguments).agent == changed
+    assert cli._parse(arguments).config == changed
 
 
 def test_the_agent_is_the_runs_rounded_to_half_precision(published):

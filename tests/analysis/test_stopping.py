@@ -1,7 +1,7 @@
 """Whatever stops a run, it says so clearly, and nothing before the last checkpoint is lost."""
 
 import contextlib
-import functools
+import dataclasses
 import os
 import re
 import resource
@@ -16,7 +16,6 @@ import pytest
 import torch
 import trainers
 
-from physexp.agents.a3c import agent as agent_lib
 from physexp.analysis import run as run_lib
 from physexp.analysis import training
 
@@ -27,7 +26,7 @@ FEW = 10_000  # Frames that take seconds.
 def save_first_checkpoint(run, poison=False):
     """Writes the checkpoint of an untrained agent, with a NaN among its weights if asked for."""
     config = run.config
-    agent = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent)
+    agent = training.make_agent(config)
     tensors = agent.save()
     if poison:
         tensors["network/policy.bias"][0] = float("nan")
@@ -41,7 +40,7 @@ def assert_last_checkpoint_fits(run):
     assert facts["versions"] == run_lib.versions()
     assert all(value.isfinite().all() for value in tensors.values())
     config = run.config
-    agent = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent)
+    agent = training.make_agent(config)
     agent.restore(tensors)
     assert agent.frames == int(tensors["frames"])
 
@@ -94,12 +93,12 @@ def both_have_played(run):
 
 
 KILL_WHILE_IT_HOLDS_THE_LOCK = """
-    import functools, os, pathlib, signal, sys, threading, time
+    import os, pathlib, signal, sys, threading, time
     from physexp.agents.a3c import agent as agent_lib
     from physexp.analysis import run as run_lib, training
 
     config = run_lib.Run(pathlib.Path(sys.argv[1])).config
-    agent = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent)
+    agent = training.make_agent(config)
 
     def kill():
         while agent.frames == 0:
@@ -108,11 +107,11 @@ KILL_WHILE_IT_HOLDS_THE_LOCK = """
         while True:
             os.kill(pid, signal.SIGSTOP)
             time.sleep(0.001)
-            if not agent._lock.acquire(timeout=0.05):  # Only the stopped worker can be holding it.
+            if not agent.shared.lock.acquire(timeout=0.05):  # Only the stopped worker can be holding it.
                 print("killed", flush=True)
                 os.kill(pid, signal.SIGKILL)
                 return
-            agent._lock.release()
+            agent.shared.lock.release()
             os.kill(pid, signal.SIGCONT)
             time.sleep(0.005)
 
@@ -202,11 +201,11 @@ def test_a_checkpoint_of_another_network_is_refused(tmp_path):
     run = trainers.create(tmp_path / "run", lstm_units=10)
     save_first_checkpoint(run)
     config = run.config
-    other = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent.replace(lstm_units=11))
+    other = training.make_agent(dataclasses.replace(config, agent=config.agent.replace(lstm_units=11)))
     with pytest.raises(ValueError, match="does not fit the configuration.*lstm"):
         other.restore(run.checkpointer.latest()[0])
     fewer = {name: value for name, value in run.checkpointer.latest()[0].items() if name != "rounds"}
-    same = agent_lib.A3C(functools.partial(training.make_environment, config), config.agent)
+    same = training.make_agent(config)
     with pytest.raises(ValueError, match="rounds"):
         same.restore(fewer)
     same.restore(run.checkpointer.latest()[0])

@@ -24,9 +24,9 @@ def test_a_configuration_survives_json(changes):
 
 @pytest.mark.parametrize("names", suite.ALL_TASKS)
 def test_every_task_has_a_preset_and_no_other_does(names):
-    assert isinstance(config_lib.PRESETS[names], a3c.A3CConfig)
-    assert config_lib.preset(*names) is config_lib.PRESETS[names]
-    assert set(config_lib.PRESETS) == set(suite.ALL_TASKS)
+    assert config_lib.preset(*names) is config_lib.A3C[names]
+    assert config_lib.preset(*names, algorithm="ppo") is config_lib.PPO[names]
+    assert set(config_lib.A3C) == set(config_lib.PPO) == set(suite.ALL_TASKS)
 
 
 def test_only_what_was_chosen_reaches_the_task():

@@ -11,6 +11,7 @@ import time
 import numpy as np
 
 from physexp.agents.a3c import config as a3c
+from physexp.agents.ppo import config as ppo
 from physexp.analysis import config as config_lib
 from physexp.analysis import run as run_lib
 
@@ -23,11 +24,17 @@ def fresh_seed() -> int:
     return seed
 
 
-def create(path, **agent):
+SMALL = {
+    "a3c": a3c.A3CConfig(num_workers=1, envs_per_worker=32, checkpoint_seconds=0.2),
+    "ppo": ppo.PPOConfig(num_threads=1, num_environments=32, checkpoint_seconds=0.2),
+}
+"""An agent of each algorithm that makes small updates, in one process."""
+
+
+def create(path, algorithm="a3c", **agent):
     """A new run of Which is Heavier, small unless told otherwise."""
-    chosen = {"num_workers": 1, "envs_per_worker": 32, "checkpoint_seconds": 0.2, **agent}
     config = config_lib.TrainConfig(
-        domain="which_is_heavier", task="features", difficulty=10.0, agent=a3c.A3CConfig(**chosen)
+        domain="which_is_heavier", task="features", difficulty=10.0, agent=SMALL[algorithm].replace(**agent)
     )
     run = run_lib.Run(path)
     run.create(config)

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator
 import contextlib
-import dataclasses
 import os
 import queue
 import signal
@@ -11,65 +10,29 @@ import time
 import traceback
 from typing import Any
 
-import numpy as np
 import torch
 from torch import multiprocessing
 
-from physexp.agents import devices, networks
-from physexp.agents.a3c import acting, learning
+from physexp.agents import acting, devices, learning
+from physexp.agents import agent as agent_lib
 from physexp.agents.a3c import config as config_lib
-
-# Makes a worker's batch of environments from its seed, its number of environments and its number of threads.
-EnvironmentFactory = Callable[[int, int, int], Any]
+from physexp.agents.a3c import learning as a3c
 
 _STOP_SECONDS = 120.0  # For an update that is under way to finish.
 
 
-class WorkerError(RuntimeError):
-    """A worker has died; `round` holds the episodes it choked on, where it could say."""
-
-    def __init__(self, message: str, episodes: acting.Round | None = None):
-        super().__init__(message)
-        self.round = episodes
+class WorkerError(learning.AgentError):
+    """A worker has died."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Update:
-    """What one update did.
-
-    Attributes:
-      worker: who made it.
-      metrics: figures of the learner; `updates` and `frames` are counted over all workers.
-      episodes: the episodes it learned from, observations left out.
-    """
-
-    worker: int
-    metrics: dict[str, float]
-    episodes: acting.Round
-
-
-def make_network(environment, config: config_lib.A3CConfig) -> networks.RecurrentActorCritic:
-    """A network for an environment's specs, its weights drawn from the configuration's seed."""
-    with torch.random.fork_rng():
-        torch.manual_seed(config.seed)
-        return networks.RecurrentActorCritic(
-            environment.observation_spec(), environment.action_spec().num_values, **hyperparameters(config)
-        )
-
-
-def hyperparameters(config: config_lib.A3CConfig) -> dict[str, Any]:
-    """What a configuration says of the network, as its keyword arguments."""
-    return {"lstm_units": config.lstm_units, "observation_scale": config.observation_scale}
-
-
-class A3C:
+class A3C(agent_lib.Agent):
     """Runs the workers and hands out what they do.
 
     A worker's state between updates is one number, the rounds it has played: environments start their episodes, and
     actions their random numbers, from it. So a checkpoint is the shared variables and nothing else.
     """
 
-    def __init__(self, make_environment: EnvironmentFactory, config: config_lib.A3CConfig):
+    def __init__(self, make_environment: agent_lib.EnvironmentFactory, config: config_lib.A3CConfig):
         """Prepares the shared variables; the workers start with `updates`.
 
         Args:
@@ -77,56 +40,33 @@ class A3C:
           config: the configuration.
         """
         self._make_environment, self._config = make_environment, config
-        environment = make_environment(config.seed, 1, 1)
         self._context = multiprocessing.get_context("spawn")
-        self._lock = self._context.Lock()
         self._stopping = self._context.Event()
         self._updates = self._context.Queue()
-        network = make_network(environment, config)
-        network.prefer(config.action_prior)
-        if config.relative_pixels:
-            network.calibrate(acting.as_tensors(environment.reset().observation))
-        self.variables = learning.SharedVariables(network, config.num_workers)
+        environment = make_environment(config.seed, 1, 1)
+        network = agent_lib.initial_network(environment, config)
         environment.close()
+        self.shared = a3c.SharedMemory(learning.Variables(network, config.num_workers), self._context.Lock())
         self._workers: list[Any] = []
 
     @property
-    def frames(self) -> int:
-        """Environment steps trained on."""
-        return int(self.variables.frames)
+    def frames(self):
+        return self.shared.variables.frames.item()
 
-    def save(self) -> dict[str, torch.Tensor]:
-        """A consistent copy of the shared variables, between two updates.
-
-        Raises:
-          WorkerError: if a worker has died.
-        """
-        while not self._lock.acquire(timeout=1.0):
+    def save(self):
+        """As `Agent.save`; raises WorkerError if a worker has died."""
+        while not self.shared.lock.acquire(timeout=1.0):
             self._check_workers()  # One that was killed while it held the lock never gives it back.
         try:
-            return {name: value.clone() for name, value in self.variables.tensors().items()}
+            return self.shared.variables.save()
         finally:
-            self._lock.release()
+            self.shared.lock.release()
 
-    def restore(self, tensors: dict[str, torch.Tensor]) -> None:
-        """Takes up what `save` returned; call it before `updates`.
+    def restore(self, tensors):
+        self.shared.restore(tensors)
 
-        Raises:
-          ValueError: if the tensors do not fit this configuration.
-        """
-        own = self.variables.tensors()
-        unfit = [name for name in own if name not in tensors or tensors[name].shape != own[name].shape]
-        if unfit or set(tensors) != set(own):
-            raise ValueError(f"the checkpoint does not fit the configuration: it differs in {unfit or 'its names'}")
-        for name, value in own.items():
-            value.copy_(tensors[name])
-
-    def updates(self, poll_seconds: float = 0.5) -> Iterator[Update | None]:
-        """Trains until `frames` are reached or `stop` is called; yields each update, or None when none came in time.
-
-        Raises:
-          WorkerError: if a worker dies; the others are stopped.
-        """
+    def updates(self, poll_seconds=0.5):
+        """As `Agent.updates`; when a worker dies, the others are stopped."""
         self._start()
         try:
             while True:
@@ -145,16 +85,14 @@ class A3C:
         finally:
             self._end()
 
-    def stop(self) -> None:
-        """Asks the workers to finish the update they are at."""
+    def stop(self):
         self._stopping.set()
 
     def _start(self) -> None:
         for index in range(self._config.num_workers):
             worker = self._context.Process(
                 target=_work,
-                args=(index, self._make_environment, self._config, self.variables, self._lock, self._stopping,
-                      self._updates),
+                args=(index, self._make_environment, self._config, self.shared, self._stopping, self._updates),
                 name=f"physexp worker {index}",
                 daemon=True,
             )  # fmt: skip
@@ -206,37 +144,38 @@ def _inherited_by_workers():
             os.environ["OMP_NUM_THREADS"] = threads
 
 
-def _work(index, make_environment, config, shared, lock, stopping, updates) -> None:
+def _work(index, make_environment, config, shared, stopping, updates) -> None:
     """A worker's process: updates until all frames are done or it is told to stop."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Also when it was started by another thread than the main one.
     torch.set_num_threads(1)
     parent = multiprocessing.parent_process()
     try:
-        environment = make_environment(worker_seed(config.seed, index), config.envs_per_worker, 1)
-        network = make_network(environment, config)
-        network.to(devices.choose(config.device, network.sees_images))
-        rounds = _rounds(index, network, environment, config, shared)
-        learner = learning.A3CLearner(network, shared, lock, rounds, index, config)
-        while not stopping.is_set() and int(shared.frames) < config.frames:
-            metrics = learner.step()
+        for update in work(index, make_environment, config, shared, stopping.is_set):
             if parent is not None and not parent.is_alive():  # Killed: nobody is left to stop this worker.
                 updates.cancel_join_thread()
                 return
-            updates.put(Update(index, metrics, dataclasses.replace(learner.last_round, inputs=None)))
+            updates.put(update)
     except learning.DivergedError as error:
-        updates.put(WorkerError(f"worker {index}: {error}", error.round))
+        updates.put(WorkerError(f"worker {index}: {error}", error.batch))
     except Exception as error:
         updates.put(WorkerError(f"worker {index}: {error!r}\n{traceback.format_exc()}"))
 
 
-def _rounds(index, network, environment, config, shared) -> Iterator[acting.Round]:
-    """Rounds of episodes; each follows from its number alone."""
-    while True:
-        number = int(shared.rounds[index])
-        generator = np.random.default_rng([config.seed, index, number])
-        yield acting.play_round(network, environment, number, generator, differentiable=True)
+def work(index: int, make_environment: agent_lib.EnvironmentFactory, config: config_lib.A3CConfig, shared: a3c.Shared,
+         is_stopped: Callable[[], bool]) -> Iterator[agent_lib.Update]:  # fmt: skip
+    """What a worker does: updates of the shared variables, until all frames are done or it is stopped."""
+    seed = agent_lib.worker_seed(config.seed, index)
+    environment = make_environment(seed, config.envs_per_worker, 1)
+    network = agent_lib.make_network(environment, config)
+    network.to(devices.choose(config.device, network.sees_images))
 
+    def play(number: int) -> acting.Round:
+        generator = agent_lib.round_generator(config.seed, index, number)
+        return acting.play_round(network, environment, number, generator, differentiable=True)
 
-def worker_seed(seed: int, index: int) -> int:
-    """The seed of a worker's environments."""
-    return int(np.random.SeedSequence([seed, index]).generate_state(1, np.uint32)[0])
+    learner = a3c.A3CLearner(network, shared, play, index, config)
+    frames = shared.count_frames()
+    while frames < config.frames and not is_stopped():
+        metrics = learner.step()
+        yield agent_lib.Update(seed, metrics, learner.last_round.record())
+        frames = int(metrics["frames"])

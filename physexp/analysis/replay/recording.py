@@ -8,8 +8,7 @@ import mujoco
 import numpy as np
 
 from physexp import suite
-from physexp.agents import core, environment_loop, networks
-from physexp.agents.a3c import acting
+from physexp.agents import acting, core, environment_loop, networks
 from physexp.analysis import config as config_lib
 
 
@@ -186,7 +185,7 @@ def reenact(network: networks.RecurrentActorCritic, config: config_lib.TrainConf
     """
     environment = suite.load(config.domain, config.task, task_kwargs={**config.task_kwargs, "random": int(seed)})
     environment.task.next_episode = int(number)
-    actor: core.Actor = acting.A3CActor(network)
+    actor: core.Actor = acting.RecurrentActor(network)
     if actions is not None:
         actor = Reenactor(actor, actions)
     recorder = EpisodeRecorder(environment, config.domain, config.task, config.task_kwargs, actor, agent)

@@ -1,0 +1,85 @@
+"""What every learner may be told. Imports nothing heavy, since the command line is made from it."""
+
+from collections.abc import Mapping
+import dataclasses
+import math
+from typing import ClassVar, Literal, Self, get_args
+
+Device = Literal["auto", "cpu", "cuda"]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class AgentConfig:
+    """What learners of recurrent actor-critics have in common; a value that makes no sense raises ValueError.
+
+    Attributes:
+      discount: the agent's gamma: the cost of information (paper, Section 3).
+      frames: environment steps to train for.
+      seed: seed of everything random: weights, environments, actions.
+      learning_rate: step size of Adam, decaying linearly to zero over `frames`.
+      entropy_cost: weight of the entropy bonus at the start.
+      final_entropy_cost: the same at the end; the decay is exponential over `frames`.
+      trace: how far along an episode advantages look for what an action brought (lambda of generalized advantage
+        estimation); 1 is the paper's, which looks to the end.
+      baseline_cost: weight of the value loss.
+      max_gradient_norm: gradients are scaled down to this norm.
+      lstm_units: hidden units of the LSTM (paper: 100).
+      observation_scale: factor on features, which are in metres, or on pixels in [0, 1]. What matters in them, a
+        centimetre or a tenth of a metre, should be of the order of one.
+      action_prior: logits that the policy starts from, one for each action, or none for a uniform start; the paper's is
+        uniform.
+      relative_pixels: show the network how pixels differ from those at an episode's start; False is the paper's.
+      device: where convolutions are computed: `cpu`, `cuda`, or `auto` for the GPU where there is one.
+      checkpoint_seconds: time between checkpoints, s.
+    """
+
+    algorithm: ClassVar[str]
+
+    discount: float = 0.95
+    frames: int = 8_000_000
+    seed: int = 0
+    learning_rate: float = 5e-3
+    entropy_cost: float = 0.15
+    final_entropy_cost: float = 0.0001
+    trace: float = 1.0
+    baseline_cost: float = 0.5
+    max_gradient_norm: float = 1.0
+    lstm_units: int = 100
+    observation_scale: float = 40.0
+    action_prior: tuple[float, ...] = ()
+    relative_pixels: bool = True
+    device: Device = "auto"
+    checkpoint_seconds: float = 60.0
+
+    _WHOLE: ClassVar[Mapping[str, int]] = {"frames": 1, "seed": 0, "lstm_units": 1}  # With their minima.
+    _POSITIVE: ClassVar[tuple[str, ...]] = (
+        "learning_rate", "max_gradient_norm", "observation_scale", "checkpoint_seconds"
+    )  # fmt: skip
+
+    def replace(self, **changes) -> Self:
+        """A copy with some values changed."""
+        return dataclasses.replace(self, **changes)
+
+    def at(self, progress: float) -> tuple[float, float]:
+        """Step size and weight of the entropy bonus when this share of training is done."""
+        entropy_cost = self.entropy_cost ** (1 - progress) * self.final_entropy_cost**progress
+        return self.learning_rate * (1 - progress), entropy_cost
+
+    def __post_init__(self):
+        for name, minimum in self._WHOLE.items():
+            value = getattr(self, name)
+            if not isinstance(value, int) or isinstance(value, bool) or not minimum <= value < 2**63:
+                raise ValueError(f"{name} is {value!r}; give an integer >= {minimum}")
+        for name in (*self._POSITIVE, "entropy_cost", "final_entropy_cost", "baseline_cost"):
+            value = getattr(self, name)
+            positive = name in self._POSITIVE
+            if not (math.isfinite(value) and value >= 0) or (positive and value == 0):
+                raise ValueError(f"{name} is {value!r}; give a finite number {'> 0' if positive else '>= 0'}")
+        if self.device not in get_args(Device):
+            raise ValueError(f"device is {self.device!r}; choose from {', '.join(get_args(Device))}")
+        if not all(isinstance(logit, (int, float)) and math.isfinite(logit) for logit in self.action_prior):
+            raise ValueError(f"action_prior is {self.action_prior!r}; give finite numbers, one for each action")
+        if not 0 <= self.trace <= 1:
+            raise ValueError(f"trace is {self.trace!r}; give a number in [0, 1]")
+        if not 0 < self.discount <= 1:
+            raise ValueError(f"discount is {self.discount!r}; give a number in (0, 1]")

@@ -1,0 +1,133 @@
+"""What learners share: the variables that training moves, the targets of whole episodes, and one careful gradient."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import torch
+
+from physexp.agents import acting, losses, networks
+
+
+class AgentError(RuntimeError):
+    """Training cannot go on; `batch` holds the arrays of the round that is to blame, where it is known."""
+
+    def __init__(self, message: str, batch: dict[str, Any] | None = None):
+        super().__init__(message)
+        self.batch = batch
+
+
+class DivergedError(AgentError):
+    """The loss or its gradient is not finite."""
+
+
+class Variables:
+    """All that training moves.
+
+    Attributes:
+      network: the network.
+      optimizer: Adam on its parameters.
+      frames: environment steps trained on, int64 [].
+      updates: updates made, int64 [].
+      rounds: rounds played by each worker, int64 [num_workers].
+    """
+
+    def __init__(self, network: networks.RecurrentActorCritic, num_workers: int = 1):
+        """Gives a network an optimizer, and counters to its workers."""
+        self.network = network
+        self.optimizer = torch.optim.Adam(network.parameters(), eps=1e-5, foreach=False)
+        for parameter in network.parameters():  # At once, so that they are there to be shared or restored.
+            self.optimizer.state[parameter] = {
+                "step": torch.zeros(()),
+                "exp_avg": torch.zeros_like(parameter.data),
+                "exp_avg_sq": torch.zeros_like(parameter.data),
+            }
+        self.frames, self.updates, self.rounds = (
+            torch.zeros(shape, dtype=torch.int64) for shape in ((), (), num_workers)
+        )
+
+    def share_memory(self) -> "Variables":
+        """Moves everything into memory that other processes can share; returns self."""
+        self.network.share_memory()
+        for value in self.tensors().values():
+            value.share_memory_()
+        return self
+
+    def tensors(self) -> dict[str, torch.Tensor]:
+        """Everything, by name; not copies."""
+        named = {f"network/{name}": value for name, value in self.network.state_dict().items()}
+        for name, parameter in self.network.named_parameters():
+            for statistic, value in self.optimizer.state[parameter].items():
+                named[f"optimizer/{name}/{statistic}"] = value
+        return {**named, "frames": self.frames, "updates": self.updates, "rounds": self.rounds}
+
+    def save(self) -> dict[str, torch.Tensor]:
+        """Copies of everything, by name, on the processor."""
+        return {name: value.to("cpu", copy=True) for name, value in self.tensors().items()}
+
+    def restore(self, tensors: Mapping[str, torch.Tensor]) -> None:
+        """Takes up what `save` returned.
+
+        Raises:
+          ValueError: if the tensors do not fit; nothing has changed then.
+        """
+        own = self.tensors()
+        unfit = [name for name in own if name not in tensors or tensors[name].shape != own[name].shape]
+        if unfit or set(tensors) != set(own):
+            raise ValueError(f"the checkpoint does not fit the configuration: it differs in {unfit or 'its names'}")
+        for name, value in own.items():
+            value.copy_(tensors[name])
+
+    def apply(self, gradients: Sequence[torch.Tensor], learning_rate: float) -> None:
+        """Moves the parameters by one step of Adam; the counters stay."""
+        for parameter, gradient in zip(self.network.parameters(), gradients, strict=True):
+            parameter.grad = gradient.to(parameter.device)
+        for group in self.optimizer.param_groups:
+            group["lr"] = learning_rate
+        self.optimizer.step()
+
+    def count(self, num_frames: int, worker: int = 0) -> None:
+        """Counts an update from a round of so many frames."""
+        self.frames += num_frames
+        self.updates += 1
+        self.rounds[worker] += 1
+
+
+def network_variables(tensors: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:
+    """The network's variables by name, of what `Variables.save` returned."""
+    prefix = "network/"
+    return {name.removeprefix(prefix): value for name, value in tensors.items() if name.startswith(prefix)}
+
+
+def targets(episodes: acting.Round, values: torch.Tensor, discount: float, trace: float):
+    """Returns and advantages of a round's actions, packed, float32 [N] each.
+
+    Args:
+      episodes: the round.
+      values: estimates of the return at each action, packed, [N].
+      discount: the agent's gamma.
+      trace: see `losses.generalized_advantages`.
+    """
+    rewards, played = torch.from_numpy(episodes.rewards), torch.from_numpy(episodes.played)
+    goes_on = np.arange(len(episodes.actions))[:, None] < episodes.lengths - 1
+    discounts = torch.from_numpy((discount * goes_on).astype(np.float32))
+    padded_values = torch.zeros_like(rewards).masked_scatter_(played, values)
+    returns = losses.discounted_returns(rewards, discounts)
+    advantages = losses.generalized_advantages(rewards, discounts, padded_values, trace)
+    return returns[played], advantages[played]
+
+
+def clipped_gradients(network: networks.RecurrentActorCritic, loss: torch.Tensor, max_norm: float,
+                      episodes: acting.Round) -> tuple[list[torch.Tensor], float]:  # fmt: skip
+    """The gradient of a loss for each parameter, scaled down to a norm, and the norm it had.
+
+    Raises:
+      DivergedError: if the loss or the norm is not finite; it holds the round.
+    """
+    network.zero_grad()
+    loss.backward()
+    norm = torch.nn.utils.clip_grad_norm_(network.parameters(), max_norm)
+    if not (torch.isfinite(loss) and torch.isfinite(norm)):
+        raise DivergedError(f"loss {loss.item()} with gradient norm {norm.item()}", episodes.arrays())
+    gradients = [parameter.grad for parameter in network.parameters()]
+    return [gradient for gradient in gradients if gradient is not None], norm.item()

@@ -1,0 +1,52 @@
+"""The agent: plays a round of whole episodes, learns from it, and so on, in one process."""
+
+import torch
+
+from physexp.agents import acting, devices, learning
+from physexp.agents import agent as agent_lib
+from physexp.agents.ppo import config as config_lib
+from physexp.agents.ppo import learning as ppo
+
+
+class PPO(agent_lib.Agent):
+    """Synchronous: each round is played with all that was learned from the rounds before."""
+
+    def __init__(self, make_environment: agent_lib.EnvironmentFactory, config: config_lib.PPOConfig):
+        """Makes the environments and the network.
+
+        Args:
+          make_environment: makes a batch.
+          config: the configuration.
+        """
+        self._config = config
+        self._seed = agent_lib.worker_seed(config.seed, 0)
+        self._environment = make_environment(self._seed, config.num_environments, config.num_threads)
+        network = agent_lib.initial_network(self._environment, config)
+        network.to(devices.choose(config.device, network.sees_images))
+        self._learner = ppo.PPOLearner(learning.Variables(network), self._play, config)
+        self._stopping = False
+
+    @property
+    def frames(self):
+        return self._learner.variables.frames.item()
+
+    def updates(self, poll_seconds=0.5):
+        # More of them than the images' convolutions can use only wait for each other.
+        torch.set_num_threads(self._config.num_threads if self._learner.variables.network.sees_images else 1)
+        while not self._stopping and self.frames < self._config.frames:
+            metrics = self._learner.step()
+            yield agent_lib.Update(self._seed, metrics, self._learner.last_round.record())
+
+    def stop(self):
+        self._stopping = True
+
+    def save(self):
+        return self._learner.save()
+
+    def restore(self, tensors):
+        self._learner.restore(tensors)
+
+    def _play(self, number: int) -> acting.Round:
+        generator = agent_lib.round_generator(self._config.seed, 0, number)
+        network = self._learner.variables.network
+        return acting.play_round(network, self._environment, number, generator, transcribe=True)

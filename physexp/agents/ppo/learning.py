@@ -1,0 +1,89 @@
+"""Learning: several epochs of clipped updates on each round of whole episodes (Schulman et al., 2017)."""
+
+from collections.abc import Callable
+
+import numpy as np
+import torch
+
+from physexp.agents import acting, core, learning, losses
+from physexp.agents.ppo import config as config_lib
+
+
+class PPOLearner(core.Learner):
+    """Takes rounds of episodes, moves the variables.
+
+    Attributes:
+      variables: what it moves.
+      last_round: what the last update learned from.
+    """
+
+    last_round: acting.Round
+
+    def __init__(
+        self, variables: learning.Variables, play: Callable[[int], acting.Round], config: config_lib.PPOConfig
+    ):
+        """Joins variables to episodes.
+
+        Args:
+          variables: the network and its optimizer.
+          play: plays a round, from its number, with the network as it is, and transcribes it.
+          config: the agent's configuration.
+        """
+        self.variables, self._play, self._config = variables, play, config
+
+    def step(self) -> dict[str, float]:
+        """Plays a round, and goes through it several times, in parts of whole episodes."""
+        config, variables = self._config, self.variables
+        number = int(variables.rounds[0])
+        learning_rate, entropy_cost = config.at(min(1.0, variables.frames.item() / config.frames))
+        self.last_round = episodes = self._play(number)
+        generator = np.random.default_rng([config.seed, number])
+        figures = []
+        for _ in range(config.num_epochs):
+            for chosen in np.array_split(generator.permutation(len(episodes.lengths)), config.num_minibatches):
+                figures.append(self._learn(episodes.select(chosen), learning_rate, entropy_cost))
+        variables.count(episodes.num_frames)
+        means = {name: float(np.mean([each[name] for each in figures])) for name in figures[0]}
+        return {
+            **means,
+            "learning_rate": learning_rate,
+            "entropy_cost": entropy_cost,
+            "rounds": number,
+            "updates": variables.updates.item(),
+            "frames": variables.frames.item(),
+        }
+
+    def _learn(self, episodes: acting.Round, learning_rate: float, entropy_cost: float) -> dict[str, float]:
+        """One step of Adam on some episodes."""
+        config, network, transcript = self._config, self.variables.network, episodes.transcript
+        assert transcript is not None
+        logits, values = network.unroll(network.encode(transcript.observation), episodes.batch_sizes)
+        returns, advantages = learning.targets(episodes, transcript.values, config.discount, config.trace)
+        device = logits.device
+        policy_loss, baseline_loss, entropy = losses.clipped_losses(
+            logits, values, episodes.packed(episodes.actions).to(device), transcript.log_probabilities.to(device),
+            returns.to(device), _standardized(advantages).to(device), config.clip,
+        )  # fmt: skip
+        loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
+        gradients, norm = learning.clipped_gradients(network, loss, config.max_gradient_norm, episodes)
+        self.variables.apply(gradients, learning_rate)
+        return {
+            "policy_loss": policy_loss.item(),
+            "baseline_loss": baseline_loss.item(),
+            "entropy": entropy.item(),
+            "gradient_norm": norm,
+        }
+
+    def get_variables(self):
+        return learning.network_variables(self.save())
+
+    def save(self):
+        return self.variables.save()
+
+    def restore(self, state):
+        self.variables.restore(state)
+
+
+def _standardized(advantages: torch.Tensor) -> torch.Tensor:
+    """With mean 0 and standard deviation 1, so that a step is as large late in training as it was at the start."""
+    return (advantages - advantages.mean()) / (advantages.std(correction=0) + 1e-8)

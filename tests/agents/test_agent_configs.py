@@ -1,0 +1,72 @@
+"""A configuration that makes no sense is refused, with the value and what is allowed."""
+
+import math
+import re
+
+import pytest
+
+from physexp.agents.a3c import config as a3c
+from physexp.agents.ppo import config as ppo
+
+BAD = [
+    ("discount", 0.0),
+    ("discount", 1.5),
+    ("discount", math.nan),
+    ("frames", 0),
+    ("frames", 1.5),
+    ("frames", True),
+    ("seed", -1),
+    ("lstm_units", 0),
+    ("learning_rate", 0.0),
+    ("learning_rate", math.inf),
+    ("entropy_cost", -0.1),
+    ("entropy_cost", math.nan),
+    ("final_entropy_cost", -1.0),
+    ("baseline_cost", math.nan),
+    ("max_gradient_norm", 0.0),
+    ("observation_scale", -1.0),
+    ("trace", -0.1),
+    ("trace", 1.1),
+    ("trace", math.nan),
+    ("checkpoint_seconds", 0.0),
+]
+BAD_FOR = [
+    *((config, name, value) for config in (a3c.A3CConfig, ppo.PPOConfig) for name, value in BAD),
+    (a3c.A3CConfig, "num_workers", 0),
+    (a3c.A3CConfig, "envs_per_worker", 0),
+    (ppo.PPOConfig, "num_environments", 0),
+    (ppo.PPOConfig, "num_threads", 0),
+    (ppo.PPOConfig, "num_epochs", 0),
+    (ppo.PPOConfig, "num_minibatches", 0),
+    (ppo.PPOConfig, "clip", 0.0),
+]
+
+
+@pytest.mark.parametrize(("config", "name", "value"), BAD_FOR)
+def test_a_bad_value_is_refused_by_name_with_what_is_allowed(config, name, value):
+    with pytest.raises(ValueError, match=rf"^{name} is {re.escape(repr(value))}; give a(n| finite)? ?(integer|number)"):
+        config(**{name: value})
+
+
+def test_more_parts_than_episodes_are_refused():
+    with pytest.raises(ValueError, match="num_minibatches is 9; give at most num_environments, 8"):
+        ppo.PPOConfig(num_environments=8, num_minibatches=9)
+
+
+def test_costs_and_rates_decay_over_training():
+    config = a3c.A3CConfig(learning_rate=0.1, entropy_cost=0.1, final_entropy_cost=0.001)
+    assert config.at(0.0) == (0.1, 0.1)
+    # Halfway: the rate has lost half, the entropy cost is the geometric mean of 0.1 and 0.001.
+    assert config.at(0.5) == pytest.approx((0.05, 0.01))
+    assert config.at(1.0) == pytest.approx((0.0, 0.001))
+
+
+def test_values_at_the_edge_of_what_is_allowed_are_taken():
+    config = a3c.A3CConfig(discount=1.0, frames=1, num_workers=1, envs_per_worker=1, entropy_cost=0.0, seed=0)
+    assert config.replace(discount=0.5).discount == 0.5
+    assert config.discount == 1.0, "replace makes a copy"
+
+
+def test_replace_checks_too():
+    with pytest.raises(ValueError, match="num_workers is -2"):
+        a3c.A3CConfig().replace(num_workers=-2)
