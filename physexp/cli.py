@@ -261,7 +261,7 @@ class Reproduce:
 
     Attributes:
       experiment: mass_gap, learning_heavier, population, individual, random_heavier, learning_towers, waiting,
-        random_towers, ideal_gap, or all.
+        random_towers, ideal_gap, learners, or all.
       seeds: agents in each condition; by default 10 from features and 3 from pixels.
       observations: what the agents see.
       results_dir: where everything goes.

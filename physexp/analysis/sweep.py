@@ -143,10 +143,10 @@ class _Meter:
 
     def line(self, num_pending: int) -> str:
         done = total = left = 0.0
-        speeds: dict[tuple[str, str], list[tuple[float, float]]] = {}
-        remaining: dict[tuple[str, str], float] = {}
+        speeds: dict[tuple[str, ...], list[tuple[float, float]]] = {}
+        remaining: dict[tuple[str, ...], float] = {}
         for job in self._wanted:
-            kind = (job.config.domain, job.config.task)
+            kind: tuple[str, ...] = (job.config.domain, job.config.task, job.config.agent.algorithm)
             rows = self._results.run(job.config).metrics()
             frames = min(rows[-1]["frames"], job.config.agent.frames) if rows else 0
             if rows:

@@ -14,7 +14,7 @@ import pyarrow
 from scipy import special
 
 from physexp.analysis import records
-from physexp.analysis.experiments import conditions, population, waiting
+from physexp.analysis.experiments import conditions, learners, population, waiting
 from physexp.analysis.ideal import regret
 
 NUM_AGENTS = 6
@@ -77,19 +77,21 @@ def mass_gaps(num_agents, generator, small=(0.4, 0.2, 0.05)):
 # Learning curves: success rises from chance to its plateau.
 
 
-def curves(num_agents, generator, plateaus: dict[str, float], chance: float,
-           learned_at: dict[str, float]) -> pandas.DataFrame:  # fmt: skip
+def curves(num_agents, generator, plateaus: dict[str, float], chance: float, learned_at: dict[str, float],
+           configs=(*conditions.HEAVIER, *conditions.TOWERS), name_of=label) -> pandas.DataFrame:  # fmt: skip
     """Rows of metrics, as `Results.curves` gives them.
 
     Args:
       plateaus: success at the end, by the name of a condition.
       chance: success at the beginning.
       learned_at: environment steps after which a curve is half way, by the name of a condition.
+      configs: the conditions that there are.
+      name_of: the name of a condition, from its configuration.
     """
     frames = np.linspace(_BUDGET / _CURVE_POINTS, _BUDGET, _CURVE_POINTS)
     found = []
-    for config in (*conditions.HEAVIER, *conditions.TOWERS):
-        name = label(config)
+    for config in configs:
+        name = name_of(config)
         if name not in plateaus:
             continue
         for seed in range(num_agents):
@@ -100,6 +102,7 @@ def curves(num_agents, generator, plateaus: dict[str, float], chance: float,
                 "frames": frames.astype(int), "success_rate": rising + generator.normal(0, 0.003, len(frames)),
                 "domain": config.domain, "task": config.task, "difficulty": config.difficulty,
                 "discount": config.agent.discount, "training_seed": seed, "condition": name,
+                "algorithm": config.agent.algorithm, "seconds": frames / 1000,
             }))  # fmt: skip
     return pandas.concat(found, ignore_index=True)
 
@@ -114,6 +117,17 @@ def learning_towers(num_agents, generator, plateau=0.985, fist=1e6, direct=2e6):
     names = [label(config) for config in conditions.TOWERS]
     learned_at = {name: fist if name.startswith("F") else direct for name in names}
     return curves(num_agents, generator, dict.fromkeys(names, plateau), 0.2, learned_at)
+
+
+def two_learners(num_agents, generator, ppo=5e5, a3c=2e6, seconds_of_a_ppo_frame=0.001):
+    def name_of(config):
+        return f"{label(config)} {config.agent.algorithm.upper()}"
+
+    learned_at = {name_of(config): {"ppo": ppo, "a3c": a3c}[config.agent.algorithm] for config in learners.CONDITIONS}
+    frame = curves(
+        num_agents, generator, dict.fromkeys(learned_at, 0.97), 0.2, learned_at, learners.CONDITIONS, name_of
+    )
+    return frame.assign(seconds=frame.seconds.where(frame.algorithm == "a3c", seconds_of_a_ppo_frame * frame.frames))
 
 
 # Episodes of Which is Heavier.
@@ -297,6 +311,11 @@ WORLDS: dict[str, dict[str, _World]] = {
     "random_towers": {
         "paper": random_towers,
         "chance helps and is quick": functools.partial(random_towers, gain=-0.15, ratio=1.6),
+    },
+    "learners": {
+        "paper": two_learners,
+        "PPO is slow": functools.partial(two_learners, ppo=2e6, a3c=5e5),
+        "PPO computes for long": functools.partial(two_learners, seconds_of_a_ppo_frame=0.01),
     },
     "ideal_gap": {
         "paper": ideal_gap,

@@ -3,6 +3,7 @@
 from physexp.analysis.experiments import (
     ideal_gap,
     individual,
+    learners,
     learning_heavier,
     learning_towers,
     mass_gap,
@@ -16,7 +17,7 @@ from physexp.analysis.experiments.base import Experiment
 __all__ = ["EXPERIMENTS", "Experiment"]
 
 _MODULES = (mass_gap, learning_heavier, population, individual, random_heavier, learning_towers, waiting,
-            random_towers, ideal_gap)  # fmt: skip
+            random_towers, ideal_gap, learners)  # fmt: skip
 
 EXPERIMENTS = {module.EXPERIMENT.name: module.EXPERIMENT for module in _MODULES}
 """All experiments by name, in the paper's order."""

@@ -85,6 +85,7 @@ class Results:
                     frames.append(pandas.DataFrame(run.metrics()).assign(
                         domain=config.domain, task=config.task, difficulty=config.difficulty,
                         discount=config.agent.discount, training_seed=run.config.agent.seed,
+                        algorithm=config.agent.algorithm,
                     ))  # fmt: skip
         if not frames:
             raise ValueError(f"{self.path} holds no finished runs of this experiment; `physexp reproduce` it first")

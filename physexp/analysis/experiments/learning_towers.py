@@ -21,7 +21,7 @@ def find_claims(frame) -> list[claims.Claim]:
             statistic="share of right answers at the end of training, mean of agents",
             estimate=statistics.mean(rates), above=_NEARLY_PERFECT,
         ))  # fmt: skip
-    reached = learning.frames_to_reach(frame, _LEARNED)
+    reached = learning.first_reached(frame, _LEARNED)
     for kind in conditions.OBSERVATIONS:
         names = [conditions.label("towers", f"{actuator}_{kind}", None) for actuator in ("fist", "direct")]
         # Where not all learn, what counts is the time within the shortest training.

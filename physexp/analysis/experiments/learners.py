@@ -1,0 +1,75 @@
+"""Two learners on the same network: A3C, the paper's, and PPO. Ours: the paper has one."""
+
+from physexp.analysis import claims, figures, statistics
+from physexp.analysis import config as config_lib
+from physexp.analysis.experiments import base, conditions, learning
+
+_NAMES = {"ppo": "PPO", "a3c": "A3C"}
+_LEARNED = 0.9  # The success whose first moment is compared.
+_CLAIMS = {
+    "frames": ("PPO learns from fewer environment steps than A3C", "environment steps"),
+    "seconds": ("PPO learns in less time than A3C", "seconds"),
+}
+_REASON = ("A3C takes one gradient from an episode, PPO sixteen or eight; where simulation is cheap, as in Which is "
+           "Heavier, A3C makes up in time for what it needs in frames.")  # fmt: skip
+
+
+def _with_ppo(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
+    agent = config_lib.PPO[config.domain, config.task].replace(discount=config.agent.discount, num_threads=1)
+    return config_lib.TrainConfig(domain=config.domain, task=config.task, difficulty=config.difficulty, agent=agent)
+
+
+_PAPERS = (next(config for config in conditions.HEAVIER if config.difficulty == 5.0 and config.task == "features"),
+           conditions.towers("fist"))  # fmt: skip
+CONDITIONS = tuple(config for papers in _PAPERS for config in (papers, _with_ppo(papers)))
+_TASKS = [conditions.label(papers.domain, papers.task, papers.difficulty) for papers in _PAPERS]
+
+
+def load(results: base.Results):
+    """Learning curves of both, `condition` being the task's, as `5-F`, and the learner's name."""
+    frame = results.curves(CONDITIONS)
+    return frame.assign(condition=frame.condition + " " + frame.algorithm.map(_NAMES))
+
+
+def find_claims(frame) -> list[claims.Claim]:
+    """PPO learns from less, and takes no longer."""
+    found = []
+    for along, (text, unit) in _CLAIMS.items():
+        reached = learning.first_reached(frame, _LEARNED, along)
+        for task in _TASKS:
+            ppo, a3c = (reached[along][reached.condition == f"{task} {name}"] for name in _NAMES.values())
+            if len(ppo) and len(a3c):
+                found.append(claims.Claim(
+                    text=text, section="ours", condition=task,
+                    statistic=f"{unit} to {_LEARNED:.0%} right answers, PPO over A3C, ratio of means",
+                    estimate=statistics.ratio_of_means(ppo, a3c), below=1, reason=_REASON,
+                ))  # fmt: skip
+    return found
+
+
+def draw(frame):
+    """A row for each task, against frames and against minutes."""
+    tasks = [task for task in _TASKS if frame.condition.str.startswith(task).any()]
+    figure, panels = figures.new(rows=len(tasks), columns=2, height=2.2, sharey=True, squeeze=False)
+    for row, task in zip(panels, tasks, strict=True):
+        chance = 1 / (4 if task[0].isdigit() else 5)
+        for axes, along in zip(row, learning.AXES, strict=True):
+            names = [f"{task} {name}" for name in _NAMES.values()]
+            learning.draw_panel(axes, learning.smoothed(frame, along), names, list(_NAMES.values()), chance, along)
+        row[0].set(title=task, ylabel="share of right answers")
+        row[0].legend(loc="lower right", bbox_to_anchor=(1, 0.3))
+    return figure
+
+
+EXPERIMENT = base.Experiment(
+    name="learners",
+    title="A3C and PPO",
+    section="ours",
+    caption="Share of right answers in training of the paper's learner and of PPO, on the same network and the same "
+    "environments, against environment steps and against time (two agents side by side on two cores). Light lines: "
+    "the better half of the agents; dark: their median.",
+    conditions=CONDITIONS,
+    load=load,
+    claims=find_claims,
+    draw=draw,
+)
