@@ -6,7 +6,7 @@ PYTHON ?= python3.11 python3
 BIN = .venv/bin
 INSTALLED = .venv/installed
 
-.PHONY: help install demo test lint bench clean
+.PHONY: help install demo test lint docs bench clean
 .DEFAULT_GOAL = help
 
 help: ## Show this list.
@@ -25,11 +25,14 @@ lint: $(INSTALLED) ## Run ruff and the type checker.
 	$(BIN)/ruff format --check
 	$(BIN)/mypy physexp
 
+docs: $(INSTALLED) ## Build the documentation into docs/_build/html; a warning is an error. It runs the notebook.
+	$(BIN)/python -m sphinx -W --keep-going -q docs docs/_build/html
+
 bench: $(INSTALLED) ## Measure the speed of resets, batches and training.
 	$(BIN)/physexp bench
 
 clean: ## Remove .venv, builds and caches; runs stay.
-	rm -rf .venv build dist *.egg-info .mypy_cache .pytest_cache .ruff_cache
+	rm -rf .venv build dist docs/_build *.egg-info .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -prune -exec rm -rf {} +
 
 # torch goes first and with its exact version: a looser request fetches gigabytes of CUDA.

@@ -180,17 +180,19 @@ class Play:
       task: the task; features need no GL.
       difficulty: the paper's beta, for Which is Heavier.
       seed: of the environment; by default one from the operating system.
+      view: show the scene in rerun's viewer as well, where there is a display.
     """
 
     domain: Positional[str]
     task: Positional[str]
     difficulty: float | None = None
     seed: int | None = None
+    view: bool = False
 
     def run(self) -> None:
         from physexp.analysis import play
 
-        play.play(self.domain, self.task, self.difficulty, self.seed)
+        play.play(self.domain, self.task, self.difficulty, self.seed, self.view)
 
 
 @dataclasses.dataclass

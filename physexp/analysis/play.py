@@ -38,13 +38,14 @@ class Score:
         return f"{self.right} of {self.episodes} right, mean return {self.total / max(1, self.episodes):.3f}"
 
 
-def play(domain: str, task: str, difficulty: float | None = None, seed: int | None = None,
+def play(domain: str, task: str, difficulty: float | None = None, seed: int | None = None, view: bool = False,
          read: Callable[[str], str] = input, show: Callable[[str], None] = print) -> dict[str, Score]:  # fmt: skip
     """Plays until the player quits.
 
     Args:
       domain, task, difficulty: what is played.
       seed: of the environment; by default one from the operating system.
+      view: show the scene in rerun's viewer as well.
       read: asks the player; an end of file quits.
       show: shows a text.
 
@@ -52,15 +53,16 @@ def play(domain: str, task: str, difficulty: float | None = None, seed: int | No
       Scores by player: `you`, `ideal experimenter`, `trained agent`.
 
     Raises:
-      ValueError: for an unknown name.
+      ValueError: for an unknown name, or where the scene is to be shown and there is no display.
     """
     kwargs: dict[str, Any] = {} if difficulty is None else {"difficulty": difficulty}
     environment = suite.load(domain, task, task_kwargs={**kwargs, "random": seed})
+    observers = _viewers(environment, domain, task, kwargs) if view else []
     others, discount = _others(domain, task, kwargs)
     scores = {"you": Score(), **{name: Score() for name in others}}
     show(_rules(environment))
     while True:
-        outcome = _play_episode(environment, read, show)
+        outcome = _play_episode(environment, observers, read, show)
         if outcome is None:
             return scores
         scores["you"].add(*outcome, discount)
@@ -69,6 +71,14 @@ def play(domain: str, task: str, difficulty: float | None = None, seed: int | No
             scores[name].add(length, reward, discount)
             show(f"  the {name} was {'right' if reward > 0 else 'wrong'} after {length - 1} interactions")
         show("\n".join(f"{name:20} {score}" for name, score in scores.items()) + "\n")
+
+
+def _viewers(environment: suite.Environment, domain, task, kwargs) -> list[environment_loop.Observer]:
+    """What shows the scene in the viewer."""
+    from physexp.analysis.replay import recording, writing  # Takes a second, and most play without.
+
+    recorder = recording.EpisodeRecorder(environment, domain, task, kwargs, agent="you")
+    return [recorder, writing.Live(recorder, writing.open_viewer)]
 
 
 def _others(domain: str, task: str, kwargs: Mapping[str, Any]) -> tuple[dict[str, core.Actor], float]:
@@ -91,15 +101,19 @@ def _rules(environment: suite.Environment) -> str:
                       f"  {_QUIT}  quit", ""])  # fmt: skip
 
 
-def _play_episode(environment: suite.Environment, read, show) -> tuple[int, float] | None:
+def _play_episode(environment: suite.Environment, observers, read, show) -> tuple[int, float] | None:
     """One episode: its length and reward, or None if the player quits."""
     timestep, length = environment.reset(), 0
+    for observer in observers:
+        observer.observe_first(environment, timestep)
     while not timestep.last():
         show(drawing(timestep.observation))
         action = _ask(environment, read, show)
         if action is None:
             return None
         timestep, length = environment.step(action), length + 1
+        for observer in observers:
+            observer.observe(environment, timestep, action)
     verdict = "Right!" if timestep.reward > 0 else "Wrong."
     show(f"{verdict} The answer: {environment.task.label_names[environment.task.correct_answer]}.")
     return length, float(timestep.reward)

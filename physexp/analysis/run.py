@@ -1,11 +1,13 @@
 """A run's folder: what was asked for, how training went, and the agent it made.
 
-config.json       the whole configuration, with versions and seeds
-metrics.csv       a row every few seconds of training
-episodes.parquet  the episodes of one update for each of those rows, a part for each checkpoint
-checkpoints/      the shared variables (safetensors) and the facts beside them (JSON)
-replays/*.rrd     episodes for the rerun viewer
-agent.safetensors the network alone, in half precision, once `keep_agent_only` has put it in their place
+In it are::
+
+    config.json       the whole configuration, with versions and seeds
+    metrics.csv       a row every few seconds of training
+    episodes.parquet  the episodes of one update for each of those rows, a part for each checkpoint
+    checkpoints/      the shared variables (safetensors) and the facts beside them (JSON)
+    replays/*.rrd     episodes for the rerun viewer
+    agent.safetensors the network alone, in half precision, once `keep_agent_only` has put it in their place
 """
 
 import csv

@@ -1,6 +1,6 @@
 """The environments for Gymnasium: one by one, and as a vector environment on a batch.
 
-Importing this module registers every task, so that Gymnasium finds them by name with the module before it:
+Importing this module registers every task, so that Gymnasium finds them by name with the module before it::
 
     gymnasium.make("physexp.suite.gymnasium:physexp/towers-fist_pixels-v0")
     gymnasium.make_vec("physexp.suite.gymnasium:physexp/towers-fist_pixels-v0", num_envs=64,

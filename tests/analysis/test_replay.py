@@ -323,6 +323,58 @@ def test_the_viewer_opens_a_file_and_shows_it(tmp_path):
     assert counts[np.linalg.norm(colors, axis=1) > 0][np.linalg.norm(hue, axis=1) < 0.08].sum() > 300
 
 
+def test_an_episode_that_is_watched_live_shows_nothing_hidden_before_it_is_over(tmp_path):
+    environment = suite.load("which_is_heavier", "features", task_kwargs={"random": fresh_seed()})
+    recorder = replay.EpisodeRecorder(environment, "which_is_heavier", "features", agent="you")
+    paths = [tmp_path / "so_far.rrd", tmp_path / "all.rrd"]
+    entities = []
+    for path, actions in zip(paths, ([0, 1], [0, 1, 4]), strict=True):
+        streams = []
+
+        def open_stream(stream, layout, path=path, streams=streams):
+            streams.append(stream)
+            stream.save(path, default_blueprint=layout)
+
+        environment.task.next_episode = 0
+        live = writing.Live(recorder, open_stream)
+        observers = [recorder, live]
+        timestep = environment.reset()
+        for observer in observers:
+            observer.observe_first(environment, timestep)
+        for action in actions:
+            timestep = environment.step(action)
+            for observer in observers:
+                observer.observe(environment, timestep, action)
+        streams[0].disconnect()
+        entities.append({str(chunk.entity_path) for chunk in RrdReader(str(path)).stream()})
+    so_far, everything = entities
+    assert "/world/things/block_0" in so_far and "/did/actions" in so_far and "/seen/heights" in so_far
+    assert not [entity for entity in so_far if "hidden" in entity or "ideal" in entity]
+    assert {"/world/hidden/mass_0", "/belief/ideal"} <= everything
+    said = [{text[0] for text in chunks(path, "/did/outcome")["TextDocument:text"]} for path in paths]
+    assert not any("answer" in text.lower() for text in said[0])
+    assert any("Answer after 2 interactions" in text for text in said[1])
+
+
+@pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="needs xvfb-run: apt-get install xvfb mesa-vulkan-drivers")
+def test_a_person_plays_beside_the_viewer(tmp_path):
+    environment = {"HOME": str(tmp_path), "PATH": f"{PHYSEXP.parent}:/usr/bin:/bin"}
+    subprocess.run([writing.PROGRAM, "analytics", "disable"], env=environment, check=True, capture_output=True)
+    command = ["xvfb-run", "-a", PHYSEXP, "play", "which_is_heavier", "features", "--seed", "3", "--view"]
+    done = subprocess.run(command, input="0\n4\nq\n", env=environment, text=True, capture_output=True, timeout=120,
+                          check=False)  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "The answer: block" in done.stdout and "Traceback" not in done.stderr
+
+
+def test_without_a_display_the_viewer_is_refused_in_one_line(tmp_path):
+    command = [PHYSEXP, "play", "which_is_heavier", "features", "--view"]
+    done = subprocess.run(
+        command, input="q\n", env={"HOME": str(tmp_path)}, text=True, capture_output=True, check=False
+    )
+    assert done.returncode == 2 and done.stderr.count("\n") == 1 and "no display" in done.stderr
+
+
 def test_the_command_writes_a_file_and_names_it(tmp_path):
     path = tmp_path / "some" / "file.rrd"
     done = subprocess.run([PHYSEXP, "replay", "which_is_heavier/features", "--episodes", "2", "--output", path],

@@ -12,8 +12,10 @@ Everything is on one timeline, `time`, in seconds. Episodes side by side have th
 """
 
 from collections.abc import Callable, Sequence
+import os
 from pathlib import Path
 import subprocess
+import sys
 import tempfile
 from typing import Any
 
@@ -24,7 +26,7 @@ import rerun_cli
 from scipy.spatial import transform
 
 from physexp import suite
-from physexp.agents import checkpointing
+from physexp.agents import checkpointing, environment_loop
 from physexp.analysis.ideal import which_is_heavier as ideal
 from physexp.analysis.replay import recording
 from physexp.suite import block, tower, which_is_heavier
@@ -67,6 +69,50 @@ def write(path: Path, groups: Sequence[Callable[[], Sequence[recording.Episode]]
     return path
 
 
+class Live(environment_loop.Observer):
+    """Shows an episode in the viewer while it is played: what may be known, and all of it once it is over."""
+
+    def __init__(self, recorder: recording.EpisodeRecorder, open_stream: Callable[[rr.RecordingStream, Any], None]):
+        """Prepares to show.
+
+        Args:
+          recorder: observes the same episodes, before this observer does.
+          open_stream: called with the stream of each episode and its blueprint, to connect it to a viewer or a file.
+        """
+        self._recorder, self._open_stream = recorder, open_stream
+
+    def observe_first(self, environment, timestep):
+        episode = self._recorder.episode
+        self._stream = rr.RecordingStream(f"physexp-{episode.domain}-{episode.task}",
+                                          recording_id=f"{episode.seed}-{episode.number}-live")  # fmt: skip
+        self._open_stream(self._stream, blueprint([episode], [""]))
+        self._stream.send_recording_name(_name(episode))
+        self._show(is_over=False)
+
+    def observe(self, environment, timestep, action):
+        self._show(timestep.last())
+
+    def get_metrics(self):
+        """Nothing: this only shows."""
+        return {}
+
+    def _show(self, is_over: bool) -> None:
+        writer = _Writer(self._stream, self._recorder.episode, "")
+        writer.write() if is_over else writer.write_so_far()
+        self._stream.flush()
+
+
+def open_viewer(stream: rr.RecordingStream, layout: rrb.Blueprint) -> None:
+    """Connects a stream to the viewer, which is started where none is open.
+
+    Raises:
+      ValueError: where there is no display.
+    """
+    if sys.platform == "linux" and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        raise ValueError("there is no display to open the viewer on (DISPLAY is not set); leave out --view")
+    stream.spawn(default_blueprint=layout)
+
+
 def _run(*arguments: str) -> bytes:
     """Runs rerun's own program; returns what it writes."""
     return subprocess.run([str(PROGRAM), *arguments], check=True, capture_output=True).stdout
@@ -103,10 +149,15 @@ class _Writer:
         return int((self._episode.actions < self._task.num_interactions).sum())
 
     def write(self) -> None:
-        self._write_scene()
+        self.write_so_far()
         self._write_hidden()
-        self._write_seen()
         self._write_belief()
+        self._write_outcome()
+
+    def write_so_far(self) -> None:
+        """What may be known before the question is answered."""
+        self._write_scene()
+        self._write_seen()
         self._write_actions()
 
     def _path(self, entity: str) -> str:
@@ -206,8 +257,12 @@ class _Writer:
         for step, (time, action) in enumerate(zip(self._step_times, episode.actions, strict=False)):
             self._log("did/actions", rr.TextLog(f"step {step}: {names[action]}"), time)
         self._log("did/outcome", rr.TextDocument(f"{episode.agent}\n\nThe question is open."), 0.0)
+        if len(episode.actions):
+            self._write_arrows()
+
+    def _write_outcome(self) -> None:
+        episode = self._episode
         self._log("did/outcome", rr.TextDocument(f"{episode.agent}\n\n{outcome(episode)}"), self._step_times[-1])
-        self._write_arrows()
 
     def _write_arrows(self) -> None:
         """At every physics step, where the action acts and in which direction; of no length where there is none."""

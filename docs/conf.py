@@ -1,0 +1,33 @@
+"""How the documentation is built: `make docs`."""
+
+import importlib.metadata
+from pathlib import Path
+import sys
+
+sys.path.insert(0, str(Path(__file__).parent / "examples"))
+
+project = "physexp"
+author = "the physexp authors"
+release = importlib.metadata.version("physexp")
+
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.viewcode"]
+exclude_patterns = ["_build", "**.ipynb_checkpoints"]
+html_theme = "furo"
+html_title = f"physexp {release}"
+
+myst_heading_anchors = 3
+suppress_warnings = ["misc.highlighting_failure"]
+
+# The notebook runs anew with every build, and a cell that fails fails the build.
+nb_execution_mode = "force"
+nb_execution_timeout = 300
+nb_execution_raise_on_error = True
+nb_execution_show_tb = True
+
+autodoc_default_options = {"members": True, "show-inheritance": True}
+autodoc_member_order = "bysource"
+autodoc_typehints = "description"
+autodoc_typehints_description_target = "documented"
+napoleon_google_docstring = True
+napoleon_numpy_docstring = False
+napoleon_use_ivar = True

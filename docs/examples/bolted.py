@@ -1,0 +1,86 @@
+"""Which is Bolted: one of three blocks is bolted to the floor, and only pulling tells which."""
+
+import dataclasses
+
+import numpy as np
+
+from physexp.suite import arena, block, seeding, senses, task
+
+NUM_BLOCKS = 3
+SPACING = 0.16  # m
+PULL_FORCE = 5.0  # N
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Options(task.Options):
+    """What a user may choose; `physics_timestep` and `time_limit` are the task's own."""
+
+    physics_timestep = 0.025  # s
+
+    time_limit: float = 2.0  # s
+
+
+class WhichIsBolted(task.QuestionTask):
+    """Three blocks that rise when they are pulled, but for one."""
+
+    num_structures = NUM_BLOCKS  # Bolted is what is compiled in: one model for each answer.
+
+    def __init__(self, options, sense):
+        room = arena.Laboratory(mat_size=[0.3, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.2], fovy=14.5)
+        room.mjcf_model.option.gravity = [0, 0, 0]
+        self._rails, self._heights = [], []
+        for k in range(NUM_BLOCKS):
+            frame = room.attach(block.Block(rgba=block.COLORS[k], mass=1.0, name=f"block_{k}"))
+            frame.pos = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, block.HALF_SIZE]
+            rail = frame.add("joint", name="rail", type="slide", axis=[0, 0, 1], stiffness=20, damping=10)
+            room.mjcf_model.actuator.add("motor", name=f"pull_{k}", joint=rail)
+            self._heights.append(room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=rail))
+            self._rails.append(rail)
+        super().__init__(room, options, sense, num_interactions=NUM_BLOCKS, num_labels=NUM_BLOCKS)
+
+    # What actions do, and what is seen.
+
+    @property
+    def controls(self):
+        return PULL_FORCE * np.eye(NUM_BLOCKS)
+
+    @property
+    def sensors(self):
+        return {"heights": (self._heights, (NUM_BLOCKS,))}
+
+    @property
+    def effects(self):
+        return [(f"block_{k}", (0.0, 0.0, PULL_FORCE)) for k in range(NUM_BLOCKS)]
+
+    @property
+    def interaction_names(self):
+        return [f"pull block {k}" for k in range(NUM_BLOCKS)]
+
+    @property
+    def label_names(self):
+        return [f"block {k} is bolted" for k in range(NUM_BLOCKS)]
+
+    # What is hidden: a pure function of seed and episode, for one environment and for thousands.
+
+    def draw(self, seeds, episodes):
+        return (NUM_BLOCKS * seeding.uniforms(seeds, episodes, 1)[:, 0]).astype(np.int64)
+
+    def answers(self, hidden):
+        return hidden
+
+    def structures(self, hidden):
+        return hidden
+
+    def arrange(self, structure):
+        for k, rail in enumerate(self._rails):
+            rail.damping = 1e6 if k == structure else 10  # N s/m
+
+
+def features(random=None, **options):
+    """The task with features: `heights`, float32 (3,), m."""
+    return WhichIsBolted(Options(random=random, **options), senses.Features())
+
+
+def pixels(random=None, **options):
+    """The task with images: `pixels`, uint8 (84, 84, 3)."""
+    return WhichIsBolted(Options(random=random, **options), senses.Pixels())

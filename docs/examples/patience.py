@@ -1,0 +1,58 @@
+"""Does an agent that is in a hurry experiment less? Agents with a gamma of 0.9 against agents with 0.99."""
+
+from physexp.analysis import claims, figures, statistics
+from physexp.analysis.experiments import base, conditions
+
+HASTY, PATIENT = (
+    conditions.heavier(difficulty=5.0, observations="features", frames=2_000_000, discount=discount)
+    for discount in (0.9, 0.99)
+)
+
+
+def load(results):
+    """The episodes that the agents have played: one row each."""
+    return results.episodes([base.LEARNED], [HASTY, PATIENT], ["interactions"])
+
+
+def mean_pokes(frame, config):
+    """Mean pokes of each agent of a condition."""
+    rows = frame[frame.discount == config.agent.discount]
+    return rows.groupby("training_seed").interactions.mean()
+
+
+def find_claims(frame):
+    """One sentence, one statistic, one interval."""
+    return [
+        claims.Claim(
+            text="An agent that is in a hurry experiments less",
+            section="ours",
+            condition="5-F",
+            statistic="mean pokes at gamma 0.9 over those at 0.99, ratio of means over agents",
+            estimate=statistics.ratio_of_means(mean_pokes(frame, HASTY), mean_pokes(frame, PATIENT)),
+            below=1,
+        )
+    ]
+
+
+def draw(frame):
+    """A dot for each agent."""
+    figure, axes = figures.new()
+    for number, config in enumerate((HASTY, PATIENT)):
+        pokes = mean_pokes(frame, config)
+        axes.plot([number] * len(pokes), pokes, figures.MARKERS[number], color=figures.COLORS[number])
+    axes.set_xticks([0, 1], ["0.9", "0.99"])
+    axes.set(xlabel="the agent's gamma", ylabel="pokes in an episode", xlim=(-0.5, 1.5), ylim=(0, None))
+    return figure
+
+
+EXPERIMENT = base.Experiment(
+    name="patience",
+    title="Haste and patience",
+    section="ours",
+    caption="Mean pokes of each agent.",
+    conditions=(HASTY, PATIENT),
+    trials=(base.LEARNED,),
+    load=load,
+    claims=find_claims,
+    draw=draw,
+)
