@@ -15,7 +15,7 @@ from physexp.agents import config as agent_config
 from physexp.analysis import config as config_lib
 
 Config = TypeVar("Config", bound=agent_config.AgentConfig)
-BenchSection = Literal["reset", "batch", "training", "peers", "pixels", "pretrained", "learning"]
+BenchSection = Literal["reset", "batch", "training", "peers", "pixels", "pretrained", "replay", "learning"]
 
 _EXTRAS = {"matplotlib": "analysis", "pandas": "analysis", "stable_baselines3": "bench", "sb3_contrib": "bench",
            "tensorboard": "tensorboard"}  # fmt: skip
@@ -66,7 +66,7 @@ class Train(Generic[Config]):
     agent: Literal["a3c", "ppo"] = "a3c"
     difficulty: float | None = None
     control_timestep: float | None = None
-    replay_every: int = 1_000_000
+    replay_every: int = config_lib.REPLAY_EVERY
     run_dir: Path | None = None
     tensorboard: bool = False
     resume: bool = False

@@ -33,7 +33,8 @@ def pages():
 @pytest.mark.parametrize("page", sorted(DOCS.glob("*.md")), ids=lambda page: page.name)
 def test_what_a_page_says_of_the_tree_is_there(page):
     for name in re.findall(r"`((?:physexp|docs|tests|benchmarks|results)/[\w./]*)`", page.read_text()):
-        assert (DOCS.parent / name).exists(), f"{page.name} speaks of {name}"
+        if not re.search("[A-Z]{4}", name):  # TRIAL and NAME stand for names.
+            assert (DOCS.parent / name).exists(), f"{page.name} speaks of {name}"
 
 
 def test_every_page_can_be_reached_from_the_index():

@@ -6,6 +6,8 @@ Machines are noisy: a figure is the median over repetitions in which both sides 
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 import statistics
+import subprocess
+import sys
 import time
 
 import numpy as np
@@ -60,6 +62,17 @@ def rates(*sides: Callable[[], int], seconds: float = 1.0) -> list[float]:
             if repetition:  # The first one warms up.
                 measured.append(steps / (time.perf_counter() - start))
     return [statistics.median(measured) for measured in found]
+
+
+def timed(figure: str, arguments: list[str], limit: float) -> dict:
+    """How long a command of ours takes from start to end, s: the best of three."""
+    command = [sys.executable, "-c", "from physexp.cli import main; main()", *arguments]
+    seconds = []
+    for _ in range(3):
+        start = time.perf_counter()
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        seconds.append(time.perf_counter() - start)
+    return row(figure, min(seconds), "s", limit, at_most=True)
 
 
 def _reset() -> Iterator[dict]:
@@ -216,5 +229,11 @@ def _pretrained() -> Iterator[dict]:
     yield from bench_pretrained.run()
 
 
+def _replay() -> Iterator[dict]:
+    from physexp.analysis import bench_replay
+
+    yield from bench_replay.run()
+
+
 _SECTIONS = {"reset": _reset, "batch": _batch, "training": _training, "peers": _peers, "pixels": _pixels,
-             "pretrained": _pretrained}  # fmt: skip
+             "pretrained": _pretrained, "replay": _replay}  # fmt: skip

@@ -2,16 +2,12 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-import subprocess
 import sys
-import time
 
 from physexp.analysis import bench, records, sweep
-from physexp.analysis import run as run_lib
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions, ideal_gap
 from physexp.analysis.ideal import which_is_heavier as ideal
 
-SHARE_OF_IDEAL = {3.0: 0.95, 5.0: 0.97, 10.0: 0.97}  # Of its return, in the median of the better half of the agents.
 RETURN = {3.0: 0.79, 5.0: 0.83, 10.0: 0.86}  # Mean discounted return, in the same.
 SUCCESS = {"fist_features": 0.98, "direct_features": 0.95}
 HOURS = 12.0  # For all experiments on features.
@@ -25,11 +21,11 @@ def run(results_dir: Path) -> Iterator[dict]:
     for condition in (*conditions.HEAVIER, *conditions.TOWERS):
         if conditions.observations(condition) == "features":
             yield from _reached(results, condition)
-    seconds = [run_lib.Run(results.run(job.config).path).metrics()[-1]["seconds"] for job in features]
+    seconds = [results.run(job.config).metrics()[-1]["seconds"] for job in features]
     yield bench.row("training all agents of the experiments on features, two at a time", sum(seconds) / 2 / 3600, "h",
                     HOURS, at_most=True, agents=len(seconds))  # fmt: skip
-    yield _timed("physexp report from stored data", ["report", "--results-dir", str(results_dir)], 60)
-    yield _timed("physexp ideal which_is_heavier", ["ideal", "which_is_heavier", "--difficulty", "3"], 20)
+    yield bench.timed("physexp report from stored data", ["report", "--results-dir", str(results_dir)], 60)
+    yield bench.timed("physexp ideal which_is_heavier", ["ideal", "which_is_heavier", "--difficulty", "3"], 20)
 
 
 def _reached(results: base.Results, condition) -> Iterator[dict]:
@@ -48,12 +44,4 @@ def _reached(results: base.Results, condition) -> Iterator[dict]:
     best = ideal.solve(condition.difficulty, condition.agent.discount).value
     yield bench.row(f"return: {name}", reached(returns), "", RETURN[condition.difficulty], **absolute)
     yield bench.row(f"return / ideal experimenter's: {name}", reached(returns) / best, "x",
-                    SHARE_OF_IDEAL[condition.difficulty], ideal=best)  # fmt: skip
-
-
-def _timed(figure: str, arguments: list[str], limit: float) -> dict:
-    """How long a command takes, from start to end."""
-    command = [sys.executable, "-c", "from physexp.cli import main; main()", *arguments]
-    start = time.perf_counter()
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    return bench.row(figure, time.perf_counter() - start, "s", limit, at_most=True)
+                    ideal_gap.LEAST[condition.difficulty], ideal=best)  # fmt: skip

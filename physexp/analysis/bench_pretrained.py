@@ -4,7 +4,6 @@ from collections.abc import Iterator
 
 from physexp.agents import pretrained
 from physexp.analysis import bench, evaluation
-from physexp.analysis import config as config_lib
 
 EPISODES = 10_000
 # What each agent must reach: a figure of the evaluation and its least value.
@@ -26,9 +25,7 @@ def run() -> Iterator[dict]:
     """Evaluates every agent, its actions drawn from its policy as in training."""
     for (domain, task, difficulty), (figure, target) in TARGETS.items():
         agent = pretrained.load(domain, task, difficulty)
-        config = config_lib.TrainConfig.from_json(
-            {"domain": domain, "task": task, "difficulty": agent.card["difficulty"], "agent": agent.card["agent"]}
-        )
+        config = evaluation.config_of(agent)
         drawn, greedy = (
             evaluation.play(agent.network, config, EPISODES, greedy=greedy).summary(config.agent.discount)
             for greedy in (False, True)

@@ -10,6 +10,9 @@ from physexp.agents import config as agent_config
 from physexp.agents.a3c import config as a3c
 from physexp.agents.ppo import config as ppo
 
+REPLAY_EVERY = 1_000_000
+"""Environment steps between the replays that `physexp train` writes."""
+
 ALGORITHMS: dict[str, type[agent_config.AgentConfig]] = {
     config.algorithm: config for config in (a3c.A3CConfig, ppo.PPOConfig)
 }

@@ -110,13 +110,18 @@ def find_agent(target: str) -> tuple[networks.RecurrentActorCritic, config_lib.T
     Raises:
       ValueError: if it is neither.
     """
-    run = run_lib.Run(Path(target))
     domain, _, task = target.partition("/")
-    if (run.path / "config.json").exists() or (domain, task) not in suite.ALL_TASKS:
-        return load_network(run), run.config
-    agent = pretrained.load(domain, task)
-    fields = {"domain": domain, "task": task, "difficulty": agent.card["difficulty"], "agent": agent.card["agent"]}
-    return agent.network, config_lib.TrainConfig.from_json(fields)
+    if (domain, task) in suite.ALL_TASKS and not Path(target).exists():
+        agent = pretrained.load(domain, task)
+        return agent.network, config_of(agent)
+    run = run_lib.Run(Path(target))
+    return load_network(run), run.config
+
+
+def config_of(agent: pretrained.Pretrained) -> config_lib.TrainConfig:
+    """What an agent that comes with the package plays, and how it was trained."""
+    fields = {name: agent.card[name] for name in ("domain", "task", "difficulty", "agent")}
+    return config_lib.TrainConfig.from_json(fields)
 
 
 def evaluate(run: run_lib.Run, num_episodes: int, interaction: str = "learned", greedy: bool = False,

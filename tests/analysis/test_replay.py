@@ -124,6 +124,16 @@ def test_poses_are_kept_at_every_physics_step_and_end_where_the_physics_is(writt
     assert not np.array_equal(episode.positions[0], episode.positions[-1])
 
 
+def test_a_recorder_that_was_told_the_wrong_difficulty_says_so():
+    environment = suite.load("which_is_heavier", "features", task_kwargs={"random": fresh_seed(), "difficulty": 3})
+    recorder = replay.EpisodeRecorder(environment, "which_is_heavier", "features", {"difficulty": 10})
+    recorder.observe_first(environment, environment.reset())
+    recorder.observe(environment, environment.step(0), 0)
+    with pytest.raises(RuntimeError, match="is not what was seen: heights differs; record the environment with"):
+        _ = recorder.episode
+    recorder.close()
+
+
 def test_a_written_file_passes_reruns_own_check_and_is_small(written):
     *_, path = written
     done = subprocess.run([writing.PROGRAM, "rrd", "verify", path], capture_output=True, text=True, check=False)

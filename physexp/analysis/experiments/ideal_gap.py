@@ -8,7 +8,7 @@ from physexp.analysis.ideal import regret
 from physexp.analysis.ideal import which_is_heavier as ideal
 
 CONDITIONS = (*conditions.HEAVIER, *conditions.TOWERS)
-_LEAST = {3.0: 0.95, 5.0: 0.97, 10.0: 0.97}  # Share of the ideal's return that feature agents are to reach.
+LEAST = {3.0: 0.95, 5.0: 0.97, 10.0: 0.97}  # Share of the ideal's return that feature agents are to reach.
 
 
 def load(results: base.Results):
@@ -67,7 +67,7 @@ def find_claims(frame) -> list[claims.Claim]:
     for condition, agents in frame.groupby("condition", sort=False):
         shares = (agents.agent_return / agents.ideal_return).to_numpy()
         beta = agents.difficulty.iloc[0]
-        least = _LEAST[beta] if condition in ("3-F", "5-F", "10-F") else None
+        least = LEAST[beta] if condition in ("3-F", "5-F", "10-F") else None
         if least is not None:
             found.append(claims.Claim(
                 text=f"Feature agents reach {least:.0%} of the ideal experimenter's return", section="ours",

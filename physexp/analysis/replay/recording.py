@@ -70,7 +70,11 @@ class Episode:
 
 
 class EpisodeRecorder(environment_loop.Observer):
-    """Watches an environment and records each episode, with the poses of everything at every physics step."""
+    """Watches an environment and records each episode.
+
+    While it watches it only keeps what it is shown. The poses of everything at every physics step are found when they
+    are asked for: an episode follows from its seed, its index and its actions, so it can be had again.
+    """
 
     def __init__(self, environment: suite.Environment, domain: str, task: str,
                  task_kwargs: Mapping[str, Any] | None = None, actor: core.Actor | None = None,
@@ -86,19 +90,15 @@ class EpisodeRecorder(environment_loop.Observer):
         self._environment, self._actor = environment, actor
         chosen = {name: value for name, value in (task_kwargs or {}).items() if name != "random"}
         self._facts: dict[str, Any] = {"domain": domain, "task": task, "agent": agent, "task_kwargs": chosen}
-        environment.add_extra_hook("after_substep", lambda physics, random_state: self._note_poses(physics))
+        self._rebuilder: _Rebuilder | None = None
 
     def observe_first(self, environment, timestep) -> None:
+        self._identity = environment.task.options.random, environment.task.episode
         self._seen = [timestep.observation]
         self._actions: list[int] = []
         self._rewards: list[float] = []
         self._policies: list[np.ndarray] = []
         self._values: list[float] = []
-        self._poses: list[tuple] = []
-        model = environment.physics.model.ptr
-        self._geoms = [geom for geom in range(model.ngeom) if model.body_weldid[model.geom_bodyid[geom]] != 0]
-        self._things = _things(model, self._geoms)
-        self._note_poses(environment.physics)
 
     def observe(self, environment, timestep, action) -> None:
         policy = getattr(self._actor, "policy", None)
@@ -113,19 +113,62 @@ class EpisodeRecorder(environment_loop.Observer):
         """Nothing: what was recorded is in `episode`."""
         return {}
 
+    def close(self) -> None:
+        """Frees the simulation in which poses are found. Closing twice does nothing."""
+        if self._rebuilder is not None:
+            self._rebuilder.close()
+            self._rebuilder = None
+
     @property
     def episode(self) -> Episode:
-        """The episode so far."""
-        task = self._environment.task
-        times, positions, rotations = (np.array(values) for values in zip(*self._poses, strict=True))
+        """The episode so far.
+
+        Raises:
+          RuntimeError: if the same seed, index and actions do not show again what was seen.
+        """
+        if self._rebuilder is None:
+            self._rebuilder = _Rebuilder(self._facts["domain"], self._facts["task"], self._facts["task_kwargs"])
+        observations = {name: np.stack([seen[name] for seen in self._seen]) for name in self._seen[0]}
+        seen_again, rebuilt = self._rebuilder.rebuild(*self._identity, self._actions)
+        for name, values in observations.items():
+            if not np.array_equal(values, seen_again[name]):
+                seed, number = self._identity
+                raise RuntimeError(f"episode {number} of seed {seed} is not what was seen: {name} differs; record the "
+                                   "environment with the task_kwargs that it was loaded with")  # fmt: skip
+        seed, number = self._identity
         return Episode(
-            **self._facts, seed=task.options.random, number=task.episode, hidden=np.array(task.hidden),
-            answer=task.correct_answer,
-            observations={name: np.stack([seen[name] for seen in self._seen]) for name in self._seen[0]},
+            **self._facts, seed=seed, number=number, observations=observations,
             actions=np.array(self._actions, np.int64), rewards=np.array(self._rewards),
-            policies=np.array(self._policies), values=np.array(self._values), things=self._things, times=times,
-            positions=positions, rotations=rotations,
+            policies=np.array(self._policies), values=np.array(self._values), **rebuilt,
         )  # fmt: skip
+
+
+class _Rebuilder:
+    """Plays episodes again and looks closely."""
+
+    def __init__(self, domain: str, task: str, task_kwargs: Mapping[str, Any]):
+        self._environment = suite.load(domain, task, task_kwargs=dict(task_kwargs))
+        self._environment.add_extra_hook("after_substep", lambda physics, random_state: self._note_poses(physics))
+
+    def close(self) -> None:
+        self._environment.close()
+
+    def rebuild(self, seed: int, number: int, actions: Sequence[int]) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+        """What is seen, by name, and the fields of `Episode` that only the simulation knows."""
+        task = self._environment.task
+        task.reseed(seed)
+        task.next_episode = number
+        timestep = self._environment.reset()
+        model = self._environment.physics.model.ptr
+        self._geoms = [geom for geom in range(model.ngeom) if model.body_weldid[model.geom_bodyid[geom]] != 0]
+        self._poses: list[tuple] = []
+        self._note_poses(self._environment.physics)
+        seen = [timestep.observation, *(self._environment.step(action).observation for action in actions)]
+        times, positions, rotations = (np.array(values) for values in zip(*self._poses, strict=True))
+        return {name: np.stack([each[name] for each in seen]) for name in seen[0]}, {
+            "hidden": np.array(task.hidden), "answer": task.correct_answer, "things": _things(model, self._geoms),
+            "times": times, "positions": positions, "rotations": rotations,
+        }  # fmt: skip
 
     def _note_poses(self, physics) -> None:
         data = physics.data
@@ -191,5 +234,6 @@ def reenact(network: networks.RecurrentActorCritic, config: config_lib.TrainConf
     recorder = EpisodeRecorder(environment, config.domain, config.task, config.task_kwargs, actor, agent)
     environment_loop.EnvironmentLoop(environment, actor, [recorder]).run_episode()
     episode = recorder.episode
+    recorder.close()
     environment.close()
     return episode

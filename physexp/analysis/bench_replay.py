@@ -1,0 +1,61 @@
+"""What it costs to record, to write replays, and to start."""
+
+from collections.abc import Iterator
+from pathlib import Path
+import tempfile
+import time
+
+from physexp import suite
+from physexp.agents import environment_loop, pretrained
+from physexp.analysis import bench, evaluation, replay
+from physexp.analysis import config as config_lib
+from physexp.analysis.replay import recording, writing
+
+_EPISODES = 40
+
+
+def run() -> Iterator[dict]:
+    """Measures the recorder, a replay in training, `physexp replay` and `physexp --help`."""
+    for name, task in bench.TASKS.items():
+        yield _recording(name, task)
+    for name, task in bench.TASKS.items():
+        yield _replay_in_training(name, task)
+    with tempfile.TemporaryDirectory() as folder:
+        arguments = ["replay", "towers/fist_features", "--episodes", "4", "--output", f"{folder}/replay.rrd"]
+        yield bench.timed("physexp replay towers/fist_features --episodes 4", arguments, 15)
+    yield bench.timed("physexp --help", ["--help"], 0.5)
+
+
+def _recording(name: str, task: tuple[str, str]) -> dict:
+    """What recording adds to playing episodes with a trained agent, features and all."""
+    with_recorder, without = (_player(task, is_recording) for is_recording in (True, False))
+    recorded, plain = bench.rates(with_recorder, without)
+    return bench.row(f"what recording adds to evaluation: {name}", plain / recorded - 1, "", 0.03, at_most=True,
+                     recorded=recorded, plain=plain)  # fmt: skip
+
+
+def _player(task: tuple[str, str], is_recording: bool):
+    environment, actor = suite.load(*task, task_kwargs={"random": 0}), pretrained.load(*task).actor()
+    observers = [replay.EpisodeRecorder(environment, *task, {}, actor)] if is_recording else []
+    loop = environment_loop.EnvironmentLoop(environment, actor, observers)
+
+    def play() -> int:
+        return sum(episode["episode_length"] for episode in loop.run(_EPISODES))
+
+    return play
+
+
+def _replay_in_training(name: str, task: tuple[str, str]) -> dict:
+    """Processor time of a replay over that of training from one to the next, on two workers."""
+    agent = pretrained.load(*task)
+    config = evaluation.config_of(agent)
+    seconds = []
+    with tempfile.TemporaryDirectory() as folder:
+        for number in range(3):  # The first one imports.
+            start = time.process_time()
+            episode = recording.reenact(agent.network, config, 0, number, None)
+            writing.write(Path(folder) / "replay.rrd", [lambda episode=episode: [episode]])  # type: ignore[misc]
+            seconds.append(time.process_time() - start)
+    training = bench.THREADS * config_lib.REPLAY_EVERY / bench.training_rate(task, 10.0)
+    return bench.row(f"a replay / training for {config_lib.REPLAY_EVERY:,} steps: {name}", seconds[-1] / training, "", 0.02,
+                     at_most=True, replay_seconds=seconds[-1], training_seconds=training)  # fmt: skip
