@@ -15,10 +15,12 @@ from physexp.agents import config as agent_config
 from physexp.analysis import config as config_lib
 
 Config = TypeVar("Config", bound=agent_config.AgentConfig)
-BenchSection = Literal["reset", "batch", "training", "peers", "pixels", "pretrained", "replay", "learning"]
+BenchSection = Literal[
+    "reset", "batch", "training", "peers", "pixels", "pretrained", "replay", "distributed", "learning"
+]
 
 _EXTRAS = {"matplotlib": "analysis", "pandas": "analysis", "stable_baselines3": "bench", "sb3_contrib": "bench",
-           "tensorboard": "tensorboard"}  # fmt: skip
+           "tensorboard": "tensorboard", "ray": "distributed"}  # fmt: skip
 """Libraries that some commands need, and the extra that brings each."""
 
 
@@ -58,6 +60,7 @@ class Train(Generic[Config]):
       run_dir: the run's folder; by default one named after the run, under runs/.
       tensorboard: write the metrics for TensorBoard too.
       resume: continue the run in that folder, with its own configuration.
+      cluster: train on a cluster of Ray: HOST:PORT of its head; auto for the one that runs here, or else a local one.
     """
 
     domain: Positional[str]
@@ -70,6 +73,7 @@ class Train(Generic[Config]):
     run_dir: Path | None = None
     tensorboard: bool = False
     resume: bool = False
+    cluster: str | None = None
 
     def run(self) -> None:
         from physexp import suite
@@ -98,7 +102,11 @@ class Train(Generic[Config]):
                 for log in logs:
                     log(row)
 
-            training.train(run, report)
+            if self.cluster is not None:
+                from physexp.analysis import cluster
+
+                stack.enter_context(cluster.joined(self.cluster))
+            training.train(run, report, self.cluster is not None, _warn)
         print(run.path)
 
 
@@ -269,6 +277,7 @@ class Reproduce:
       results_dir: where everything goes.
       jobs: agents trained at a time; by default one a core.
       frames: environment steps of training, for a rehearsal; by default each condition's own budget.
+      cluster: train on a cluster of Ray: HOST:PORT of its head; auto for the one that runs here, or else a local one.
     """
 
     experiment: Positional[str]
@@ -277,16 +286,25 @@ class Reproduce:
     results_dir: Path = Path("results")
     jobs: int | None = None
     frames: int | None = None
+    cluster: str | None = None
 
     def run(self) -> None:
         from physexp.analysis import reproduce
         from physexp.analysis.experiments import base, conditions
 
-        reproduce.run(
-            reproduce.choose(self.experiment), base.Results(self.results_dir),
-            observations=conditions.OBSERVATIONS if self.observations == "all" else (self.observations,),
-            num_seeds=self.seeds, num_processes=self.jobs, frames=self.frames, report=_tell,
-        )  # fmt: skip
+        experiments = reproduce.choose(self.experiment)
+        with contextlib.ExitStack() as stack:
+            submit = None
+            if self.cluster is not None:
+                from physexp.analysis import cluster
+
+                stack.enter_context(cluster.joined(self.cluster))
+                submit = cluster.submit
+            reproduce.run(
+                experiments, base.Results(self.results_dir),
+                observations=conditions.OBSERVATIONS if self.observations == "all" else (self.observations,),
+                num_seeds=self.seeds, num_processes=self.jobs, frames=self.frames, submit=submit, report=_tell,
+            )  # fmt: skip
 
 
 @dataclasses.dataclass
@@ -411,6 +429,10 @@ def _parse(arguments: list[str]):
 
 def _follows(flag: str, value: str, arguments: list[str]) -> bool:
     return f"{flag}={value}" in arguments or (flag, value) in zip(arguments, arguments[1:], strict=False)
+
+
+def _warn(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)
 
 
 def _tell(line: str) -> None:

@@ -8,11 +8,15 @@ from typing import Any
 import numpy as np
 import torch
 
-from physexp.agents import acting, networks
+from physexp.agents import acting, learning, networks
 from physexp.agents import config as config_lib
 
 # Makes a batch of environments from its seed, its number of environments and its number of threads.
 EnvironmentFactory = Callable[[int, int, int], Any]
+
+
+class VariablesLostError(learning.AgentError):
+    """What was learned since the last checkpoint is lost; restored from it, training can go on."""
 
 
 @dataclasses.dataclass(frozen=True)

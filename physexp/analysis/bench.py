@@ -235,5 +235,11 @@ def _replay() -> Iterator[dict]:
     yield from bench_replay.run()
 
 
+def _distributed() -> Iterator[dict]:
+    from physexp.analysis import bench_distributed
+
+    yield from bench_distributed.run()
+
+
 _SECTIONS = {"reset": _reset, "batch": _batch, "training": _training, "peers": _peers, "pixels": _pixels,
-             "pretrained": _pretrained, "replay": _replay}  # fmt: skip
+             "pretrained": _pretrained, "replay": _replay, "distributed": _distributed}  # fmt: skip

@@ -56,6 +56,7 @@ def _replay_in_training(name: str, task: tuple[str, str]) -> dict:
             episode = recording.reenact(agent.network, config, 0, number, None)
             writing.write(Path(folder) / "replay.rrd", [lambda episode=episode: [episode]])  # type: ignore[misc]
             seconds.append(time.process_time() - start)
-    training = bench.THREADS * config_lib.REPLAY_EVERY / bench.training_rate(task, 10.0)
-    return bench.row(f"a replay / training for {config_lib.REPLAY_EVERY:,} steps: {name}", seconds[-1] / training, "", 0.02,
+    steps = config_lib.REPLAY_EVERY
+    training = bench.THREADS * steps / bench.training_rate(task, 10.0)
+    return bench.row(f"a replay / training for {steps:,} steps: {name}", seconds[-1] / training, "", 0.02,
                      at_most=True, replay_seconds=seconds[-1], training_seconds=training)  # fmt: skip

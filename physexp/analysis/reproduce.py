@@ -1,6 +1,7 @@
 """Reproducing the paper: trains the agents of experiments, lets them play, draws the figures and tests the claims."""
 
 from collections.abc import Callable, Sequence
+from concurrent import futures
 
 from physexp.analysis import figures, sweep
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions
@@ -23,6 +24,7 @@ def choose(name: str) -> list[base.Experiment]:
 
 def run(experiments: Sequence[base.Experiment], results: base.Results, *, observations: Sequence[str],
         num_seeds: int | None = None, num_processes: int | None = None, frames: int | None = None,
+        submit: Callable[[sweep.Job], futures.Future] | None = None,
         report: Callable[[str], None]) -> None:  # fmt: skip
     """Does everything for some experiments that is not done yet.
 
@@ -33,6 +35,7 @@ def run(experiments: Sequence[base.Experiment], results: base.Results, *, observ
       num_seeds: agents in each condition; by default `conditions.SEEDS`.
       num_processes: agents trained at a time; by default as many as there are cores.
       frames: environment steps of training, for a rehearsal; by default each condition's own budget.
+      submit: trains an agent elsewhere; by default agents are trained here.
       report: called with lines that tell how it goes.
 
     Raises:
@@ -43,7 +46,7 @@ def run(experiments: Sequence[base.Experiment], results: base.Results, *, observ
         if value is not None and value < 1:
             raise ValueError(f"{name} is {value}; give an integer >= 1")
     wanted = sweep.jobs(experiments, observations, lambda kind: num_seeds or conditions.SEEDS[kind], frames)
-    sweep.run(wanted, results, num_processes or sweep.num_cores(), report)
+    sweep.run(wanted, results, num_processes or sweep.num_cores(), report, submit)
     for experiment in experiments:
         if experiment.prepare is not None:
             experiment.prepare(results, report)

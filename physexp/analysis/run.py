@@ -47,6 +47,7 @@ METRICS = {
     "gradient_norm": "before clipping",
     "learning_rate": "",
     "entropy_cost": "",
+    "staleness": "updates of others between taking the parameters and applying the gradient",
 }
 """The columns of `metrics.csv`; losses and rates are means over the updates since the row before."""
 

@@ -5,7 +5,10 @@ from concurrent import futures
 import dataclasses
 import multiprocessing
 import os
+from pathlib import Path
+import tempfile
 
+from physexp.agents import checkpointing
 from physexp.analysis import config as config_lib
 from physexp.analysis import progress, records, training
 from physexp.analysis import run as run_lib
@@ -51,14 +54,16 @@ def num_cores() -> int:
     return len(os.sched_getaffinity(0))
 
 
-def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report: Callable[[str], None]) -> None:
+def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report: Callable[[str], None],
+        submit: Callable[[Job], futures.Future] | None = None) -> None:  # fmt: skip
     """Does what is not done yet.
 
     Args:
       wanted: the agents.
       results: where everything goes.
-      num_processes: how many agents to train at a time.
+      num_processes: how many agents to train at a time, here.
       report: called with lines that tell how it goes.
+      submit: trains an agent elsewhere, as `cluster.submit` does; by default agents are trained here.
 
     Raises:
       RuntimeError: when some agents could not be trained; all others are done by then.
@@ -77,7 +82,7 @@ def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report
     context = multiprocessing.get_context("spawn")
     failures = []
     with futures.ProcessPoolExecutor(num_processes, mp_context=context, max_tasks_per_child=1) as pool:
-        pending = {pool.submit(_work, job, results): job for job in todo}
+        pending = {submit(job) if submit else pool.submit(_work, job, results): job for job in todo}
         try:
             while pending:
                 done, _ = futures.wait(pending, timeout=_POLL_SECONDS, return_when=futures.FIRST_COMPLETED)
@@ -86,8 +91,11 @@ def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report
                     if future.exception() is not None:
                         failures.append(f"{job.config.name}: {future.exception()}")
                         report(f"FAILED {failures[-1]}")
-                    else:
-                        report(f"done: {job.config.name}")
+                        continue
+                    for name, content in (future.result() or {}).items():
+                        (results.path / name).parent.mkdir(parents=True, exist_ok=True)
+                        checkpointing.write_atomically(results.path / name, content)
+                    report(f"done: {job.config.name}")
                 report(meter.line(len(pending)))
         except KeyboardInterrupt:
             pool.shutdown(cancel_futures=True)
@@ -120,6 +128,17 @@ def _work(job: Job, results: base.Results) -> None:
         path = results.episodes_path(trial, job.config)
         if not path.exists():
             records.write(path, _play(this, trial))
+
+
+def work_elsewhere(job: Job) -> dict[str, bytes]:
+    """Trains an agent on a machine that does not see the results; returns the files that belong there, by path."""
+    with tempfile.TemporaryDirectory() as folder:
+        _work(job, base.Results(Path(folder)))
+        return {
+            str(path.relative_to(folder)): path.read_bytes()
+            for path in sorted(Path(folder).rglob("*"))
+            if path.is_file() and path.name != ".lock"
+        }
 
 
 def _play(this: run_lib.Run, trial: base.Trial):

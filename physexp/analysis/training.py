@@ -28,19 +28,34 @@ def make_environment(config: config_lib.TrainConfig, seed: int, num_environments
     return suite.load_batch(config.domain, config.task, num_environments, task_kwargs, num_threads)
 
 
-def make_agent(config: config_lib.TrainConfig) -> agent_lib.Agent:
-    """The agent of a run, as it is before training."""
+def make_agent(config: config_lib.TrainConfig, on_cluster: bool = False,
+               tell: Callable[[str], None] = lambda line: None) -> agent_lib.Agent:  # fmt: skip
+    """The agent of a run, as it is before training.
+
+    Args:
+      config: the run's.
+      on_cluster: train on the cluster that this process has joined.
+      tell: called with a line when a worker of the cluster has died.
+
+    Raises:
+      ValueError: for an agent that cannot be trained on a cluster.
+    """
     environments = functools.partial(make_environment, config)
     match config.agent:
+        case A3CConfig() if on_cluster:
+            from physexp.agents.a3c import distributed
+
+            return distributed.DistributedA3C(environments, config.agent, run_lib.versions, tell)
         case A3CConfig():
             return a3c.A3C(environments, config.agent)
-        case PPOConfig():
+        case PPOConfig() if not on_cluster:
             return ppo.PPO(environments, config.agent)
         case _:
-            raise TypeError(f"no agent is made from {type(config.agent).__name__}")
+            raise ValueError(f"agent is {config.agent.algorithm}, which has one process; on a cluster train a3c")
 
 
-def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None) -> None:
+def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None, on_cluster: bool = False,
+          tell: Callable[[str], None] = lambda line: None) -> None:  # fmt: skip
     """Trains the agent that a run's configuration describes, from its last checkpoint if there is one.
 
     Ctrl-C finishes the update and writes a checkpoint; a second one leaves at once.
@@ -48,26 +63,31 @@ def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None) -
     Args:
       run: a run that has been created.
       report: called with each row of metrics.
+      on_cluster: train on the cluster that this process has joined.
+      tell: called with a line when something has gone wrong that training survives.
 
     Raises:
       KeyboardInterrupt: after a Ctrl-C, when the checkpoint has been written.
       RuntimeError: if training cannot go on; the last checkpoint is whole.
+      ValueError: if another process is training in the run's folder, or its agent cannot be trained on a cluster.
     """
     config = run.config
-    agent = make_agent(config)
+    agent = make_agent(config, on_cluster, tell)
     run.lock()
     try:
         recorder = _Recorder(run, config, report)
         recorder.resume(agent)
         with _Interruption(agent.stop) as interruption:
-            _run(agent, recorder)
+            while not _run(agent, recorder, tell):
+                recorder.resume(agent)
         if interruption.happened:
             raise KeyboardInterrupt
     finally:
         run.unlock()
 
 
-def _run(agent: agent_lib.Agent, recorder: "_Recorder") -> None:
+def _run(agent: agent_lib.Agent, recorder: "_Recorder", tell: Callable[[str], None]) -> bool:
+    """Trains to the end; returns False if it has to go on from the last checkpoint."""
     try:
         for update in agent.updates():
             if update is not None:
@@ -75,6 +95,9 @@ def _run(agent: agent_lib.Agent, recorder: "_Recorder") -> None:
             if recorder.checkpoint_is_due():
                 recorder.snapshot(agent.save())
         recorder.snapshot(agent.save())
+    except agent_lib.VariablesLostError as error:
+        tell(f"{error}; training goes on from the last checkpoint")
+        return False
     except learning.AgentError as error:
         where = recorder.save_failure(error)
         raise RuntimeError(f"training stopped: {error}{where}; the last checkpoint is whole, --resume it") from None
@@ -83,6 +106,7 @@ def _run(agent: agent_lib.Agent, recorder: "_Recorder") -> None:
             f"training stopped: cannot write to {recorder.path}: {error.strerror}; the last checkpoint is whole, "
             "make room and --resume it"
         ) from None
+    return True
 
 
 class _Recorder:
@@ -96,6 +120,10 @@ class _Recorder:
         self._run, self._config, self._report = run, config, report
         self.path = run.path
         self._num_interactions = suite.load_task(config.domain, config.task, config.task_kwargs).num_interactions
+        self._start_over()
+
+    def _start_over(self) -> None:
+        """Records nothing yet."""
         self._frames = self._updates = self._episodes = 0
         self._seconds = 0.0
         self._started = self._checkpointed = time.monotonic()
@@ -107,7 +135,8 @@ class _Recorder:
         self._records: list[dict[str, list]] = []
 
     def resume(self, agent: agent_lib.Agent) -> None:
-        """Puts the agent and the records back to the last checkpoint, if there is one."""
+        """Puts the agent and the records back to the last checkpoint, or to the start."""
+        self._start_over()
         found = self._run.checkpointer.latest()
         if found is None:
             self._run.rewind(-1)
@@ -205,7 +234,15 @@ class _Recorder:
         reward, length, pokes = (np.concatenate(arrays) for arrays in (rewards, lengths, interactions))
         learner = {
             name: float(np.mean([update.metrics[name] for update in self._window]))
-            for name in ("entropy", "policy_loss", "baseline_loss", "gradient_norm", "learning_rate", "entropy_cost")
+            for name in (
+                "entropy",
+                "policy_loss",
+                "baseline_loss",
+                "gradient_norm",
+                "learning_rate",
+                "entropy_cost",
+                "staleness",
+            )
         }
         return {
             "success_rate": float((reward > 0).mean()),

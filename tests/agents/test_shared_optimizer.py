@@ -71,7 +71,7 @@ def test_two_processes_move_one_set_of_adam_statistics(context):
 
 def test_two_learners_at_once_share_weights_statistics_and_counters(context):
     shared = learning.Variables(make_network(), num_workers=2)
-    memory = a3c.SharedMemory(shared, context.Lock())
+    memory = a3c.SharedMemory(shared, context.Lock(), CONFIG.max_staleness)
     before = {name: value.clone() for name, value in shared.tensors().items()}
     results = context.Queue()
     processes = [context.Process(target=learn_once, args=(memory, worker, results)) for worker in range(2)]
@@ -104,7 +104,7 @@ def test_a_learner_restores_what_it_saved():
     def play(number):
         return acting.play_round(network, batch, number, np.random.default_rng(number), differentiable=True)
 
-    memory = a3c.SharedMemory(shared, multiprocessing.get_context("spawn").Lock())
+    memory = a3c.SharedMemory(shared, multiprocessing.get_context("spawn").Lock(), config.max_staleness)
     learner = a3c.A3CLearner(network, memory, play, 0, config)
     learner.run(2)
     saved = learner.save()

@@ -46,7 +46,9 @@ class A3C(agent_lib.Agent):
         environment = make_environment(config.seed, 1, 1)
         network = agent_lib.initial_network(environment, config)
         environment.close()
-        self.shared = a3c.SharedMemory(learning.Variables(network, config.num_workers), self._context.Lock())
+        self.shared = a3c.SharedMemory(
+            learning.Variables(network, config.num_workers), self._context.Lock(), config.max_staleness
+        )
         self._workers: list[Any] = []
 
     @property
@@ -174,7 +176,7 @@ def work(index: int, make_environment: agent_lib.EnvironmentFactory, config: con
         return acting.play_round(network, environment, number, generator, differentiable=True)
 
     learner = a3c.A3CLearner(network, shared, play, index, config)
-    frames = shared.count_frames()
+    frames = shared.pull(network, index).frames
     while frames < config.frames and not is_stopped():
         metrics = learner.step()
         yield agent_lib.Update(seed, metrics, learner.last_round.record())

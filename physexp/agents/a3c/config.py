@@ -14,11 +14,15 @@ class A3CConfig(config.AgentConfig):
     Attributes:
       num_workers: processes that act and learn asynchronously on shared parameters.
       envs_per_worker: episodes that a worker plays side by side for one update; 1 is the paper's learner.
+      max_staleness: updates of others after which a gradient is too old to be applied.
     """
 
     algorithm: ClassVar[str] = "a3c"
 
     num_workers: int = 2
     envs_per_worker: int = 256
+    max_staleness: int = 100
 
-    _WHOLE: ClassVar[Mapping[str, int]] = {**config.AgentConfig._WHOLE, "num_workers": 1, "envs_per_worker": 1}
+    _WHOLE: ClassVar[Mapping[str, int]] = {
+        **config.AgentConfig._WHOLE, "num_workers": 1, "envs_per_worker": 1, "max_staleness": 0
+    }  # fmt: skip

@@ -1,6 +1,7 @@
 """Learning: gradients of whole episodes, applied to variables that all workers share."""
 
 from collections.abc import Callable, Mapping
+import dataclasses
 from typing import Protocol
 
 import torch
@@ -9,23 +10,75 @@ from physexp.agents import acting, core, learning, losses, networks
 from physexp.agents.a3c import config as config_lib
 
 
+@dataclasses.dataclass(frozen=True)
+class Pulled:
+    """Where training stood when a worker took the parameters.
+
+    Attributes:
+      frames: environment steps trained on.
+      updates: updates made.
+      rounds: rounds that the worker has played.
+    """
+
+    frames: int
+    updates: int
+    rounds: int
+
+
+@dataclasses.dataclass(frozen=True)
+class Contribution:
+    """What a worker has learned from a round.
+
+    Attributes:
+      worker: who.
+      pulled: from which parameters.
+      gradients: for each parameter.
+      learning_rate: the step size they ask for.
+      metrics: figures of the learner.
+      episodes: the round, for records.
+    """
+
+    worker: int
+    pulled: Pulled
+    gradients: list[torch.Tensor]
+    learning_rate: float
+    metrics: dict[str, float]
+    episodes: acting.Round
+
+
 class Shared(Protocol):
     """Variables that many workers share, wherever they are kept."""
 
-    def count_frames(self) -> int:
-        """Environment steps trained on."""
+    def pull(self, network: networks.RecurrentActorCritic, worker: int) -> Pulled:
+        """Copies the parameters into a worker's network."""
 
-    def pull(self, network: networks.RecurrentActorCritic, worker: int) -> tuple[int, int]:
-        """Copies the parameters into a worker's network; returns frames trained on, and rounds the worker has had."""
+    def push(self, contribution: Contribution) -> dict[str, float] | None:
+        """Applies gradients; returns the counters `updates`, `frames`, `rounds` and `staleness`.
 
-    def push(self, gradients: list[torch.Tensor], learning_rate: float, num_frames: int, worker: int) -> dict:
-        """Applies a worker's gradients; returns the counters `updates` and `frames`."""
+        None if too many other updates have been made since the parameters were taken: nothing has changed then.
+        """
 
     def save(self) -> dict[str, torch.Tensor]:
         """Copies of all variables, by name."""
 
     def restore(self, tensors: Mapping[str, torch.Tensor]) -> None:
         """Takes up what `save` returned."""
+
+
+def pull(variables: learning.Variables, worker: int) -> Pulled:
+    """Where training stands, for a worker."""
+    return Pulled(int(variables.frames), int(variables.updates), int(variables.rounds[worker]))
+
+
+def push(variables: learning.Variables, contribution: Contribution, max_staleness: int) -> dict[str, float] | None:
+    """As `Shared.push`, on variables that nobody else reads or writes meanwhile."""
+    staleness = int(variables.updates) - contribution.pulled.updates
+    if staleness > max_staleness:
+        return None
+    variables.apply(contribution.gradients, contribution.learning_rate)
+    variables.count(contribution.episodes.num_frames, contribution.worker)
+    return {"updates": int(variables.updates), "frames": int(variables.frames),
+            "rounds": contribution.pulled.rounds, "staleness": staleness}  # fmt: skip
 
 
 class SharedMemory(Shared):
@@ -36,22 +89,17 @@ class SharedMemory(Shared):
       lock: held while they are read or written.
     """
 
-    def __init__(self, variables: learning.Variables, lock):
-        self.variables, self.lock = variables.share_memory(), lock
-
-    def count_frames(self):
-        return int(self.variables.frames)
+    def __init__(self, variables: learning.Variables, lock, max_staleness: int):
+        self.variables, self.lock, self._max_staleness = variables.share_memory(), lock, max_staleness
 
     def pull(self, network, worker):
         with self.lock:
             network.load_state_dict(self.variables.network.state_dict())
-            return int(self.variables.frames), int(self.variables.rounds[worker])
+            return pull(self.variables, worker)
 
-    def push(self, gradients, learning_rate, num_frames, worker):
+    def push(self, contribution):
         with self.lock:
-            self.variables.apply(gradients, learning_rate)
-            self.variables.count(num_frames, worker)
-            return {"updates": self.variables.updates.item(), "frames": self.variables.frames.item()}
+            return push(self.variables, contribution, self._max_staleness)
 
     def save(self):
         with self.lock:
@@ -86,25 +134,32 @@ class A3CLearner(core.Learner):
         self._worker, self._config = worker, config
 
     def step(self) -> dict[str, float]:
-        """Takes the shared parameters, plays a round, and applies its gradient to the shared variables."""
+        """Takes the shared parameters, plays a round, and applies its gradient to the shared variables.
+
+        Where the others have left it too far behind, it plays another round.
+        """
+        while True:
+            contribution = self._learn(self._shared.pull(self._network, self._worker))
+            counters = self._shared.push(contribution)
+            if counters is not None:
+                return contribution.metrics | counters
+
+    def _learn(self, pulled: Pulled) -> Contribution:
         config = self._config
-        frames, number = self._shared.pull(self._network, self._worker)
-        learning_rate, entropy_cost = config.at(min(1.0, frames / config.frames))
-        self.last_round = episodes = self._play(number)
+        learning_rate, entropy_cost = config.at(min(1.0, pulled.frames / config.frames))
+        self.last_round = episodes = self._play(pulled.rounds)
         policy_loss, baseline_loss, entropy = round_losses(self._network, episodes, config.discount, config.trace)
         loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
         gradients, norm = learning.clipped_gradients(self._network, loss, config.max_gradient_norm, episodes)
-        counters = self._shared.push(gradients, learning_rate, episodes.num_frames, self._worker)
-        return {
+        metrics = {
             "policy_loss": policy_loss.item(),
             "baseline_loss": baseline_loss.item(),
             "entropy": entropy.item(),
             "gradient_norm": norm,
             "learning_rate": learning_rate,
             "entropy_cost": entropy_cost,
-            "rounds": number,
-            **counters,
         }
+        return Contribution(self._worker, pulled, gradients, learning_rate, metrics, episodes.record())
 
     def get_variables(self):
         return learning.network_variables(self.save())

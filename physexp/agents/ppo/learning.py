@@ -51,6 +51,7 @@ class PPOLearner(core.Learner):
             "rounds": number,
             "updates": variables.updates.item(),
             "frames": variables.frames.item(),
+            "staleness": 0.0,
         }
 
     def _learn(self, episodes: acting.Round, learning_rate: float, entropy_cost: float) -> dict[str, float]:

@@ -1,0 +1,309 @@
+"""A3C on a cluster: workers and the shared variables are actors of Ray, which places, connects and restarts them.
+
+    worker ── pull, push ──> parameter server <── take, save ── driver
+
+A worker sends its gradient together with the record of the round that it is from, so an update is in the variables and
+in the records, or in neither, whoever dies when. The driver hands out the records as `Agent.updates`.
+"""
+
+from collections.abc import Callable
+import dataclasses
+import time
+from typing import Any
+
+import numpy as np
+import ray
+import torch
+
+from physexp.agents import agent as agent_lib
+from physexp.agents import learning, networks
+from physexp.agents.a3c import agent as a3c_agent
+from physexp.agents.a3c import config as config_lib
+from physexp.agents.a3c import learning as a3c
+
+_POLL_SECONDS = 0.1  # Between looks at what the workers have done.
+_MAX_DEATHS = 5  # Of a worker, with no update of anybody in between.
+_STOP_SECONDS = 120.0  # For an update that is under way to finish.
+
+
+@dataclasses.dataclass
+class Traffic:
+    """What the parameter server has done so far.
+
+    Attributes:
+      updates: gradients applied.
+      dropped: gradients that were too old.
+      busy_seconds: time spent on all of them.
+      bytes_in, bytes_out: gradients with their records, and parameters.
+    """
+
+    updates: int = 0
+    dropped: int = 0
+    busy_seconds: float = 0.0
+    bytes_in: int = 0
+    bytes_out: int = 0
+
+
+@dataclasses.dataclass(frozen=True)
+class _Reply:
+    """What the parameter server answers to a worker: where training stands, and the parameters, float32 [P]."""
+
+    counters: dict[str, float] | None
+    pulled: a3c.Pulled
+    parameters: np.ndarray
+    goes_on: bool
+
+
+class ParameterServer:
+    """The actor that keeps the variables. It does one thing at a time, so nobody sees half an update."""
+
+    def __init__(self, network: networks.RecurrentActorCritic, tensors, config: config_lib.A3CConfig):
+        """Takes up variables.
+
+        Args:
+          network: any network of their shapes.
+          tensors: what `Variables.save` returned.
+          config: the agent's configuration.
+        """
+        torch.set_num_threads(1)
+        self._variables, self._config = learning.Variables(network, config.num_workers), config
+        self._variables.restore(tensors)
+        self._records: list[agent_lib.Update] = []
+        self._traffic = Traffic()
+        self._stopped = False
+
+    def exchange(self, worker: int, seed: int, contribution: a3c.Contribution | None) -> _Reply:
+        """Applies what a worker has learned, if anything, and gives it the newest parameters."""
+        start = time.perf_counter()
+        variables, traffic, counters = self._variables, self._traffic, None
+        if contribution is not None:
+            (vector,) = contribution.gradients
+            gradients = _split(vector, variables.network)
+            counters = a3c.push(variables, dataclasses.replace(contribution, gradients=gradients),
+                                self._config.max_staleness)  # fmt: skip
+            traffic.bytes_in += vector.nbytes + contribution.episodes.actions.nbytes
+            if counters is None:
+                traffic.dropped += 1
+            else:
+                traffic.updates += 1
+                metrics = contribution.metrics | counters
+                self._records.append(agent_lib.Update(seed, metrics, contribution.episodes))
+        pulled = a3c.pull(variables, worker)
+        parameters = torch.nn.utils.parameters_to_vector(variables.network.parameters()).detach().numpy()
+        traffic.bytes_out += parameters.nbytes
+        traffic.busy_seconds += time.perf_counter() - start
+        return _Reply(counters, pulled, parameters, pulled.frames < self._config.frames and not self._stopped)
+
+    def restore(self, tensors) -> None:
+        self._variables.restore(tensors)
+
+    def take(self) -> list[agent_lib.Update]:
+        """The updates since this was called last."""
+        records, self._records = self._records, []
+        return records
+
+    def save(self) -> dict[str, torch.Tensor]:
+        return self._variables.save()
+
+    def traffic(self) -> Traffic:
+        return self._traffic
+
+    def stop(self) -> None:
+        """Lets every worker end with the update that it is at."""
+        self._stopped = True
+
+
+def _split(vector: torch.Tensor, network: torch.nn.Module) -> list[torch.Tensor]:
+    """The parts of a vector, each in the shape of a parameter."""
+    parameters = list(network.parameters())
+    parts = torch.split(vector, [parameter.numel() for parameter in parameters])
+    return [part.view_as(parameter) for part, parameter in zip(parts, parameters, strict=True)]
+
+
+class _Remote(a3c.Shared):
+    """The parameter server as a worker sees it: what it pulls has come with the answer to what it pushed."""
+
+    def __init__(self, server, seed: int):
+        self._server, self._seed = server, seed
+        self._reply: _Reply | None = None
+
+    @property
+    def goes_on(self) -> bool:
+        return self._reply is None or self._reply.goes_on
+
+    def pull(self, network, worker):
+        reply = self._reply or self._exchange(worker, None)
+        torch.nn.utils.vector_to_parameters(torch.from_numpy(reply.parameters.copy()), network.parameters())
+        return reply.pulled
+
+    def push(self, contribution):
+        vector = torch.cat([gradient.flatten().cpu() for gradient in contribution.gradients])
+        return self._exchange(contribution.worker, dataclasses.replace(contribution, gradients=[vector])).counters
+
+    def save(self):
+        return ray.get(self._server.save.remote())
+
+    def restore(self, tensors):
+        ray.get(self._server.restore.remote(tensors))
+        self._reply = None
+
+    def _exchange(self, worker: int, contribution: a3c.Contribution | None) -> _Reply:
+        try:
+            self._reply = ray.get(self._server.exchange.remote(worker, self._seed, contribution))
+        except ray.exceptions.RayActorError as error:
+            raise agent_lib.VariablesLostError(f"the parameter server has died: {_first_line(error)}") from None
+        return self._reply
+
+
+class Worker:
+    """The actor that acts and learns."""
+
+    def run(self, server, index: int, make_environment: agent_lib.EnvironmentFactory, config: config_lib.A3CConfig,
+            versions: dict[str, str], find_versions: Callable[[], dict[str, str]]) -> None:  # fmt: skip
+        """Works until all frames are done or the server stops it.
+
+        Raises:
+          AgentError: if this machine has other versions than the driver's, or the loss is not finite.
+          VariablesLostError: if the server dies.
+        """
+        own = find_versions()
+        differing = [f"{name} {own[name]}, not {versions[name]}" for name in versions if own[name] != versions[name]]
+        if differing:
+            raise learning.AgentError(f"{ray.util.get_node_ip_address()} has {', '.join(differing)}; install the "
+                                      "versions of the machine that trains")  # fmt: skip
+        torch.set_num_threads(1)
+        shared = _Remote(server, agent_lib.worker_seed(config.seed, index))
+        for _ in a3c_agent.work(index, make_environment, config, shared, lambda: not shared.goes_on):
+            pass
+
+
+class DistributedA3C(agent_lib.Agent):
+    """Runs the actors and hands out what they do. The cluster must have been joined with `ray.init`.
+
+    Attributes:
+      restarts: how often a worker that had died was started again.
+    """
+
+    def __init__(self, make_environment: agent_lib.EnvironmentFactory, config: config_lib.A3CConfig,
+                 find_versions: Callable[[], dict[str, str]],
+                 report: Callable[[str], None] = lambda line: None):  # fmt: skip
+        """Prepares the variables; the actors start with `updates`.
+
+        Args:
+          make_environment: called in each worker; must be picklable, and its module installed on all machines.
+          config: the configuration. Workers for which the cluster has no room yet join when it has.
+          find_versions: says what is installed; it must say the same on every machine.
+          report: called with a line when a worker has died.
+        """
+        self._make_environment, self._config = make_environment, config
+        self._find_versions, self._report = find_versions, report
+        environment = make_environment(config.seed, 1, 1)
+        self._network = agent_lib.initial_network(environment, config)
+        environment.close()
+        self._tensors = learning.Variables(self._network, config.num_workers).save()
+        self._server: Any = None
+        self._stopping = False
+        self._deaths: dict[int, int] = {}
+        self.restarts = 0
+
+    @property
+    def frames(self):
+        return int(self.save()["frames"])
+
+    def save(self):
+        """As `Agent.save`; raises VariablesLostError if the parameter server has died."""
+        return self._ask("save") if self._server is not None else dict(self._tensors)
+
+    def restore(self, tensors):
+        learning.Variables(self._network, self._config.num_workers).restore(tensors)  # Refuses what does not fit.
+        self._tensors = dict(tensors)
+
+    def traffic(self) -> Traffic:
+        """What the parameter server has done so far, while `updates` runs."""
+        return self._ask("traffic")
+
+    def stop(self):
+        self._stopping = True
+
+    def updates(self, poll_seconds=0.5):
+        """As `Agent.updates`. A worker that dies is started again.
+
+        Raises:
+          VariablesLostError: if the parameter server dies. Restored, the agent can go on.
+        """
+        self._server = ray.remote(num_cpus=0)(ParameterServer).remote(self._network, self._tensors, self._config)
+        make_worker = ray.remote(num_cpus=1, max_restarts=-1)(Worker)
+        workers = [make_worker.remote() for _ in range(self._config.num_workers)]
+        running = {self._run(worker, index): index for index, worker in enumerate(workers)}
+        self._deaths = dict.fromkeys(running.values(), 0)
+        waited, deadline = time.monotonic(), None
+        try:
+            while running:
+                if self._stopping and deadline is None:
+                    self._ask("stop")
+                    deadline = time.monotonic() + _STOP_SECONDS
+                ended, _ = ray.wait(list(running), timeout=_POLL_SECONDS)
+                for reference in ended:
+                    index = running.pop(reference)
+                    if not self._has_finished(reference, index):
+                        running[self._run(workers[index], index)] = index
+                records = self._ask("take")
+                yield from records
+                if records:
+                    waited = time.monotonic()
+                    self._deaths = dict.fromkeys(self._deaths, 0)
+                elif time.monotonic() - waited > poll_seconds:
+                    waited = time.monotonic()
+                    yield None
+                if deadline is not None and time.monotonic() > deadline:
+                    break
+            yield from self._ask("take")
+            self._tensors = self.save()
+        finally:
+            for actor in (*workers, self._server):
+                ray.kill(actor)
+            self._server = None
+
+    def _run(self, worker, index: int):
+        """Sets a worker to work."""
+        return worker.run.remote(self._server, index, self._make_environment, self._config, self._find_versions(),
+                                 self._find_versions)  # fmt: skip
+
+    def _ask(self, question: str) -> Any:
+        """Calls a method of the parameter server."""
+        try:
+            return ray.get(getattr(self._server, question).remote())
+        except ray.exceptions.RayActorError as error:
+            raise agent_lib.VariablesLostError(f"the parameter server has died: {_first_line(error)}") from None
+
+    def _has_finished(self, reference, index: int) -> bool:
+        """Whether a worker has ended of itself; one that has died is to be run again."""
+        try:
+            ray.get(reference)
+        except ray.exceptions.RayActorError as error:
+            if self._stopping:
+                return True
+            self.restarts += 1
+            self._deaths[index] += 1
+            if self._deaths[index] > _MAX_DEATHS:
+                raise a3c_agent.WorkerError(f"worker {index} has died {self._deaths[index]} times, and nobody has "
+                                            f"learned anything meanwhile: {_first_line(error)}") from None  # fmt: skip
+            self._report(f"worker {index} has died ({_first_line(error)}) and is started again; "
+                         f"{self.restarts} so far")  # fmt: skip
+            return False
+        except agent_lib.VariablesLostError as error:
+            raise _cause(error) from None
+        except learning.AgentError as error:
+            raise a3c_agent.WorkerError(f"worker {index}: {_cause(error)}", _cause(error).batch) from None
+        except ray.exceptions.RayTaskError as error:
+            raise a3c_agent.WorkerError(f"worker {index}: {error}") from None
+        return True
+
+
+def _cause(error: Any) -> learning.AgentError:
+    """What a worker raised: Ray wraps it."""
+    return error.cause
+
+
+def _first_line(error: Exception) -> str:
+    return next(line.strip() for line in str(error).splitlines() if line.strip())

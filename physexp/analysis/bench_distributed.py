@@ -1,0 +1,58 @@
+"""A3C on a cluster of this machine alone against A3C in processes, and where a parameter server would saturate."""
+
+from collections.abc import Iterator
+import statistics
+import time
+
+from physexp.agents.a3c import distributed
+from physexp.analysis import bench, cluster, training
+from physexp.analysis import config as config_lib
+
+_TASK = ("which_is_heavier", "features")
+_SECONDS = 15.0
+_REPETITIONS = 3
+_WORKERS = (1, 2, 4, 8, 16, 32, 64, 128)
+_GIGABIT = 1e9 / 8  # Bytes per second.
+
+
+def run() -> Iterator[dict]:
+    """Measures frames per second with one and two workers, and derives what many would reach."""
+    with cluster.joined(cluster.LOCAL):
+        ratios, ours, theirs = [], [], []
+        for _ in range(_REPETITIONS):  # Side by side: such machines change their speed within minutes.
+            ours.append(_measure(2)[0])
+            theirs.append(bench.training_rate(_TASK, _SECONDS))
+            ratios.append(ours[-1] / theirs[-1])
+        yield bench.row("2 workers on a cluster / 2 processes: heavier", statistics.median(ratios), "x", 0.7,
+                        cluster=statistics.median(ours), processes=statistics.median(theirs))  # fmt: skip
+        rate, traffic, frames = _measure(1)
+    seconds = traffic.busy_seconds / traffic.updates
+    moved = (traffic.bytes_in + traffic.bytes_out) / traffic.updates
+    yield bench.row("parameter server, time for an update", 1e3 * seconds, "ms", 5, at_most=True, kilobytes=moved / 1e3,
+                    frames_per_update=frames, frames_per_second_of_a_worker=rate)  # fmt: skip
+    for workers in _WORKERS:
+        limits = {"workers": workers * rate, "server": frames / seconds, "gigabit network": frames * _GIGABIT / moved}
+        bound = min(limits, key=limits.__getitem__)
+        yield bench.row(f"{workers} workers, derived: bound by the {bound}", limits[bound], "f/s", 0)
+
+
+def _measure(num_workers: int) -> tuple[float, distributed.Traffic, float]:
+    """Frames per second once all workers are under way; the traffic; and frames in an update."""
+    preset = config_lib.A3C[_TASK].replace(num_workers=num_workers, frames=10**12)
+    agent = training.make_agent(config_lib.TrainConfig(domain=_TASK[0], task=_TASK[1], agent=preset), on_cluster=True)
+    assert isinstance(agent, distributed.DistributedA3C)
+    heard: set[int] = set()
+    start, first, last = 0.0, None, None
+    for update in agent.updates(poll_seconds=0.1):
+        if update is not None:
+            heard.add(update.seed)
+            last = update
+        if first is None and len(heard) == num_workers:
+            start, first = time.perf_counter(), last
+        if first is not None and time.perf_counter() - start > _SECONDS:
+            traffic = agent.traffic()
+            agent.stop()
+            break
+    assert first is not None and last is not None
+    frames = last.metrics["frames"] - first.metrics["frames"]
+    return frames / _SECONDS, traffic, frames / (last.metrics["updates"] - first.metrics["updates"])

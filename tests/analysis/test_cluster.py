@@ -1,0 +1,255 @@
+"""Training on a cluster of Ray, two nodes on this machine, whoever dies meanwhile."""
+
+import functools
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+import ray
+from ray import cluster_utils
+import torch
+import trainers
+from trainers import PHYSEXP, fresh_seed, wait_until
+
+from physexp.agents import agent as agent_lib
+from physexp.agents import learning
+from physexp.agents.a3c import agent as a3c_agent
+from physexp.agents.a3c import config as a3c_config
+from physexp.agents.a3c import distributed
+from physexp.agents.a3c import learning as a3c
+from physexp.analysis import cluster, evaluation, reproduce, training
+from physexp.analysis import run as run_lib
+from physexp.analysis.experiments import EXPERIMENTS, base
+
+QUICK = {"envs_per_worker": 64, "entropy_cost": 0.15, "final_entropy_cost": 0.03, "checkpoint_seconds": 1.0}
+LEARNED = 0.6  # Chance is 0.25: 1000 guesses stay below 0.33.
+
+
+class Nodes:
+    """A cluster of two nodes with one processor each."""
+
+    def __init__(self):
+        self.cluster = cluster_utils.Cluster(
+            initialize_head=True, head_node_args={"num_cpus": 1, "include_dashboard": False}
+        )
+        self.other = self.cluster.add_node(num_cpus=1)
+
+    def processes(self, title):
+        """Process ids of actors of a class, on both nodes."""
+        raylets = {node.all_processes["raylet"][0].process.pid for node in self.cluster.list_all_nodes()}
+        found = []
+        for entry in Path("/proc").iterdir():
+            if entry.name.isdigit():
+                try:
+                    parent = int((entry / "stat").read_text().rpartition(")")[2].split()[1])
+                    command = (entry / "cmdline").read_bytes().decode()
+                except (FileNotFoundError, ProcessLookupError):
+                    continue
+                if parent in raylets and command.startswith(f"ray::{title}"):
+                    found.append(int(entry.name))
+        return found
+
+
+@pytest.fixture
+def nodes():
+    made = Nodes()
+    ray.init(address=made.cluster.address, logging_level="ERROR", log_to_driver=False)
+    yield made
+    ray.shutdown()
+    made.cluster.shutdown()
+
+
+def train_meanwhile(run, disturb, seconds=150):
+    """Trains on the cluster while something happens; returns what training told."""
+    told, failed = [], []
+
+    def train():
+        try:
+            training.train(run, on_cluster=True, tell=told.append)
+        except BaseException as error:
+            failed.append(error)
+
+    trainer = threading.Thread(target=train)
+    trainer.start()
+    disturb(told)
+    trainer.join(seconds)
+    assert not trainer.is_alive(), f"still training; it told {told}"
+    assert not failed, failed
+    return told
+
+
+def assert_learned_and_recorded(run):
+    tensors, facts = run.checkpointer.latest()
+    frames = [row["frames"] for row in run.metrics()]
+    assert frames == sorted(set(frames)) and frames[-1] == int(tensors["frames"]) >= run.config.agent.frames
+    assert run.metrics()[-1]["updates"] == int(tensors["updates"]) == int(tensors["rounds"].sum())
+    # Every update is one round: none was lost, none was recorded twice.
+    assert run.metrics()[-1]["episodes"] == facts["episodes"] == 64 * int(tensors["updates"])
+    figures = evaluation.evaluate(run, 1000).summary(0.95)
+    print(figures)
+    assert figures["success_rate"] > LEARNED
+
+
+def has_trained(run, frames):
+    rows = run.checkpointer.paths()
+    return bool(rows) and int(rows[-1].stem) > frames
+
+
+def test_whoever_dies_training_ends_as_if_nobody_had(nodes, tmp_path):
+    # One after the other: a worker, the parameter server, and a node with whatever runs there.
+    run = trainers.create(tmp_path / "run", frames=500_000, num_workers=2, seed=fresh_seed(), **QUICK)
+
+    def disturb(told):
+        wait_until(lambda: has_trained(run, 0), 60, "a checkpoint")
+        (victim, other) = nodes.processes("Worker")
+        os.kill(victim, signal.SIGKILL)
+        killed = time.monotonic()
+        wait_until(lambda: len(set(nodes.processes("Worker")) - {victim, other}) == 1 and told, 60, "another worker")
+        print("another worker after", time.monotonic() - killed, "s")
+        (server,) = nodes.processes("ParameterServer")
+        os.kill(server, signal.SIGKILL)
+        wait_until(lambda: nodes.processes("ParameterServer") not in ([], [server]), 60, "another server")
+        killed = int(run.checkpointer.paths()[-1].stem)
+        wait_until(lambda: has_trained(run, killed), 60, "a checkpoint after the server was killed")
+        nodes.cluster.remove_node(nodes.other, allow_graceful=False)
+        nodes.cluster.add_node(num_cpus=1)
+
+    told = train_meanwhile(run, disturb)
+    print(told)
+    assert any("worker" in line and "has died" in line and "1 so far" in line for line in told)
+    assert any("the parameter server has died" in line and "goes on from the last checkpoint" in line for line in told)
+    assert_learned_and_recorded(run)
+
+
+def test_one_worker_on_a_cluster_learns_the_same_as_here_to_the_last_bit(nodes, tmp_path):
+    seed = fresh_seed()
+    here, there = (trainers.create(tmp_path / name, frames=20_000, seed=seed) for name in ("here", "there"))
+    training.train(here)
+    training.train(there, on_cluster=True)
+    for name, value in here.checkpointer.latest()[0].items():
+        assert torch.equal(value, there.checkpointer.latest()[0][name]), name
+
+
+def test_workers_that_find_no_room_join_when_there_is_some(nodes, tmp_path):
+    run = trainers.create(tmp_path / "run", frames=10**9, num_workers=3, seed=fresh_seed(), **QUICK)
+    agent = training.make_agent(run.config, on_cluster=True)
+    seen, added = set(), False
+    start = time.monotonic()
+    for update in agent.updates():
+        assert time.monotonic() - start < 120
+        if update is None:
+            continue
+        seen.add(update.seed)
+        if len(seen) == 2 and not added:  # Two processors, three workers.
+            nodes.cluster.add_node(num_cpus=1)
+            added = True
+        if len(seen) == 3:
+            agent.stop()
+    assert seen == {agent_lib.worker_seed(run.config.agent.seed, worker) for worker in range(3)}
+
+
+def test_a_machine_with_other_versions_is_refused_in_one_line_that_names_both(nodes, tmp_path):
+    run = trainers.create(tmp_path / "run", frames=10_000)
+    environments = functools.partial(training.make_environment, run.config)
+    trainer = os.getpid()
+    agent = distributed.DistributedA3C(
+        environments, run.config.agent, lambda: {"mujoco": "3.17.0" if os.getpid() == trainer else "3.16.0"}
+    )
+    with pytest.raises(a3c_agent.WorkerError, match=r"has mujoco 3\.16\.0, not 3\.17\.0; install") as caught:
+        list(agent.updates())
+    assert "\n" not in str(caught.value)
+
+
+def test_a_loss_that_is_not_a_number_stops_training_and_leaves_the_batch(nodes, tmp_path):
+    run = trainers.create(tmp_path / "run", frames=10**9)
+    tensors = training.make_agent(run.config).save()
+    tensors["network/policy.bias"][0] = float("nan")
+    run.checkpointer.save(tensors, {"episodes": 0, "seconds": 0.0, "versions": run_lib.versions()})
+    with pytest.raises(RuntimeError, match="worker 0: loss nan.*failed_batch.npz.*last checkpoint"):
+        training.train(run, on_cluster=True)
+    assert (run.path / "failed_batch.npz").exists()
+
+
+def test_ppo_on_a_cluster_is_refused(tmp_path):
+    run = trainers.create(tmp_path / "run", "ppo")
+    with pytest.raises(ValueError, match="agent is ppo, which has one process; on a cluster train a3c"):
+        training.train(run, on_cluster=True)
+
+
+def test_a_gradient_that_is_too_old_is_not_applied():
+    batch_config = a3c_config.A3CConfig(num_workers=1, max_staleness=2)
+    network = torch.nn.Linear(2, 1)
+    variables = learning.Variables(network)
+    gradients = [torch.ones_like(parameter) for parameter in network.parameters()]
+    episodes = evaluation.acting.Round(
+        actions=torch.zeros(1, 1).numpy(), rewards=torch.zeros(1, 1).numpy(),
+        lengths=torch.ones(1, dtype=int).numpy(), answers=torch.zeros(1).numpy(),
+    )  # fmt: skip
+    variables.updates += 3
+
+    def push(updates):
+        contribution = a3c.Contribution(0, a3c.Pulled(0, updates, 0), gradients, 0.1, {}, episodes)
+        return a3c.push(variables, contribution, batch_config.max_staleness)
+
+    before = network.weight.clone()
+    assert push(0) is None  # Three others have come in between.
+    assert torch.equal(network.weight, before) and int(variables.frames) == 0
+    assert push(1)["staleness"] == 2
+    assert not torch.equal(network.weight, before) and int(variables.frames) == 1
+
+
+def test_a_sweep_gathers_what_the_cluster_made_and_survives_a_killed_task(nodes, tmp_path):
+    results, lines, killed = base.Results(tmp_path), [], []
+
+    def kill_one():
+        wait_until(lambda: nodes.processes("work_elsewhere"), 60, "a task")
+        killed.append(nodes.processes("work_elsewhere")[0])
+        os.kill(killed[0], signal.SIGKILL)
+
+    def sweep():
+        reproduce.run([EXPERIMENTS["population"]], results, observations=("features",), num_seeds=1, frames=5_000,
+                      submit=cluster.submit, report=lines.append)  # fmt: skip
+
+    killer = threading.Thread(target=kill_one)
+    killer.start()
+    sweep()
+    killer.join()
+    assert killed
+    assert sum(line.startswith("done: ") for line in lines) == 3
+    assert not any(line.startswith("FAILED") for line in lines)
+    assert len(list(tmp_path.glob("runs/*/agent.safetensors"))) == 3
+    assert not list(tmp_path.rglob("checkpoints"))
+    assert (tmp_path / "figures" / "population.png").exists()
+    lines.clear()
+    sweep()
+    assert lines[0] == "3 of 3 agents are done"
+
+
+def test_the_command_trains_on_a_cluster_that_it_starts_itself(tmp_path):
+    command = [PHYSEXP, "train", "which_is_heavier", "features", "--frames", "20000", "--envs-per-worker", "32",
+               "--run-dir", tmp_path / "run", "--cluster", "local"]  # fmt: skip
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=180, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines()[-1] == str(tmp_path / "run")
+    assert run_lib.Run(tmp_path / "run").is_finished
+
+
+@pytest.mark.parametrize("address, words", [("127.0.0.1:1", "refused"), ("nowhere", "give HOST:PORT, auto or local")])
+def test_a_cluster_that_is_not_there_is_one_readable_line(address, words, tmp_path):
+    command = [PHYSEXP, "train", "which_is_heavier", "features", "--run-dir", tmp_path / "run", "--cluster", address]
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=180, check=False)
+    assert done.returncode == 2, done.stderr
+    assert done.stderr.count("\n") == 1
+    assert f"cannot join the cluster {address}" in done.stderr and words in done.stderr
+
+
+def test_nothing_but_a_cluster_imports_ray():
+    code = (
+        "import sys, physexp.cli, physexp.analysis.training, physexp.analysis.reproduce; sys.exit('ray' in sys.modules)"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
