@@ -86,11 +86,10 @@ class Variables:
             group["lr"] = learning_rate
         self.optimizer.step()
 
-    def count(self, num_frames: int, worker: int = 0) -> None:
-        """Counts an update from a round of so many frames."""
+    def count(self, num_frames: int) -> None:
+        """Counts an update from so many frames."""
         self.frames += num_frames
         self.updates += 1
-        self.rounds[worker] += 1
 
 
 def network_variables(tensors: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:

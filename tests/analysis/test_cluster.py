@@ -199,6 +199,7 @@ def test_a_gradient_that_is_too_old_is_not_applied():
     before = network.weight.clone()
     assert push(0) is None  # Three others have come in between.
     assert torch.equal(network.weight, before) and int(variables.frames) == 0
+    assert int(variables.rounds[0]) == 1, "the round is over all the same"
     assert push(1)["staleness"] == 2
     assert not torch.equal(network.weight, before) and int(variables.frames) == 1
 

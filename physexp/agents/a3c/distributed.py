@@ -48,7 +48,6 @@ class Traffic:
 class _Reply:
     """What the parameter server answers to a worker: where training stands, and the parameters, float32 [P]."""
 
-    counters: dict[str, float] | None
     pulled: a3c.Pulled
     parameters: np.ndarray
     goes_on: bool
@@ -72,16 +71,19 @@ class ParameterServer:
         self._traffic = Traffic()
         self._stopped = False
 
-    def exchange(self, worker: int, seed: int, contribution: a3c.Contribution | None) -> _Reply:
-        """Applies what a worker has learned, if anything, and gives it the newest parameters."""
+    def exchange(self, worker: int, seed: int, gradient: np.ndarray | None,
+                 contribution: a3c.Contribution | None) -> _Reply:  # fmt: skip
+        """Applies what a worker has learned, if anything, and gives it the newest parameters.
+
+        The gradient, float32 [P], comes beside the rest: arrays are sent without being copied, tensors are not.
+        """
         start = time.perf_counter()
-        variables, traffic, counters = self._variables, self._traffic, None
-        if contribution is not None:
-            (vector,) = contribution.gradients
-            gradients = _split(vector, variables.network)
+        variables, traffic = self._variables, self._traffic
+        if contribution is not None and gradient is not None:
+            gradients = _split(torch.from_numpy(gradient.copy()), variables.network)
             counters = a3c.push(variables, dataclasses.replace(contribution, gradients=gradients),
                                 self._config.max_staleness)  # fmt: skip
-            traffic.bytes_in += vector.nbytes + contribution.episodes.actions.nbytes
+            traffic.bytes_in += gradient.nbytes + contribution.episodes.actions.nbytes
             if counters is None:
                 traffic.dropped += 1
             else:
@@ -92,7 +94,7 @@ class ParameterServer:
         parameters = torch.nn.utils.parameters_to_vector(variables.network.parameters()).detach().numpy()
         traffic.bytes_out += parameters.nbytes
         traffic.busy_seconds += time.perf_counter() - start
-        return _Reply(counters, pulled, parameters, pulled.frames < self._config.frames and not self._stopped)
+        return _Reply(pulled, parameters, pulled.frames < self._config.frames and not self._stopped)
 
     def restore(self, tensors) -> None:
         self._variables.restore(tensors)
@@ -121,38 +123,59 @@ def _split(vector: torch.Tensor, network: torch.nn.Module) -> list[torch.Tensor]
 
 
 class _Remote(a3c.Shared):
-    """The parameter server as a worker sees it: what it pulls has come with the answer to what it pushed."""
+    """The parameter server as a worker sees it.
 
-    def __init__(self, server, seed: int):
-        self._server, self._seed = server, seed
-        self._reply: _Reply | None = None
+    With `overlaps`, the worker plays on while its gradient is on its way, with the parameters that came last: it looks at
+    the answer one round later.
+    """
+
+    def __init__(self, server, seed: int, overlaps: bool):
+        self._server, self._seed, self._overlaps = server, seed, overlaps
+        self._reply: _Reply | None = None  # The last that was looked at.
+        self._sent: Any = None  # What has not been answered yet, or not been looked at.
+        self._rounds = 0
 
     @property
     def goes_on(self) -> bool:
         return self._reply is None or self._reply.goes_on
 
     def pull(self, network, worker):
-        reply = self._reply or self._exchange(worker, None)
-        torch.nn.utils.vector_to_parameters(torch.from_numpy(reply.parameters.copy()), network.parameters())
-        return reply.pulled
+        if self._reply is None:
+            self._reply = self._answer(self._send(worker, None, None))
+            self._rounds = self._reply.pulled.rounds
+        torch.nn.utils.vector_to_parameters(torch.from_numpy(self._reply.parameters.copy()), network.parameters())
+        return dataclasses.replace(self._reply.pulled, rounds=self._rounds)
 
     def push(self, contribution):
-        vector = torch.cat([gradient.flatten().cpu() for gradient in contribution.gradients])
-        return self._exchange(contribution.worker, dataclasses.replace(contribution, gradients=[vector])).counters
+        vector = torch.cat([gradient.flatten().cpu() for gradient in contribution.gradients]).numpy()
+        sent = self._send(contribution.worker, vector, dataclasses.replace(contribution, gradients=[]))
+        self._rounds += 1
+        before, self._sent = (self._sent, sent) if self._overlaps else (sent, None)
+        if before is not None:
+            self._reply = self._answer(before)
+        assert self._reply is not None  # Parameters were pulled before anything could be learned.
+        return {"frames": self._reply.pulled.frames, "updates": self._reply.pulled.updates}
 
     def save(self):
         return ray.get(self._server.save.remote())
 
     def restore(self, tensors):
         ray.get(self._server.restore.remote(tensors))
-        self._reply = None
+        self._reply = self._sent = None
 
-    def _exchange(self, worker: int, contribution: a3c.Contribution | None) -> _Reply:
+    def flush(self) -> None:
+        """Waits until everything that was sent has arrived."""
+        if self._sent is not None:
+            self._reply, self._sent = self._answer(self._sent), None
+
+    def _send(self, worker: int, gradient: np.ndarray | None, contribution: a3c.Contribution | None):
+        return self._server.exchange.remote(worker, self._seed, gradient, contribution)
+
+    def _answer(self, sent) -> _Reply:
         try:
-            self._reply = ray.get(self._server.exchange.remote(worker, self._seed, contribution))
+            return ray.get(sent)
         except ray.exceptions.RayActorError as error:
             raise agent_lib.VariablesLostError(f"the parameter server has died: {_first_line(error)}") from None
-        return self._reply
 
 
 class Worker:
@@ -172,9 +195,11 @@ class Worker:
             raise learning.AgentError(f"{ray.util.get_node_ip_address()} has {', '.join(differing)}; install the "
                                       "versions of the machine that trains")  # fmt: skip
         torch.set_num_threads(1)
-        shared = _Remote(server, agent_lib.worker_seed(config.seed, index))
+        # Alone, a worker learns the same as on one machine: it waits for what it has learned.
+        shared = _Remote(server, agent_lib.worker_seed(config.seed, index), overlaps=config.num_workers > 1)
         for _ in a3c_agent.work(index, make_environment, config, shared, lambda: not shared.goes_on):
             pass
+        shared.flush()
 
 
 class DistributedA3C(agent_lib.Agent):

@@ -53,9 +53,9 @@ class Shared(Protocol):
         """Copies the parameters into a worker's network."""
 
     def push(self, contribution: Contribution) -> dict[str, float] | None:
-        """Applies gradients; returns the counters `updates`, `frames`, `rounds` and `staleness`.
+        """Applies gradients; returns counters, with `frames` among them.
 
-        None if too many other updates have been made since the parameters were taken: nothing has changed then.
+        None if too many other updates have been made since the parameters were taken: then only the round is counted.
         """
 
     def save(self) -> dict[str, torch.Tensor]:
@@ -71,12 +71,17 @@ def pull(variables: learning.Variables, worker: int) -> Pulled:
 
 
 def push(variables: learning.Variables, contribution: Contribution, max_staleness: int) -> dict[str, float] | None:
-    """As `Shared.push`, on variables that nobody else reads or writes meanwhile."""
+    """As `Shared.push`, on variables that nobody else reads or writes meanwhile.
+
+    Returns:
+      The counters `updates`, `frames`, `rounds` (index of the round) and `staleness`; or None.
+    """
     staleness = int(variables.updates) - contribution.pulled.updates
+    variables.rounds[contribution.worker] += 1
     if staleness > max_staleness:
         return None
     variables.apply(contribution.gradients, contribution.learning_rate)
-    variables.count(contribution.episodes.num_frames, contribution.worker)
+    variables.count(contribution.episodes.num_frames)
     return {"updates": int(variables.updates), "frames": int(variables.frames),
             "rounds": contribution.pulled.rounds, "staleness": staleness}  # fmt: skip
 

@@ -42,6 +42,7 @@ class PPOLearner(core.Learner):
         for _ in range(config.num_epochs):
             for chosen in np.array_split(generator.permutation(len(episodes.lengths)), config.num_minibatches):
                 figures.append(self._learn(episodes.select(chosen), learning_rate, entropy_cost))
+        variables.rounds += 1
         variables.count(episodes.num_frames)
         means = {name: float(np.mean([each[name] for each in figures])) for name in figures[0]}
         return {
