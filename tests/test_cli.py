@@ -40,7 +40,9 @@ def untrained(tmp_path):
     run = run_lib.Run(tmp_path / "run")
     run.create(config)
     agent = training.make_agent(config)
-    run.checkpointer.save(agent.save(), {"episodes": 0, "seconds": 0.0, "versions": run_lib.versions()})
+    run.checkpointer.save(
+        agent.save(), {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
+    )
     return run
 
 

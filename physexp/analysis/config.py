@@ -103,6 +103,11 @@ class TrainConfig:
         return {name: value for name, value in chosen.items() if value is not None}
 
     @property
+    def task_name(self) -> str:
+        """Domain and task, as in `towers/fist_features`."""
+        return f"{self.domain}/{self.task}"
+
+    @property
     def name(self) -> str:
         """A name for the run's folder."""
         difficulty = "" if self.difficulty is None else f"-difficulty{self.difficulty:g}"

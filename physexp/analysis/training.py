@@ -75,7 +75,7 @@ def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None, o
     agent = make_agent(config, on_cluster, tell)
     run.lock()
     try:
-        recorder = _Recorder(run, config, report)
+        recorder = _Recorder(run, config, report, tell)
         recorder.resume(agent)
         with _Interruption(agent.stop) as interruption:
             while not _run(agent, recorder, tell):
@@ -116,8 +116,9 @@ class _Recorder:
     was killed and resumed have no gap, and nothing twice.
     """
 
-    def __init__(self, run: run_lib.Run, config: config_lib.TrainConfig, report: Callable[[dict], None]):
-        self._run, self._config, self._report = run, config, report
+    def __init__(self, run: run_lib.Run, config: config_lib.TrainConfig, report: Callable[[dict], None],
+                 tell: Callable[[str], None]):  # fmt: skip
+        self._run, self._config, self._report, self._tell = run, config, report, tell
         self.path = run.path
         self._num_interactions = suite.load_task(config.domain, config.task, config.task_kwargs).num_interactions
         self._start_over()
@@ -135,13 +136,20 @@ class _Recorder:
         self._records: list[dict[str, list]] = []
 
     def resume(self, agent: agent_lib.Agent) -> None:
-        """Puts the agent and the records back to the last checkpoint, or to the start."""
+        """Puts the agent and the records back to the last checkpoint that is whole, or to the start.
+
+        Raises:
+          ValueError: if none is whole, or it is of another task.
+        """
         self._start_over()
-        found = self._run.checkpointer.latest()
+        found = self._run.checkpointer.latest(self._tell)
         if found is None:
             self._run.rewind(-1)
             return
         tensors, facts = found
+        if facts["task"] != self._config.task_name:
+            raise ValueError(f"the checkpoint in {self.path} is of {facts['task']}, the run of "
+                             f"{self._config.task_name}; put back the run's own")  # fmt: skip
         agent.restore(tensors)
         self._frames, self._updates = int(tensors["frames"]), int(tensors["updates"])
         self._episodes, self._seconds = facts["episodes"], facts["seconds"]
@@ -192,7 +200,8 @@ class _Recorder:
             self._records = []
         if self._config.replay_every and self._frames - self._replayed >= self._config.replay_every:
             self._write_replay(tensors)
-        facts = {"episodes": self._episodes, "seconds": self._elapsed(), "versions": run_lib.versions()}
+        facts = {"task": self._config.task_name, "episodes": self._episodes, "seconds": self._elapsed(),
+                 "versions": run_lib.versions()}  # fmt: skip
         self._run.checkpointer.save(tensors, facts)
         self._checkpointed = time.monotonic()
         later, self._later = self._later, []

@@ -30,7 +30,7 @@ def save_first_checkpoint(run, poison=False):
     tensors = agent.save()
     if poison:
         tensors["network/policy.bias"][0] = float("nan")
-    facts = {"episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
+    facts = {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
     return run.checkpointer.save(tensors, facts)
 
 

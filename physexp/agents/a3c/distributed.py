@@ -125,8 +125,8 @@ def _split(vector: torch.Tensor, network: torch.nn.Module) -> list[torch.Tensor]
 class _Remote(a3c.Shared):
     """The parameter server as a worker sees it.
 
-    With `overlaps`, the worker plays on while its gradient is on its way, with the parameters that came last: it looks at
-    the answer one round later.
+    With `overlaps`, the worker plays on while its gradient is on its way, with the parameters that came last: it looks
+    at the answer one round later.
     """
 
     def __init__(self, server, seed: int, overlaps: bool):
