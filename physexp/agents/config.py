@@ -71,15 +71,20 @@ class AgentConfig:
             if not isinstance(value, int) or isinstance(value, bool) or not minimum <= value < 2**63:
                 raise ValueError(f"{name} is {value!r}; give an integer >= {minimum}")
         for name in (*self._POSITIVE, "entropy_cost", "final_entropy_cost", "baseline_cost"):
-            value = getattr(self, name)
-            positive = name in self._POSITIVE
-            if not (math.isfinite(value) and value >= 0) or (positive and value == 0):
+            value, positive = getattr(self, name), name in self._POSITIVE
+            if not _is_number(value) or value < 0 or (positive and value == 0):
                 raise ValueError(f"{name} is {value!r}; give a finite number {'> 0' if positive else '>= 0'}")
         if self.device not in get_args(Device):
             raise ValueError(f"device is {self.device!r}; choose from {', '.join(get_args(Device))}")
-        if not all(isinstance(logit, (int, float)) and math.isfinite(logit) for logit in self.action_prior):
+        if not isinstance(self.action_prior, tuple) or not all(map(_is_number, self.action_prior)):
             raise ValueError(f"action_prior is {self.action_prior!r}; give finite numbers, one for each action")
-        if not 0 <= self.trace <= 1:
+        if not isinstance(self.relative_pixels, bool):
+            raise ValueError(f"relative_pixels is {self.relative_pixels!r}; give True or False")
+        if not _is_number(self.trace) or not 0 <= self.trace <= 1:
             raise ValueError(f"trace is {self.trace!r}; give a number in [0, 1]")
-        if not 0 < self.discount <= 1:
+        if not _is_number(self.discount) or not 0 < self.discount <= 1:
             raise ValueError(f"discount is {self.discount!r}; give a number in (0, 1]")
+
+
+def _is_number(value) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)

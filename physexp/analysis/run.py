@@ -80,7 +80,10 @@ class Run:
         Raises:
           ValueError: if the folder holds no run, or one of another format.
         """
-        return config_lib.TrainConfig.from_json(self.facts["train"])
+        try:
+            return config_lib.TrainConfig.from_json(self.facts["train"])
+        except (KeyError, TypeError, AttributeError) as error:
+            raise ValueError(f"{self.path}/config.json is not what was written: {error!r}") from None
 
     @property
     def facts(self) -> dict[str, Any]:
@@ -89,8 +92,11 @@ class Run:
             fields = json.loads((self.path / "config.json").read_text())
         except FileNotFoundError:
             raise ValueError(f"{self.path} holds no run (no config.json); give the folder of a run") from None
-        if fields["format"] != FORMAT:
-            raise ValueError(f"{self.path} has format {fields['format']}; this version reads format {FORMAT}")
+        except (ValueError, RecursionError) as error:
+            raise ValueError(f"{self.path}/config.json is no JSON: {error}") from None
+        if not isinstance(fields, dict) or fields.get("format") != FORMAT:
+            form = fields.get("format") if isinstance(fields, dict) else None
+            raise ValueError(f"{self.path}/config.json has format {form!r}; this version reads format {FORMAT}")
         return fields
 
     def create(self, config: config_lib.TrainConfig) -> None:

@@ -1,5 +1,6 @@
 """The environments: a dm_control domain package (see `load` and `load_batch`)."""
 
+from collections.abc import Mapping
 import inspect
 
 from physexp.suite import rendering
@@ -39,7 +40,8 @@ def load(domain_name, task_name, task_kwargs=None, environment_kwargs=None, visu
     Raises:
       ValueError: for an unknown name or a bad keyword argument.
     """
-    task = load_task(domain_name, task_name, {**(task_kwargs or {}), "visualize_reward": visualize_reward})
+    chosen = {**_checked("task_kwargs", task_kwargs), "visualize_reward": visualize_reward}
+    task = load_task(domain_name, task_name, chosen)
     return _call(_environment.Environment, "environment_kwargs", environment_kwargs, task)
 
 
@@ -66,19 +68,26 @@ def load_task(domain_name, task_name, task_kwargs=None):
     Raises:
       ValueError: for an unknown name or a bad keyword argument.
     """
-    if domain_name not in _DOMAINS:
+    if not isinstance(domain_name, str) or domain_name not in _DOMAINS:
         raise ValueError(f"domain_name is {domain_name!r}; known domains: {', '.join(_DOMAINS)}")
     domain = _DOMAINS[domain_name]
-    if task_name not in domain.SUITE:
+    if not isinstance(task_name, str) or task_name not in domain.SUITE:
         raise ValueError(f"task_name is {task_name!r}; tasks of {domain_name}: {', '.join(domain.SUITE)}")
     return domain.SUITE[task_name](_call(domain.Options, "task_kwargs", task_kwargs))
 
 
 def _call(function, name, kwargs, *args):
     """Calls `function` with keyword arguments whose names are checked first."""
-    kwargs = dict(kwargs or {})
+    kwargs = _checked(name, kwargs)
     allowed = [parameter.name for parameter in list(inspect.signature(function).parameters.values())[len(args) :]]
     unknown = set(kwargs) - set(allowed)
     if unknown:
-        raise ValueError(f"{name} has {', '.join(sorted(unknown))}; allowed: {', '.join(allowed)}")
+        raise ValueError(f"{name} has {', '.join(sorted(map(str, unknown)))}; allowed: {', '.join(allowed)}")
     return function(*args, **kwargs)
+
+
+def _checked(name, kwargs) -> dict:
+    """Keyword arguments as a dictionary; raises ValueError for anything else."""
+    if kwargs is not None and not isinstance(kwargs, Mapping):
+        raise ValueError(f"{name} is {kwargs!r}; give a dictionary")
+    return dict(kwargs or {})

@@ -20,6 +20,8 @@ from physexp.suite import senses as senses_lib
 # a tenth of it, and the weakest touch moves a block by several times as much.
 TOUCH_TOLERANCE = 1e-4  # m, or the same in a quaternion's components
 
+_LONGEST = 1e6  # s
+
 _OK_RGBA, _WRONG_RGBA = (0.45, 0.75, 0.45, 1.0), (0.80, 0.45, 0.40, 1.0)
 
 
@@ -48,6 +50,8 @@ class Options:
         object.__setattr__(self, "random", seeding.seed_from(self.random))
         for name in ("control_timestep", "time_limit"):
             check_number(name, getattr(self, name), 0, "s", strictly=True)
+            if getattr(self, name) > _LONGEST:
+                raise ValueError(f"{name} is {getattr(self, name)!r}; give at most {_LONGEST:g} s")
         if self.substeps < 1 or abs(self.substeps * self.physics_timestep - self.control_timestep) > 1e-9:
             raise ValueError(
                 f"control_timestep is {self.control_timestep} s; "

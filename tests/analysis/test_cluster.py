@@ -64,7 +64,7 @@ def nodes():
     made.cluster.shutdown()
 
 
-def train_meanwhile(run, disturb, seconds=150):
+def train_meanwhile(run, disturb, seconds=240):
     """Trains on the cluster while something happens; returns what training told."""
     told, failed = [], []
 
@@ -74,7 +74,7 @@ def train_meanwhile(run, disturb, seconds=150):
         except BaseException as error:
             failed.append(error)
 
-    trainer = threading.Thread(target=train)
+    trainer = threading.Thread(target=train, daemon=True)
     trainer.start()
     disturb(told)
     trainer.join(seconds)
@@ -105,17 +105,17 @@ def test_whoever_dies_training_ends_as_if_nobody_had(nodes, tmp_path):
     run = trainers.create(tmp_path / "run", frames=500_000, num_workers=2, seed=fresh_seed(), **QUICK)
 
     def disturb(told):
-        wait_until(lambda: has_trained(run, 0), 60, "a checkpoint")
+        wait_until(lambda: has_trained(run, 0), 150, "a checkpoint")
         (victim, other) = nodes.processes("Worker")
         os.kill(victim, signal.SIGKILL)
         killed = time.monotonic()
-        wait_until(lambda: len(set(nodes.processes("Worker")) - {victim, other}) == 1 and told, 60, "another worker")
+        wait_until(lambda: len(set(nodes.processes("Worker")) - {victim, other}) == 1 and told, 150, "another worker")
         print("another worker after", time.monotonic() - killed, "s")
         (server,) = nodes.processes("ParameterServer")
         os.kill(server, signal.SIGKILL)
-        wait_until(lambda: nodes.processes("ParameterServer") not in ([], [server]), 60, "another server")
+        wait_until(lambda: nodes.processes("ParameterServer") not in ([], [server]), 150, "another server")
         killed = int(run.checkpointer.paths()[-1].stem)
-        wait_until(lambda: has_trained(run, killed), 60, "a checkpoint after the server was killed")
+        wait_until(lambda: has_trained(run, killed), 150, "a checkpoint after the server was killed")
         nodes.cluster.remove_node(nodes.other, allow_graceful=False)
         nodes.cluster.add_node(num_cpus=1)
 

@@ -1,0 +1,172 @@
+"""Any input ends in a normal result or in a ValueError, exit status 2 and one readable line; nothing is changed by it.
+
+Hypothesis prints the input that breaks this, and how to have it again.
+"""
+
+import contextlib
+import io
+import json
+
+import dm_env
+import hypothesis
+from hypothesis import strategies as st
+import numpy as np
+import pytest
+
+from physexp import cli, suite
+from physexp.analysis import config as config_lib
+from physexp.analysis import run as run_lib
+
+FEATURES = [names for names in suite.ALL_TASKS if names[1].endswith("features")]
+QUICKLY = hypothesis.settings(max_examples=150, deadline=None, suppress_health_check=list(hypothesis.HealthCheck),
+                              print_blob=True)  # fmt: skip
+
+anything = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5) | st.binary(max_size=5),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=3), inner, max_size=3),
+    max_leaves=5,
+)
+numbers = st.integers(-(2**70), 2**70) | st.floats() | st.sampled_from([0, 1, -1, 0.1, 0.025, 1e-9, 1e9, 1e308])
+names = st.sampled_from(["random", "difficulty", "control_timestep", "time_limit", "visualize_reward", "Random"])
+task_kwargs = st.dictionaries(names, anything | numbers, max_size=3)
+tasks = st.sampled_from(FEATURES) | st.tuples(anything, anything)
+
+
+def in_one_line(error: Exception) -> bool:
+    """Whether a message is one line that says something."""
+    return bool(str(error).strip())
+
+
+@QUICKLY
+@hypothesis.given(tasks, task_kwargs | anything)
+def test_load_takes_anything(task, kwargs):
+    try:
+        environment = suite.load(*task, task_kwargs=kwargs)
+    except ValueError as error:
+        assert in_one_line(error)
+        return
+    assert environment.reset().first()
+    assert environment.step(0).step_type in dm_env.StepType
+    environment.close()
+
+
+@QUICKLY
+@hypothesis.given(tasks, anything | st.integers(-2, 4), task_kwargs, anything | st.integers(-2, 3))
+def test_load_batch_takes_anything(task, num_environments, kwargs, num_threads):
+    hypothesis.assume(not isinstance(num_environments, int) or num_environments < 1000)
+    hypothesis.assume(not isinstance(num_threads, int) or num_threads < 10)
+    try:
+        batch = suite.load_batch(*task, num_environments, kwargs, num_threads)
+    except ValueError as error:
+        assert in_one_line(error)
+        return
+    assert batch.reset().first().all()
+    batch.close()
+
+
+@pytest.fixture(scope="module")
+def loaded():
+    return suite.load(*FEATURES[0], {"random": 0}), suite.load_batch(*FEATURES[0], 3, {"random": 0})
+
+
+actions = anything | numbers | st.lists(st.integers(-2, 9), max_size=4) | st.integers(-2, 9)
+
+
+@QUICKLY
+@hypothesis.given(actions)
+def test_step_takes_anything_and_a_refused_action_changes_nothing(loaded, action):
+    environment, _ = loaded
+    environment.task.next_episode = 0
+    environment.reset()
+    before = environment.physics.get_state().copy()
+    try:
+        timestep = environment.step(action)
+    except ValueError as error:
+        assert in_one_line(error)
+        np.testing.assert_array_equal(environment.physics.get_state(), before)
+        return
+    assert 0 <= int(np.asarray(action)) < 8 and timestep.reward in (-1, 0, 1)
+
+
+@QUICKLY
+@hypothesis.given(actions, st.none() | st.lists(st.integers(-1, 4), max_size=4) | anything)
+def test_a_batch_steps_with_anything_and_a_refused_action_changes_nothing(loaded, action, environments):
+    _, batch = loaded
+    batch.reset(episode=0)
+    try:
+        timestep = batch.step(action, environments)
+    except ValueError as error:
+        assert in_one_line(error)
+        assert (batch.episodes == 0).all()
+        return
+    assert len(timestep.reward) == (3 if environments is None else len(environments))
+
+
+CONFIG = config_lib.TrainConfig(
+    domain="which_is_heavier", task="features", agent=config_lib.preset("which_is_heavier", "features")
+).to_json()
+
+
+def changed(fields: dict, path: list[str], value) -> dict:
+    """A copy in which the entry at a path has another value."""
+    if not path:
+        return value
+    head, *rest = path
+    return {**fields, head: changed(fields[head], rest, value)} if head in fields else {**fields, head: value}
+
+
+paths = st.sampled_from(
+    [["format"], ["train"], ["train", "domain"], ["train", "difficulty"], ["train", "agent"], ["train", "extra"],
+     *(["train", "agent", name] for name in CONFIG["agent"]), ["train", "agent", "extra"]]
+)  # fmt: skip
+
+
+@QUICKLY
+@hypothesis.given(paths, anything)
+def test_a_config_file_may_hold_anything(tmp_path_factory, path, value):
+    run = run_lib.Run(tmp_path_factory.mktemp("run"))
+    try:
+        text = json.dumps(changed({"format": run_lib.FORMAT, "train": CONFIG}, path, value))
+    except TypeError:  # Bytes: no JSON.
+        text = repr(value)
+    (run.path / "config.json").write_text(text)
+    try:
+        config = run.config
+    except ValueError as error:
+        assert in_one_line(error) and "\n" not in str(error)
+        return
+    assert isinstance(config, config_lib.TrainConfig)
+
+
+@QUICKLY
+@hypothesis.given(st.text() | st.binary())
+def test_a_config_file_may_be_no_json(tmp_path_factory, content):
+    run = run_lib.Run(tmp_path_factory.mktemp("run"))
+    (run.path / "config.json").write_bytes(content.encode("utf-8", "replace") if isinstance(content, str) else content)
+    with pytest.raises(ValueError, match=r"config\.json"):
+        _ = run.config
+
+
+def words():
+    """Words that a command line may have: names that are known, numbers, and noise; none that starts long work."""
+    known = ["tasks", "evaluate", "ideal", "replay", "report", "train", "towers", "which_is_heavier", "features",
+             "fist_features", "--json", "--help", "--episodes", "--difficulty", "--discount", "--seed", "--resume",
+             "--agent", "ppo", "a3c", "--num-workers", "--run-dir", "--control-timestep", "--frames"]  # fmt: skip
+    return st.lists(st.sampled_from(known) | st.text(max_size=6) | numbers.map(str), max_size=5)
+
+
+@QUICKLY
+@hypothesis.given(words())
+def test_the_command_line_takes_anything(tmp_path_factory, arguments):
+    # What would run for long with good arguments is only parsed: everything up to there is the real thing.
+    folder = tmp_path_factory.mktemp("here")
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.chdir(folder), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        try:
+            command = cli._parse(arguments)
+        except SystemExit as exit_:
+            assert exit_.code in (0, 2), (arguments, out.getvalue(), err.getvalue())
+            assert "Traceback" not in out.getvalue() + err.getvalue()
+        else:
+            assert hasattr(command, "run")
+    assert not list(folder.iterdir())
