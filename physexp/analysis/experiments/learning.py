@@ -22,11 +22,10 @@ def smoothed(frame, along: str = "frames"):
     for condition, rows in frame.groupby("condition", sort=False):
         runs = [run.sort_values("frames") for _, run in rows.groupby("training_seed")]
         grid = np.linspace(0, min(run[along].max() for run in runs), _POINTS)
-        lines = [
-            np.interp(grid, run[along], run.success_rate.rolling(_SMOOTHING, min_periods=1).mean()) for run in runs
-        ]
-        best = np.argsort([-line[-1] for line in lines], kind="stable")[: -(-len(lines) // 2)]
-        curves[condition] = (grid / AXES[along][0], np.array([lines[index] for index in best]))
+        success = [run.success_rate.rolling(_SMOOTHING, min_periods=1).mean().to_numpy() for run in runs]
+        best = np.argsort([-values[-1] for values in success], kind="stable")[: -(-len(runs) // 2)]
+        lines = [np.interp(grid, runs[index][along], success[index]) for index in best]
+        curves[condition] = (grid / AXES[along][0], np.array(lines))
     return curves
 
 
