@@ -3,8 +3,11 @@
 from collections.abc import Callable
 import contextlib
 import dataclasses
+import io
 import json
+import os
 from pathlib import Path
+import re
 import sys
 from typing import Annotated, Generic, Literal, TypeVar, Union, get_args
 
@@ -76,7 +79,6 @@ class Train(Generic[Config]):
     cluster: str | None = None
 
     def run(self) -> None:
-        from physexp import suite
         from physexp.analysis import progress, training
         from physexp.analysis import run as run_lib
 
@@ -89,9 +91,14 @@ class Train(Generic[Config]):
             if (run.config.domain, run.config.task) != (self.domain, self.task):
                 raise ValueError(f"{run.path} holds a run of {run.config.domain}/{run.config.task}; name that task")
         else:
-            suite.load_task(config.domain, config.task, config.task_kwargs)  # Refuses what no run can be made of.
-            run.create(config)
+            training.check(config, self.cluster is not None)
         with contextlib.ExitStack() as stack:
+            if self.cluster is not None:
+                from physexp.analysis import cluster
+
+                stack.enter_context(cluster.joined(self.cluster))
+            if not self.resume:
+                run.create(config)
             logs: list[Callable[[dict], None]] = [stack.enter_context(progress.Progress(run.config))]
             if self.tensorboard:
                 from physexp.analysis import tensorboard
@@ -102,10 +109,6 @@ class Train(Generic[Config]):
                 for log in logs:
                     log(row)
 
-            if self.cluster is not None:
-                from physexp.analysis import cluster
-
-                stack.enter_context(cluster.joined(self.cluster))
             training.train(run, report, self.cluster is not None, _warn)
         print(run.path)
 
@@ -384,9 +387,22 @@ class Demo:
 
 def main() -> None:
     """The entry point: runs a command; an error of the user's is one line and exit status 2."""
-    command = _parse(sys.argv[1:])
+    try:
+        try:
+            _run(sys.argv[1:])
+        finally:
+            sys.stdout.flush()
+    except BrokenPipeError:  # Who read the output, `head` for one, has seen enough.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(1)
+
+
+def _run(arguments: list[str]) -> None:
+    command = _parse(arguments)
     try:
         command.run()
+    except BrokenPipeError:
+        raise
     except (ValueError, OSError) as error:
         print(f"physexp: {error}", file=sys.stderr)
         sys.exit(2)
@@ -424,7 +440,27 @@ def _parse(arguments: list[str]):
         Annotated[Demo, tyro.conf.subcommand("demo")],
     ]
     description = "Environments in which an agent must experiment, and agents that learn to."
-    return tyro.cli(commands, prog="physexp", description=description, args=arguments)  # type: ignore[call-overload]
+    refusal = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(refusal):
+            return tyro.cli(commands, prog="physexp", description=description, args=arguments)  # type: ignore[call-overload]
+    except SystemExit:
+        if refusal.getvalue():
+            print(f"physexp: {_in_one_line(refusal.getvalue())}", file=sys.stderr)
+        raise
+
+
+def _in_one_line(box: str) -> str:
+    """What tyro says within a frame, over several lines: what is wrong, what is there instead, and where to read."""
+    inside = " ".join(line.strip("│ ") for line in box.splitlines() if line.startswith("│"))
+    problem, *rest = re.split(" *─{3,} *", inside) if inside else [" ".join(box.split())]
+    problem = re.sub(r"^Error parsing __tyro\S+: ", "", problem)  # Its name for no argument in particular.
+    parts = [problem.rstrip(".")]
+    if problem.startswith("Unrecognized") and len(rest) > 1:
+        flags = dict.fromkeys(re.findall(r"--(?!help)\w[\w-]*", rest[0]))
+        parts.append(f"perhaps {' or '.join(flags)}" if flags else rest[0].lower())
+    where = re.search(r"physexp.* --help", rest[-1]) if rest else None
+    return "; ".join([*parts, f"see {where[0] if where else 'physexp --help'}"])
 
 
 def _follows(flag: str, value: str, arguments: list[str]) -> bool:

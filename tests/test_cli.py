@@ -172,3 +172,12 @@ def test_evaluate_without_json_prints_the_same_names(untrained):
         "episodes", "success_rate", "success_interval", "mean_return", "mean_interactions", "median_interactions",
         "timeouts",
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["tasks"]])
+def test_a_reader_that_has_seen_enough_is_no_error_of_ours(arguments):
+    with subprocess.Popen([PHYSEXP, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        process.stdout.close()  # As `head` does.
+        process.stdout = None
+        _, errors = process.communicate(timeout=60)
+    assert errors == "" and process.returncode == 1

@@ -6,6 +6,7 @@ Hypothesis prints the input that breaks this, and how to have it again.
 import contextlib
 import io
 import json
+import sys
 
 import dm_env
 import hypothesis
@@ -170,3 +171,82 @@ def test_the_command_line_takes_anything(tmp_path_factory, arguments):
         else:
             assert hasattr(command, "run")
     assert not list(folder.iterdir())
+
+
+NONSENSE = """
+nothing
+--nothing
+train
+train towers
+train towers features
+train which_is_heavier features --max-farmes 3
+train which_is_heavier features --frames 0
+train which_is_heavier features --frames many
+train which_is_heavier features --num-workers 0
+train which_is_heavier features --num-workers 1000000
+train which_is_heavier features --num-workers 9999
+train which_is_heavier features --envs-per-worker 1000000000000
+train which_is_heavier features --learning-rate nan
+train which_is_heavier features --learning-rate inf
+train which_is_heavier features --seed -1
+train which_is_heavier features --seed 99999999999999999999
+train which_is_heavier features --difficulty nan
+train which_is_heavier features --difficulty 0
+train which_is_heavier features --replay-every -1
+train which_is_heavier features --agent dqn
+train which_is_heavier features --agent ppo --clip -1
+train which_is_heavier features --agent ppo --cluster local
+train which_is_heavier features --cluster nonsense
+train which_is_heavier features --resume
+train towers fist_features --difficulty 3
+train towers fist_features --control-timestep 0
+train towers fist_features --control-timestep nan
+train towers fist_features --control-timestep 1e300
+evaluate
+evaluate nowhere
+evaluate towers/nothing
+evaluate towers/fist_features --episodes 0
+evaluate towers/fist_features --seed -1
+evaluate towers/fist_features --interaction clever
+replay towers/fist_features --episodes -3
+replay towers/fist_features --seed -5
+replay towers/fist_features --select best
+replay towers/fist_features --compare which_is_heavier/features
+play towers nothing
+play towers fist_features --difficulty 3
+play towers fist_features --seed -1
+publish nowhere
+ideal nothing
+ideal which_is_heavier --difficulty nan
+ideal which_is_heavier --difficulty 1e300
+ideal which_is_heavier --difficulty 0
+ideal which_is_heavier --discount 2
+ideal which_is_heavier --blocks 0
+ideal which_is_heavier --blocks 1000000
+ideal towers --resolution -1
+ideal towers --resolution nan
+ideal towers --discount nan
+reproduce
+reproduce everything
+reproduce mass_gap --seeds 0
+reproduce mass_gap --seeds 1000000000000
+reproduce mass_gap --jobs 0
+reproduce mass_gap --jobs 1000000000000
+reproduce mass_gap --frames -3
+report --results-dir nowhere
+bench nothing
+doctor more
+""".strip().splitlines()
+
+
+@pytest.mark.parametrize("line", NONSENSE)
+def test_a_command_that_makes_no_sense_is_one_readable_line_and_makes_nothing(line, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "argv", ["physexp", *line.split()])
+    with pytest.raises(SystemExit) as exit_:
+        cli.main()
+    out, err = capsys.readouterr()
+    assert exit_.value.code == 2, err
+    assert out == "" and err.startswith("physexp: ") and err.count("\n") == 1
+    assert len(err) > len("physexp: \n") and "Traceback" not in err and "╭" not in err
+    assert not list(tmp_path.iterdir())

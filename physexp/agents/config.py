@@ -6,6 +6,8 @@ import math
 from typing import ClassVar, Literal, Self, get_args
 
 Device = Literal["auto", "cpu", "cuda"]
+LARGEST = 2**63 - 1
+"""Of the integers that a checkpoint can hold."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -51,7 +53,9 @@ class AgentConfig:
     device: Device = "auto"
     checkpoint_seconds: float = 60.0
 
-    _WHOLE: ClassVar[Mapping[str, int]] = {"frames": 1, "seed": 0, "lstm_units": 1}  # With their minima.
+    _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {  # With what they are at least and at most.
+        "frames": (1, LARGEST), "seed": (0, LARGEST), "lstm_units": (1, 65_536)
+    }  # fmt: skip
     _POSITIVE: ClassVar[tuple[str, ...]] = (
         "learning_rate", "max_gradient_norm", "observation_scale", "checkpoint_seconds"
     )  # fmt: skip
@@ -66,10 +70,10 @@ class AgentConfig:
         return self.learning_rate * (1 - progress), entropy_cost
 
     def __post_init__(self):
-        for name, minimum in self._WHOLE.items():
+        for name, (least, most) in self._WHOLE.items():
             value = getattr(self, name)
-            if not isinstance(value, int) or isinstance(value, bool) or not minimum <= value < 2**63:
-                raise ValueError(f"{name} is {value!r}; give an integer >= {minimum}")
+            if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
+                raise ValueError(f"{name} is {value!r}; give an integer >= {least} and <= {most}")
         for name in (*self._POSITIVE, "entropy_cost", "final_entropy_cost", "baseline_cost"):
             value, positive = getattr(self, name), name in self._POSITIVE
             if not _is_number(value) or value < 0 or (positive and value == 0):

@@ -39,12 +39,12 @@ def run(experiments: Sequence[base.Experiment], results: base.Results, *, observ
       report: called with lines that tell how it goes.
 
     Raises:
-      ValueError: for numbers below one, or a folder whose runs are not these.
+      ValueError: for numbers that make no sense, or a folder whose runs are not these.
       RuntimeError: if some agents could not be trained.
     """
-    for name, value in (("seeds", num_seeds), ("jobs", num_processes), ("frames", frames)):
-        if value is not None and value < 1:
-            raise ValueError(f"{name} is {value}; give an integer >= 1")
+    for name, value, most in (("seeds", num_seeds, 1_000), ("jobs", num_processes, 1_000), ("frames", frames, 10**12)):
+        if value is not None and not 1 <= value <= most:
+            raise ValueError(f"{name} is {value}; give an integer >= 1 and <= {most}")
     wanted = sweep.jobs(experiments, observations, lambda kind: num_seeds or conditions.SEEDS[kind], frames)
     sweep.run(wanted, results, num_processes or sweep.num_cores(), report, submit)
     for experiment in experiments:

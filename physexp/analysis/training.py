@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 import functools
+import os
 import signal
 import threading
 import time
@@ -19,6 +20,7 @@ from physexp.analysis import config as config_lib
 from physexp.analysis import run as run_lib
 
 ROW_SECONDS = 5.0  # Between rows of metrics.csv.
+_WORKERS_PER_CORE = 32  # More would take memory (half a gigabyte each) and no less time.
 _REPLAY_SEED = 2_000_003  # Of the episode that replays show, apart from those of training and evaluation.
 
 
@@ -26,6 +28,25 @@ def make_environment(config: config_lib.TrainConfig, seed: int, num_environments
     """The environments of a run, with a seed of their own."""
     task_kwargs = {**config.task_kwargs, "random": seed}
     return suite.load_batch(config.domain, config.task, num_environments, task_kwargs, num_threads)
+
+
+def check(config: config_lib.TrainConfig, on_cluster: bool = False) -> None:
+    """Refuses what cannot be trained here, before anything is made of it.
+
+    Raises:
+      ValueError: for a task that is none, for an agent that cannot be trained on a cluster, for more workers than this
+        machine can bear.
+    """
+    suite.load_task(config.domain, config.task, config.task_kwargs)
+    if not isinstance(config.agent, A3CConfig):
+        if on_cluster:
+            raise ValueError(f"agent is {config.agent.algorithm}, which has one process; on a cluster train a3c")
+        return
+    cores = os.cpu_count() or 1
+    most = _WORKERS_PER_CORE * cores
+    if not on_cluster and config.agent.num_workers > most:
+        raise ValueError(f"num_workers is {config.agent.num_workers}; this machine has {cores} cores: give at most "
+                         f"{most}, or train on a cluster")  # fmt: skip
 
 
 def make_agent(config: config_lib.TrainConfig, on_cluster: bool = False,
@@ -36,9 +57,6 @@ def make_agent(config: config_lib.TrainConfig, on_cluster: bool = False,
       config: the run's.
       on_cluster: train on the cluster that this process has joined.
       tell: called with a line when a worker of the cluster has died.
-
-    Raises:
-      ValueError: for an agent that cannot be trained on a cluster.
     """
     environments = functools.partial(make_environment, config)
     match config.agent:
@@ -48,10 +66,10 @@ def make_agent(config: config_lib.TrainConfig, on_cluster: bool = False,
             return distributed.DistributedA3C(environments, config.agent, run_lib.versions, tell)
         case A3CConfig():
             return a3c.A3C(environments, config.agent)
-        case PPOConfig() if not on_cluster:
+        case PPOConfig():
             return ppo.PPO(environments, config.agent)
         case _:
-            raise ValueError(f"agent is {config.agent.algorithm}, which has one process; on a cluster train a3c")
+            raise TypeError(f"no agent has a {type(config.agent).__name__}")
 
 
 def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None, on_cluster: bool = False,
@@ -69,9 +87,10 @@ def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None, o
     Raises:
       KeyboardInterrupt: after a Ctrl-C, when the checkpoint has been written.
       RuntimeError: if training cannot go on; the last checkpoint is whole.
-      ValueError: if another process is training in the run's folder, or its agent cannot be trained on a cluster.
+      ValueError: if another process is training in the run's folder, or as `check`.
     """
     config = run.config
+    check(config, on_cluster)
     agent = make_agent(config, on_cluster, tell)
     run.lock()
     try:

@@ -31,15 +31,15 @@ class BatchEnvironment:
 
         Args:
           task: what they play; its seed is the batch's.
-          num_environments: how many, >= 1.
-          num_threads: threads that simulate, >= 1.
+          num_environments: how many, from 1 to 65,536.
+          num_threads: threads that simulate, from 1 to 1,024.
 
         Raises:
-          ValueError: if one of the numbers is not a positive integer.
+          ValueError: if one of the numbers is another.
         """
-        for name, value in (("num_environments", num_environments), ("num_threads", num_threads)):
-            if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < 1:
-                raise ValueError(f"{name} is {value!r}; give an integer >= 1")
+        for name, value, most in (("num_environments", num_environments, 65_536), ("num_threads", num_threads, 1_024)):
+            if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or not 1 <= value <= most:
+                raise ValueError(f"{name} is {value!r}; give an integer >= 1 and <= {most}")
         self.num_environments = int(num_environments)
         self.num_divergences = 0
         self._closed = False

@@ -221,11 +221,11 @@ def test_each_mistake_is_counted_under_its_name():
 @pytest.mark.parametrize(
     ("kwargs", "message"),
     [
-        ({"difficulty": 0.5}, "difficulty is 0.5; give a finite number >= 1"),
-        ({"difficulty": math.nan}, "difficulty is nan; give a finite number >= 1"),
+        ({"difficulty": 0.5}, "difficulty is 0.5; give a number in .1, 1e6."),
+        ({"difficulty": math.nan}, "difficulty is nan; give a number in .1, 1e6."),
         ({"discount": 0.0}, "discount is 0.0; give a number in"),
         ({"discount": 1.5}, "discount is 1.5; give a number in"),
-        ({"num_blocks": 1}, "num_blocks is 1; give an integer >= 2"),
+        ({"num_blocks": 1}, "num_blocks is 1; give an integer >= 2 and <= 20"),
     ],
 )
 def test_what_makes_no_sense_is_refused(kwargs, message):

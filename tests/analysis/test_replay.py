@@ -2,6 +2,7 @@
 
 import functools
 from pathlib import Path
+import resource
 import shutil
 import signal
 import subprocess
@@ -276,6 +277,24 @@ writing.write(Path({str(path)!r}), groups, lambda line: print(line, flush=True))
     assert [entry.kind for entry in RrdReader(str(path)).recordings()] == ["recording"] * 2
 
 
+def test_a_full_disk_while_writing_leaves_the_earlier_episodes_and_is_one_readable_line(tmp_path):
+    def write(name, count, **kwargs):
+        command = [PHYSEXP, "replay", "which_is_heavier/features", "--episodes", str(count), "--output",
+                   tmp_path / name]  # fmt: skip
+        return subprocess.run(command, capture_output=True, text=True, check=False, timeout=120, **kwargs)
+
+    write("one.rrd", 1)
+    # Each episode of a few pokes is about as large as the next; the kernel refuses files of two and a half.
+    limit = int(2.5 * (tmp_path / "one.rrd").stat().st_size)
+    done = write("four.rrd", 4, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+    assert done.returncode == 2
+    (line,) = done.stderr.splitlines()
+    assert "File too large" in line
+    subprocess.run([writing.PROGRAM, "rrd", "verify", tmp_path / "four.rrd"], check=True, capture_output=True)
+    assert 1 <= len(RrdReader(str(tmp_path / "four.rrd")).recordings()) < 4
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["four.rrd", "one.rrd"]
+
+
 def test_two_agents_are_shown_side_by_side_on_the_same_instances(tmp_path):
     lines = []
     path = replay.replay(["towers/fist_features"] * 2, 1, tmp_path / "both.rrd", report=lines.append)
@@ -398,10 +417,10 @@ def test_the_command_writes_a_file_and_names_it(tmp_path):
     [
         (["towers/features"], "towers/features holds no run (no config.json); give the folder of a run"),
         (["towers/fist_features", "--episodes", "0"], "episodes is 0; give a number >= 1"),
+        (["towers/fist_features", "--output", "."], ". is a folder; name a file"),
     ],
 )
 def test_what_makes_no_sense_is_one_readable_line(arguments, message, tmp_path):
-    command = [PHYSEXP, "replay", *arguments, "--output", tmp_path / "x.rrd"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = subprocess.run([PHYSEXP, "replay", *arguments], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 2 and message in done.stderr and done.stderr.count("\n") == 1
-    assert not (tmp_path / "x.rrd").exists()
+    assert not list(tmp_path.iterdir())

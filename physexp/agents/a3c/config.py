@@ -23,6 +23,7 @@ class A3CConfig(config.AgentConfig):
     envs_per_worker: int = 256
     max_staleness: int = 100
 
-    _WHOLE: ClassVar[Mapping[str, int]] = {
-        **config.AgentConfig._WHOLE, "num_workers": 1, "envs_per_worker": 1, "max_staleness": 0
+    _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {
+        **config.AgentConfig._WHOLE, "num_workers": (1, 10_000), "envs_per_worker": (1, 65_536),
+        "max_staleness": (0, config.LARGEST),
     }  # fmt: skip

@@ -27,8 +27,9 @@ class PPOConfig(config.AgentConfig):
     num_minibatches: int = 4
     clip: float = 0.2
 
-    _WHOLE: ClassVar[Mapping[str, int]] = {
-        **config.AgentConfig._WHOLE, "num_environments": 1, "num_threads": 1, "num_epochs": 1, "num_minibatches": 1
+    _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {
+        **config.AgentConfig._WHOLE, "num_environments": (1, 65_536), "num_threads": (1, 1_024),
+        "num_epochs": (1, 1_000), "num_minibatches": (1, 65_536),
     }  # fmt: skip
     _POSITIVE: ClassVar[tuple[str, ...]] = (*config.AgentConfig._POSITIVE, "clip")
 

@@ -8,7 +8,6 @@ Their values are found by going back from the last poke, on a grid.
 from collections.abc import Callable
 import dataclasses
 import functools
-import math
 from typing import Any
 
 import numpy as np
@@ -160,19 +159,19 @@ def solve(difficulty: float = 5.0, discount: float = 0.95, num_blocks: int = whi
     """Finds the best policy, its value to better than 0.0001.
 
     Args:
-      difficulty: the paper's beta, >= 1.
+      difficulty: the paper's beta, in [1, 1e6].
       discount: the agent's gamma, in (0, 1].
-      num_blocks: how many blocks, >= 2.
+      num_blocks: how many blocks, from 2 to 20.
 
     Raises:
       ValueError: for a value that makes no sense.
     """
-    if not (isinstance(difficulty, (int, float)) and 1 <= difficulty < math.inf):
-        raise ValueError(f"difficulty is {difficulty!r}; give a finite number >= 1 (the paper's beta)")
+    if not (isinstance(difficulty, (int, float)) and 1 <= difficulty <= 1e6):
+        raise ValueError(f"difficulty is {difficulty!r}; give a number in [1, 1e6] (the paper's beta)")
     if not (isinstance(discount, (int, float)) and 0 < discount <= 1):
         raise ValueError(f"discount is {discount!r}; give a number in (0, 1]")
-    if not isinstance(num_blocks, int) or num_blocks < 2:
-        raise ValueError(f"num_blocks is {num_blocks!r}; give an integer >= 2")
+    if not isinstance(num_blocks, int) or not 2 <= num_blocks <= 20:
+        raise ValueError(f"num_blocks is {num_blocks!r}; give an integer >= 2 and <= 20")
     levels = np.linspace(0, 1, _HEAVIEST_NODES // 2 + 2)[1:-1]
     nodes = np.unique(np.concatenate([_heavy_quantile(levels, difficulty), _light_quantile(levels, difficulty)]))
     nodes = np.concatenate([[nodes[0] * 1e-3], nodes, [1 - (1 - nodes[-1]) * 1e-3]])

@@ -54,7 +54,10 @@ def write(path: Path, groups: Sequence[Callable[[], Sequence[recording.Episode]]
 
     Raises:
       OSError: if the file cannot be written; what had been written stays.
+      ValueError: if the path is that of a folder.
     """
+    if path.is_dir():
+        raise ValueError(f"{path} is a folder; name a file")
     rr.set_strict_mode(True)  # Otherwise errors are warnings, and data is dropped.
     path.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=path.parent, prefix=".replay-") as folder:
@@ -62,7 +65,7 @@ def write(path: Path, groups: Sequence[Callable[[], Sequence[recording.Episode]]
         for number, group in enumerate(groups):
             parts.append(Path(folder) / f"{number:06d}.rrd")
             episodes = list(group())
-            _write_recording(parts[-1], episodes)
+            parts[-1].write_bytes(_recording(episodes))
             merged = _run("rrd", "merge", *map(str, parts)) if len(parts) > 1 else parts[-1].read_bytes()
             checkpointing.write_atomically(path, merged)
             report(f"{number + 1} of {len(groups)}: {_name(episodes[0])}")
@@ -122,16 +125,18 @@ def _name(episode: recording.Episode) -> str:
     return f"{episode.domain}/{episode.task}, seed {episode.seed}, episode {episode.number}"
 
 
-def _write_recording(path: Path, episodes: Sequence[recording.Episode]) -> None:
+def _recording(episodes: Sequence[recording.Episode]) -> bytes:
+    """A recording in memory, because rerun drops what it cannot write to a file without a word."""
     first, players = episodes[0], "-".join(episode.agent for episode in episodes)
     stream = rr.RecordingStream(f"physexp-{first.domain}-{first.task}",
                                 recording_id=f"{first.seed}-{first.number}-{players}")  # fmt: skip
     roots = [""] if len(episodes) == 1 else [f"{chr(ord('A') + index)}" for index in range(len(episodes))]
-    stream.save(path, default_blueprint=blueprint(episodes, roots))
+    memory = stream.memory_recording()
+    stream.send_blueprint(blueprint(episodes, roots), make_active=False, make_default=True)
     stream.send_recording_name(_name(first))
     for episode, root in zip(episodes, roots, strict=True):
         _Writer(stream, episode, root).write()
-    stream.disconnect()  # Writes the footer.
+    return memory.drain_as_bytes()
 
 
 class _Writer:
