@@ -6,7 +6,7 @@ PYTHON ?= python3.11 python3
 BIN = .venv/bin
 INSTALLED = .venv/installed
 
-.PHONY: help install demo test lint docs bench clean
+.PHONY: help install demo test soak lint docs bench clean
 .DEFAULT_GOAL = help
 
 help: ## Show this list.
@@ -19,6 +19,9 @@ demo: $(INSTALLED) ## Train an agent to find the heaviest block and compare it w
 
 test: lint ## Run lint and every test.
 	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 --dist worksteal
+
+soak: $(INSTALLED) ## Play every task for millions of steps (about an hour): nothing may diverge, grow or slow down.
+	PHYSEXP_SOAK=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest -s tests/analysis/test_soak.py
 
 lint: $(INSTALLED) ## Run ruff and the type checker.
 	$(BIN)/ruff check

@@ -1,11 +1,10 @@
-"""Long runs: memory stays flat over thousands of resets, and random play never diverges."""
+"""Memory stays flat over thousands of resets, and what is dropped is given back."""
 
 import ctypes
 import gc
 import os
 import secrets
 
-import numpy as np
 import pytest
 
 from physexp import suite
@@ -14,8 +13,6 @@ from physexp import suite
 # batches of 4.
 NUM_RESETS = {"which_is_heavier": 10_000, "towers": 750}
 NUM_BATCH_RESETS = 10_000
-# Control steps of random play.
-NUM_STEPS = {"which_is_heavier": 100_000, "towers": 15_000}
 
 # Bytes a reset. The smallest thing that a reset could lose is a few hundred bytes (a small array, a TimeStep); the
 # allocator's own noise over a thousand resets was below 100 kB.
@@ -83,22 +80,3 @@ def test_environments_and_batches_that_are_dropped_give_their_memory_back(domain
         build_and_drop()
     # Either one is megabytes large: an arena for contacts, for one, takes some.
     assert _resident_bytes() - before < 6 * 300_000
-
-
-@every_feature_task
-def test_random_play_never_diverges_and_stays_finite(seed, domain_name, task_name):
-    """One label in a hundred actions, so that episodes of all lengths are played; memory stays flat as well."""
-    rng = np.random.default_rng(seed)
-    size = {"which_is_heavier": 500, "towers": 100}[domain_name]
-    batch = suite.load_batch(domain_name, task_name, size, {"random": seed}, num_threads=1)
-    batch.reset()
-    num_interactions, num_labels = batch.task.num_interactions, batch.task.num_labels
-    rewards = []
-    for _ in range(NUM_STEPS[domain_name] // size):
-        labels = num_interactions + rng.integers(num_labels, size=size)
-        actions = np.where(rng.random(size) < 0.01, labels, rng.integers(num_interactions, size=size))
-        step = batch.step(actions)
-        assert all(np.isfinite(value).all() for value in step.observation.values())
-        rewards.append(step.reward)
-    assert batch.num_divergences == 0
-    assert set(np.unique(rewards)) == {-1.0, 0.0, 1.0}

@@ -1,0 +1,102 @@
+"""Hours of play: nothing diverges, no episode is lost, memory stays flat and nothing slows down.
+
+`make soak` plays the full length, with PHYSEXP_SOAK set; `make test` a hundredth of it.
+"""
+
+import ctypes
+import gc
+import os
+import time
+
+import dm_env
+import numpy as np
+import pytest
+import torch
+from trainers import fresh_seed
+
+from physexp import suite
+from physexp.agents import acting, pretrained
+
+FULL = "PHYSEXP_SOAK" in os.environ
+STEPS = {"features": 5_000_000, "pixels": 300_000}
+SHARE = 1 if FULL else 0.01
+SIZES = {"features": 128, "pixels": 32}
+LABELS = 0.02  # How often random play gives an answer: episodes of all lengths are played.
+WARM_UP = 60  # Batched steps: all sixteen towers are compiled, every buffer is there.
+SLOWER = 1.05 if FULL else 2.0  # A hundredth of the length measures a few seconds, in which much else may happen.
+GROWTH = 16e6  # Bytes; that is three for each step of the full length, and the allocator's own noise.
+
+
+def resident_bytes():
+    gc.collect()
+    ctypes.CDLL(None).malloc_trim(0)  # What has been freed goes back to the system, and does not count.
+    with open("/proc/self/statm") as statm:
+        return int(statm.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+class Players:
+    """Plays a batch: every other environment with the trained agent of the task, the rest at random."""
+
+    def __init__(self, domain, task, size, seed):
+        self.batch = suite.load_batch(domain, task, size, {"random": seed})
+        self._network = pretrained.load(domain, task).network
+        self._generator = np.random.default_rng(seed)
+        self._random = np.arange(size) % 2 == 1
+        self._state = self._network.initial_state(size)
+        self._timestep = self.batch.reset()
+        self.started, self.ended, self.rewards = size, 0, set()
+
+    @torch.inference_mode()
+    def step(self):
+        timestep, task = self._timestep, self.batch.task
+        fresh = torch.from_numpy(timestep.step_type == dm_env.StepType.FIRST)
+        for part in self._state:
+            part[:, fresh] = 0  # An episode starts: so does the memory.
+        encoded = self._network.encode(acting.as_tensors(timestep.observation))
+        logits, _, self._state = self._network.step(encoded, self._state)
+        size = len(self._random)
+        labels = task.num_interactions + self._generator.integers(task.num_labels, size=size)
+        pokes = self._generator.integers(task.num_interactions, size=size)
+        at_random = np.where(self._generator.random(size) < LABELS, labels, pokes)
+        actions = np.where(self._random, at_random, acting.sample(logits, self._generator))
+        self._timestep = timestep = self.batch.step(actions)
+        self.started += int((timestep.step_type == dm_env.StepType.FIRST).sum())
+        self.ended += int((timestep.step_type == dm_env.StepType.LAST).sum())
+        self.rewards |= set(np.unique(timestep.reward))
+        assert all(np.isfinite(value).all() for value in timestep.observation.values())
+
+    @property
+    def in_flight(self):
+        return int((self._timestep.step_type != dm_env.StepType.LAST).sum())
+
+
+@pytest.mark.parametrize(("domain", "task"), suite.ALL_TASKS)
+def test_a_batch_plays_on_and_on(domain, task):
+    torch.set_num_threads(1)
+    kind = task.rpartition("_")[2]
+    players = Players(domain, task, SIZES[kind], fresh_seed())
+    for _ in range(WARM_UP):
+        players.step()
+    num_steps = int(SHARE * STEPS[kind] / SIZES[kind])
+    before = resident_bytes()
+    seconds, start = np.zeros(num_steps), time.monotonic()
+    for step in range(num_steps):
+        begun = time.process_time()  # Of this process alone: what else runs on the machine counts little.
+        players.step()
+        seconds[step] = time.process_time() - begun
+        if (step + 1) % -(-num_steps // 10) == 0 or step + 1 == num_steps:
+            done, elapsed = (step + 1) / num_steps, time.monotonic() - start
+            print(f"{domain}/{task}: {(step + 1) * SIZES[kind]:,} steps, time left {elapsed / done - elapsed:.0f} s",
+                  flush=True)  # fmt: skip
+    grown = resident_bytes() - before
+    tenth = num_steps // 10
+    slower = np.median(seconds[-tenth:]) / np.median(seconds[:tenth])
+    rate = num_steps * SIZES[kind] / seconds.sum()
+    print(f"{players.ended} episodes, {rate:.0f} steps/s, {grown / 1e6:.1f} MB more, "
+          f"the last tenth takes {slower:.3f} of the first's time")  # fmt: skip
+    assert players.batch.num_divergences == 0
+    assert players.started == players.ended + players.in_flight
+    assert players.started == (players.batch.episodes + 1).sum()
+    assert players.ended > 0 and players.rewards == {-1.0, 0.0, 1.0}
+    assert grown < GROWTH
+    assert slower < SLOWER
