@@ -1,6 +1,9 @@
 """A3C on a cluster of this machine alone against A3C in processes, and where a parameter server would saturate."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+import os
+from pathlib import Path
+import signal
 import statistics
 import time
 
@@ -26,6 +29,8 @@ def run() -> Iterator[dict]:
         yield bench.row("2 workers on a cluster / 2 processes: heavier", statistics.median(ratios), "x", 0.7,
                         cluster=statistics.median(ours), processes=statistics.median(theirs))  # fmt: skip
         rate, traffic, frames = _measure(1)
+        yield bench.row("a killed worker is back, with an update", statistics.median(_recovery() for _ in range(3)),
+                        "s", 5, at_most=True)  # fmt: skip
     seconds = traffic.busy_seconds / traffic.updates
     moved = (traffic.bytes_in + traffic.bytes_out) / traffic.updates
     yield bench.row("parameter server, time for an update", 1e3 * seconds, "ms", 5, at_most=True, kilobytes=moved / 1e3,
@@ -38,9 +43,7 @@ def run() -> Iterator[dict]:
 
 def _measure(num_workers: int) -> tuple[float, distributed.Traffic, float]:
     """Frames per second once all workers are under way; the traffic; and frames in an update."""
-    preset = config_lib.A3C[_TASK].replace(num_workers=num_workers, frames=10**12)
-    agent = training.make_agent(config_lib.TrainConfig(domain=_TASK[0], task=_TASK[1], agent=preset), on_cluster=True)
-    assert isinstance(agent, distributed.DistributedA3C)
+    agent = _agent(num_workers)
     heard: set[int] = set()
     start, first, last = 0.0, None, None
     for update in agent.updates(poll_seconds=0.1):
@@ -56,3 +59,39 @@ def _measure(num_workers: int) -> tuple[float, distributed.Traffic, float]:
     assert first is not None and last is not None
     frames = last.metrics["frames"] - first.metrics["frames"]
     return frames / _SECONDS, traffic, frames / (last.metrics["updates"] - first.metrics["updates"])
+
+
+def _recovery() -> float:
+    """Seconds from the death of the only worker to the first update of the one that takes its place."""
+    told: list[str] = []
+    updates = _agent(1, told.append).updates(poll_seconds=0.1)
+    next(update for update in updates if update is not None)
+    (worker,) = _processes("ray::Worker")
+    killed = time.perf_counter()
+    os.kill(worker, signal.SIGKILL)
+    next(update for update in updates if update is None and told)  # All that the dead one had sent has come.
+    next(update for update in updates if update is not None)
+    seconds = time.perf_counter() - killed
+    updates.close()
+    return seconds
+
+
+def _agent(num_workers: int, tell: Callable[[str], None] = lambda line: None) -> distributed.DistributedA3C:
+    preset = config_lib.A3C[_TASK].replace(num_workers=num_workers, frames=10**12)
+    config = config_lib.TrainConfig(domain=_TASK[0], task=_TASK[1], agent=preset)
+    agent = training.make_agent(config, on_cluster=True, tell=tell)
+    assert isinstance(agent, distributed.DistributedA3C)
+    return agent
+
+
+def _processes(title: str) -> list[int]:
+    """Those of this machine whose command line starts so."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*"):
+        try:
+            command = (entry / "cmdline").read_bytes()
+        except OSError:  # It has just ended.
+            continue
+        if command.startswith(title.encode()):
+            found.append(int(entry.name))
+    return found
