@@ -5,13 +5,15 @@ from pathlib import Path
 import tempfile
 import time
 
+import numpy as np
+
 from physexp import suite
 from physexp.agents import environment_loop, pretrained
 from physexp.analysis import bench, evaluation, replay
 from physexp.analysis import config as config_lib
 from physexp.analysis.replay import recording, writing
 
-_EPISODES = 40
+_PAIRS, _EPISODES = 100, 8  # Measurements of each side, and what is played in one.
 
 
 def run() -> Iterator[dict]:
@@ -27,22 +29,20 @@ def run() -> Iterator[dict]:
 
 
 def _recording(name: str, task: tuple[str, str]) -> dict:
-    """What recording adds to playing episodes with a trained agent, features and all."""
-    with_recorder, without = (_player(task, is_recording) for is_recording in (True, False))
-    recorded, plain = bench.rates(with_recorder, without)
-    return bench.row(f"what recording adds to evaluation: {name}", plain / recorded - 1, "", 0.03, at_most=True,
-                     recorded=recorded, plain=plain)  # fmt: skip
-
-
-def _player(task: tuple[str, str], is_recording: bool):
-    environment, actor = suite.load(*task, task_kwargs={"random": 0}), pretrained.load(*task).actor()
-    observers = [replay.EpisodeRecorder(environment, *task, {}, actor)] if is_recording else []
-    loop = environment_loop.EnvironmentLoop(environment, actor, observers)
-
-    def play() -> int:
-        return sum(episode["episode_length"] for episode in loop.run(_EPISODES))
-
-    return play
+    """What recording adds to playing with a trained agent: the same episodes with and without it, in turns."""
+    environment, actor = suite.load(*task, task_kwargs={"random": 0}), pretrained.load(*task).actor(greedy=True)
+    recorder = replay.EpisodeRecorder(environment, *task, {}, actor)
+    loops = [environment_loop.EnvironmentLoop(environment, actor, observers) for observers in ([], [recorder])]
+    seconds = np.zeros((_PAIRS, 2))
+    for pair in range(_PAIRS):
+        for side in (0, 1) if pair % 2 else (1, 0):
+            environment.task.next_episode = pair * _EPISODES
+            start = time.process_time()
+            loops[side].run(_EPISODES)
+            seconds[pair, side] = time.process_time() - start
+    plain, recorded = seconds.sum(axis=0).tolist()
+    added = float(np.median(seconds[:, 1] / seconds[:, 0])) - 1
+    return bench.row(f"what recording adds to evaluation: {name}", added, "", 0.03, at_most=True, recorded_seconds=recorded, plain_seconds=plain)  # fmt: skip
 
 
 def _replay_in_training(name: str, task: tuple[str, str]) -> dict:
