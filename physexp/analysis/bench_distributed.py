@@ -5,14 +5,17 @@ import os
 from pathlib import Path
 import signal
 import statistics
+import tempfile
 import time
 
 from physexp.agents.a3c import distributed
-from physexp.analysis import bench, cluster, training
+from physexp.analysis import bench, cluster, evaluation, training
 from physexp.analysis import config as config_lib
+from physexp.analysis import run as run_lib
 
 _TASK = ("which_is_heavier", "features")
 _SECONDS = 15.0
+_FRAMES, _EPISODES = 4_000_000, 10_000  # To learn what either trainer makes of an agent, and to measure it.
 _REPETITIONS = 3
 _WORKERS = (1, 2, 4, 8, 16, 32, 64, 128)
 _GIGABIT = 1e9 / 8  # Bytes per second.
@@ -31,6 +34,9 @@ def run() -> Iterator[dict]:
         rate, traffic, frames = _measure(1)
         yield bench.row("a killed worker is back, with an update", statistics.median(_recovery() for _ in range(3)),
                         "s", 5, at_most=True)  # fmt: skip
+        returns = [_final_return(on_cluster) for on_cluster in (True, False)]
+        yield bench.row("final return, 2 workers on a cluster / 2 processes: heavier", returns[0] / returns[1], "x",
+                        0.98, cluster=returns[0], processes=returns[1])  # fmt: skip
     seconds = traffic.busy_seconds / traffic.updates
     moved = (traffic.bytes_in + traffic.bytes_out) / traffic.updates
     yield bench.row("parameter server, time for an update", 1e3 * seconds, "ms", 5, at_most=True, kilobytes=moved / 1e3,
@@ -59,6 +65,16 @@ def _measure(num_workers: int) -> tuple[float, distributed.Traffic, float]:
     assert first is not None and last is not None
     frames = last.metrics["frames"] - first.metrics["frames"]
     return frames / _SECONDS, traffic, frames / (last.metrics["updates"] - first.metrics["updates"])
+
+
+def _final_return(on_cluster: bool) -> float:
+    """Mean discounted return of an agent that two workers have trained."""
+    agent = config_lib.A3C[_TASK].replace(num_workers=2, frames=_FRAMES)
+    with tempfile.TemporaryDirectory() as folder:
+        run = run_lib.Run(Path(folder) / "run")
+        run.create(config_lib.TrainConfig(domain=_TASK[0], task=_TASK[1], replay_every=0, agent=agent))
+        training.train(run, on_cluster=on_cluster)
+        return evaluation.evaluate(run, _EPISODES).summary(agent.discount)["mean_return"]
 
 
 def _recovery() -> float:

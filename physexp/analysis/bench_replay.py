@@ -42,7 +42,8 @@ def _recording(name: str, task: tuple[str, str]) -> dict:
             seconds[pair, side] = time.process_time() - start
     plain, recorded = seconds.sum(axis=0).tolist()
     added = float(np.median(seconds[:, 1] / seconds[:, 0])) - 1
-    return bench.row(f"what recording adds to evaluation: {name}", added, "", 0.03, at_most=True, recorded_seconds=recorded, plain_seconds=plain)  # fmt: skip
+    return bench.row(f"what recording adds to evaluation: {name}", added, "", 0.03, at_most=True,
+                     recorded_seconds=recorded, plain_seconds=plain)  # fmt: skip
 
 
 def _replay_in_training(name: str, task: tuple[str, str]) -> dict:

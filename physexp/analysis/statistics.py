@@ -22,6 +22,11 @@ class Estimate:
     high: float
 
 
+def better_half(values: Sequence[float] | np.ndarray) -> np.ndarray:
+    """Indices of the larger half of some values, the largest first; the middle one of an odd number belongs to it."""
+    return np.argsort(-np.asarray(values), kind="stable")[: (len(values) + 1) // 2]
+
+
 def wilson_interval(successes: int, trials: int) -> tuple[float, float]:
     """The 95 % confidence interval of a proportion (Wilson, 1927).
 

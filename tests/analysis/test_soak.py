@@ -1,6 +1,6 @@
 """Hours of play: nothing diverges, no episode is lost, memory stays flat and nothing slows down.
 
-`make soak` plays the full length, with PHYSEXP_SOAK set; `make test` a hundredth of it.
+`make soak` plays the full length, with PHYSEXP_SOAK set; `make test` a two-hundredth of it.
 """
 
 import ctypes
@@ -19,11 +19,11 @@ from physexp.agents import acting, pretrained
 
 FULL = "PHYSEXP_SOAK" in os.environ
 STEPS = {"features": 5_000_000, "pixels": 300_000}
-SHARE = 1 if FULL else 0.01
+SHARE = 1 if FULL else 0.005
 SIZES = {"features": 128, "pixels": 32}
 LABELS = 0.02  # How often random play gives an answer: episodes of all lengths are played.
 WARM_UP = 60  # Batched steps: all sixteen towers are compiled, every buffer is there.
-SLOWER = 1.05 if FULL else 2.0  # A hundredth of the length measures a few seconds, in which much else may happen.
+SLOWER = 1.05 if FULL else 2.0  # So short a part measures seconds, in which much else may happen.
 GROWTH = 16e6  # Bytes; that is three for each step of the full length, and the allocator's own noise.
 
 

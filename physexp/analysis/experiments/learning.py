@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from physexp.analysis import figures
+from physexp.analysis import figures, statistics
 
 _POINTS = 120
 _SMOOTHING = 5  # Rows of metrics.csv, each some seconds of training.
@@ -23,7 +23,7 @@ def smoothed(frame, along: str = "frames"):
         runs = [run.sort_values("frames") for _, run in rows.groupby("training_seed")]
         grid = np.linspace(0, min(run[along].max() for run in runs), _POINTS)
         success = [run.success_rate.rolling(_SMOOTHING, min_periods=1).mean().to_numpy() for run in runs]
-        best = np.argsort([-values[-1] for values in success], kind="stable")[: -(-len(runs) // 2)]
+        best = statistics.better_half([values[-1] for values in success])
         lines = [np.interp(grid, runs[index][along], success[index]) for index in best]
         curves[condition] = (grid / AXES[along][0], np.array(lines))
     return curves
