@@ -6,36 +6,14 @@ import numpy as np
 import pytest
 from scipy import stats
 import torch
+from trainers import fresh_seed
 
 from physexp import suite
-from physexp.agents.a3c import config as a3c
-from physexp.analysis import config as config_lib
-from physexp.analysis import evaluation, statistics, training
+from physexp.analysis import evaluation, statistics
 from physexp.analysis import run as run_lib
 
 KEYS = ["episodes", "success_rate", "success_interval", "mean_return", "mean_interactions", "median_interactions",
         "timeouts"]  # fmt: skip
-
-
-def fresh_seed() -> int:
-    seed = np.random.SeedSequence().entropy % 2**32
-    print("seed", seed)
-    return seed
-
-
-@pytest.fixture
-def untrained(tmp_path):
-    """A run whose checkpoint holds a network as it is before training."""
-    config = config_lib.TrainConfig(
-        domain="which_is_heavier", task="features", difficulty=10.0, agent=a3c.A3CConfig(num_workers=1)
-    )
-    run = run_lib.Run(tmp_path / "run")
-    run.create(config)
-    agent = training.make_agent(config)
-    run.checkpointer.save(
-        agent.save(), {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
-    )
-    return run
 
 
 def test_the_summary_of_four_episodes_is_the_one_computed_by_hand():

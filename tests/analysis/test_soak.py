@@ -3,12 +3,11 @@
 `make soak` plays the full length, with PHYSEXP_SOAK set; `make test` a two-hundredth of it.
 """
 
-import ctypes
-import gc
 import os
 import time
 
 import dm_env
+from memory import resident_bytes
 import numpy as np
 import pytest
 import torch
@@ -25,13 +24,6 @@ LABELS = 0.02  # How often random play gives an answer: episodes of all lengths 
 WARM_UP = 60  # Batched steps: all sixteen towers are compiled, every buffer is there.
 SLOWER = 1.05 if FULL else 2.0  # So short a part measures seconds, in which much else may happen.
 GROWTH = 16e6  # Bytes; that is three for each step of the full length, and the allocator's own noise.
-
-
-def resident_bytes():
-    gc.collect()
-    ctypes.CDLL(None).malloc_trim(0)  # What has been freed goes back to the system, and does not count.
-    with open("/proc/self/statm") as statm:
-        return int(statm.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 
 class Players:

@@ -1,8 +1,5 @@
 """A batch is its single environments, bit for bit, however many there are and whatever steps them."""
 
-import os
-import secrets
-
 import dm_env
 from episodes import random_actions
 import numpy as np
@@ -16,14 +13,6 @@ every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_T
 
 # Control steps to compare: the single towers take some 300 of them a second.
 STEPS = {"which_is_heavier": 400, "towers": 120}
-
-
-@pytest.fixture
-def seed():
-    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure."""
-    value = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
-    print(f"PHYSEXP_TEST_SEED={value}")
-    return value
 
 
 def _load_both(domain_name, task_name, seed, size, num_threads=1, **task_kwargs):

@@ -2,7 +2,7 @@
 
 import functools
 
-from episodes import EVERY_PATTERN, SEED, episode_with
+from episodes import AWAY, EVERY_PATTERN, INTO_THE_TOWER, batch_of, episode_with, plans_that_miss
 import mujoco
 import numpy as np
 import pytest
@@ -11,38 +11,7 @@ from physexp import suite
 from physexp.suite import task as task_lib
 from physexp.suite import tower
 
-INTO_THE_TOWER, AWAY, LEFT, RIGHT = range(4)  # The fist's actions: +x, -x, +y, -y. It starts at x = -0.32 m.
-
 pytestmark = pytest.mark.usefixtures("seed")
-
-
-@functools.cache
-def _load_batch(task_name, size, control_timestep):
-    """Batches are built once: compiling sixteen towers takes a second."""
-    return suite.load_batch("towers", task_name, size, {"random": SEED, "control_timestep": control_timestep})
-
-
-def _batch_of(task_name, patterns, control_timestep=0.1):
-    """A batch whose i-th environment starts with `patterns[i]`, and its first observation."""
-    batch = _load_batch(task_name, len(patterns), control_timestep)
-    rows = []
-    for i, pattern in enumerate(patterns):
-        episode = episode_with(pattern, suite.environment_seed(SEED, i))
-        rows.append(batch.reset(np.array([i]), episode).observation)
-    np.testing.assert_array_equal(batch.hidden, patterns)
-    return batch, {name: np.concatenate([row[name] for row in rows]) for name in rows[0]}
-
-
-def _plans_that_miss(rng, step_limit: int, control_timestep: float, num_random: int):
-    """Fist actions of whole episodes that never touch the tower, [number of plans, T].
-
-    Each of the three directions that lead away held throughout, which ends in pressing against a limit of the fist's
-    room, and walks that choose one of them anew every 0.3 s.
-    """
-    hold = max(1, round(0.3 / control_timestep))
-    walks = rng.choice([AWAY, LEFT, RIGHT], size=(num_random, -(-step_limit // hold)))
-    held = np.array([[AWAY], [LEFT], [RIGHT]])
-    return np.concatenate([np.repeat(held, step_limit, axis=1), np.repeat(walks, hold, axis=1)[:, :step_limit]])
 
 
 def _differences(observation, size: int) -> dict[str, float]:
@@ -57,7 +26,7 @@ def _differences(observation, size: int) -> dict[str, float]:
 
 @pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
 def test_every_tower_looks_the_same_at_first(task_name):
-    _, first = _batch_of(task_name, EVERY_PATTERN)
+    _, first = batch_of(task_name, EVERY_PATTERN)
     assert _differences(first, 16) == {}
 
 
@@ -69,9 +38,9 @@ def test_every_tower_looks_the_same_at_first(task_name):
 def test_an_untouched_tower_and_the_fist_look_the_same_whatever_the_glue(
     seed, control_timestep, step_limit, patterns, num_random
 ):
-    plans = _plans_that_miss(np.random.default_rng(seed), step_limit, control_timestep, num_random)
+    plans = plans_that_miss(np.random.default_rng(seed), step_limit, control_timestep, num_random)
     size = len(patterns)
-    batch, first = _batch_of("fist_features", np.tile(patterns, len(plans)), control_timestep)
+    batch, first = batch_of("fist_features", np.tile(patterns, len(plans)), control_timestep)
     leaks = []
     for t in range(step_limit):
         step = batch.step(np.repeat(plans[:, t], size))
@@ -163,7 +132,7 @@ def test_a_plain_awake_tower_settles_by_less_than_a_tenth_of_the_touch_tolerance
 @pytest.mark.parametrize("control_timestep", [0.1, 0.01])
 def test_a_tower_hit_by_the_fist_moves_as_a_plain_awake_one(control_timestep):
     """Until the touch it looks at rest, exactly; from then on it is where the plain one is, through the whole fall."""
-    batch, first = _batch_of("fist_features", EVERY_PATTERN, control_timestep)
+    batch, first = batch_of("fist_features", EVERY_PATTERN, control_timestep)
     plain, touched, since_touch = _plain("fist_features"), np.zeros(16, bool), 0
     while since_touch < 1.0 / control_timestep:
         positions = batch.step(np.full(16, INTO_THE_TOWER)).observation["positions"]
@@ -182,7 +151,7 @@ def test_a_tower_hit_by_the_fist_moves_as_a_plain_awake_one(control_timestep):
 def test_a_pushed_tower_moves_as_a_plain_awake_one(seed):
     """The first push finds both towers in the same state, so they stay together, up to a micrometre, for two."""
     rng = np.random.default_rng(seed)
-    batch, _ = _batch_of("direct_features", EVERY_PATTERN)
+    batch, _ = batch_of("direct_features", EVERY_PATTERN)
     plain = _plain("direct_features")
     for actions in rng.integers(20, size=(2, 16)):
         positions = batch.step(actions).observation["positions"]

@@ -1,10 +1,6 @@
 """Memory stays flat over thousands of resets, and what is dropped is given back."""
 
-import ctypes
-import gc
-import os
-import secrets
-
+from memory import resident_bytes
 import pytest
 
 from physexp import suite
@@ -23,28 +19,13 @@ FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.ends
 every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_TASKS)
 
 
-@pytest.fixture
-def seed():
-    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure."""
-    value = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
-    print(f"PHYSEXP_TEST_SEED={value}")
-    return value
-
-
-def _resident_bytes() -> int:
-    gc.collect()
-    ctypes.CDLL(None).malloc_trim(0)  # What has been freed goes back to the system, and does not count.
-    with open("/proc/self/statm") as statm:
-        return int(statm.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
-
-
 def _assert_memory_is_flat(reset, num_resets: int, num_warm_up: int) -> None:
     for _ in range(num_warm_up):
         reset()
-    before = _resident_bytes()
+    before = resident_bytes()
     for _ in range(num_resets):
         reset()
-    grown = _resident_bytes() - before
+    grown = resident_bytes() - before
     print(f"{grown} bytes in {num_resets} resets")
     assert grown < FLAT * num_resets + NOISE
 
@@ -75,8 +56,8 @@ def test_environments_and_batches_that_are_dropped_give_their_memory_back(domain
 
     for _ in range(2):
         build_and_drop()
-    before = _resident_bytes()
+    before = resident_bytes()
     for _ in range(6):
         build_and_drop()
     # Either one is megabytes large: an arena for contacts, for one, takes some.
-    assert _resident_bytes() - before < 6 * 300_000
+    assert resident_bytes() - before < 6 * 300_000

@@ -1,15 +1,14 @@
 """Pixel tasks: an image is the state, all of it that may be seen and nothing more, alone and in a batch."""
 
 from concurrent import futures
-import ctypes
 import functools
 import gc
 import itertools
-import os
 import re
 
 import dm_env
-from episodes import EVERY_PATTERN, SEED, episode_with, random_actions
+from episodes import AWAY, EVERY_PATTERN, SEED, episode_with, plans_that_miss, random_actions
+from memory import resident_bytes
 import numpy as np
 import pytest
 from scipy import spatial
@@ -32,7 +31,6 @@ EDGE = 84  # pixels, of an image
 SHAPE = (EDGE, EDGE, 3)
 CORNERS = np.array(list(itertools.product((-0.05, 0.05), repeat=3)))  # m, of a cube, from its centre
 SEPARATE, WHOLE = 0, 15
-INTO_THE_TOWER, AWAY, LEFT, RIGHT = range(4)  # The fist's actions: +x, -x, +y, -y. It starts at x = -0.32 m.
 
 
 @functools.cache
@@ -522,18 +520,6 @@ def test_all_masses_look_the_same_at_first(load, seed):
         assert image.tobytes() == images[0].tobytes()
 
 
-def _plans_that_miss(rng, step_limit: int, control_timestep: float, num_random: int):
-    """Fist actions of whole episodes that never touch the tower, [number of plans, T].
-
-    Each of the three directions that lead away held throughout, which ends in pressing against a limit of the fist's
-    room, and walks that choose one of them anew every 0.3 s.
-    """
-    hold = max(1, round(0.3 / control_timestep))
-    walks = rng.choice([AWAY, LEFT, RIGHT], size=(num_random, -(-step_limit // hold)))
-    held = np.array([[AWAY], [LEFT], [RIGHT]])
-    return np.concatenate([np.repeat(held, step_limit, axis=1), np.repeat(walks, hold, axis=1)[:, :step_limit]])
-
-
 @pytest.mark.parametrize(
     "control_timestep, step_limit, patterns, num_random",
     [(0.1, 26, EVERY_PATTERN, 2), (0.01, 260, np.array([0, 6, 15]), 0)],
@@ -542,7 +528,7 @@ def _plans_that_miss(rng, step_limit: int, control_timestep: float, num_random: 
 def test_the_images_of_an_episode_that_leaves_the_tower_alone_are_the_same_whatever_the_glue(
     seed, control_timestep, step_limit, patterns, num_random
 ):
-    plans = _plans_that_miss(np.random.default_rng(seed), step_limit, control_timestep, num_random)
+    plans = plans_that_miss(np.random.default_rng(seed), step_limit, control_timestep, num_random)
     size = len(patterns)
     batch, chosen, first = _batch_of("fist_pixels", np.tile(patterns, len(plans)), control_timestep)
     model = _model(*FIST)
@@ -827,20 +813,13 @@ def test_a_closed_environment_says_so_and_may_be_closed_again(load, domain_name,
 # Memory.
 
 
-def _resident_bytes() -> int:
-    gc.collect()
-    ctypes.CDLL(None).malloc_trim(0)  # What has been freed goes back to the system, and does not count.
-    with open("/proc/self/statm") as statm:
-        return int(statm.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
-
-
 def _growth(action, count: int, num_warm_up: int) -> int:
     for _ in range(num_warm_up):
         action()
-    before = _resident_bytes()
+    before = resident_bytes()
     for _ in range(count):
         action()
-    return _resident_bytes() - before
+    return resident_bytes() - before
 
 
 def test_ten_thousand_resets_leave_memory_as_it_is(seed, drawn):

@@ -2,7 +2,6 @@
 
 import itertools
 import os
-import secrets
 import subprocess
 import sys
 
@@ -17,14 +16,6 @@ P_VALUE = 1e-4  # A right generator fails one test in ten thousand.
 
 FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
 every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_TASKS)
-
-
-@pytest.fixture
-def seed():
-    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure."""
-    value = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
-    print(f"PHYSEXP_TEST_SEED={value}")
-    return value
 
 
 def _episode(env) -> list:

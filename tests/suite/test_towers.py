@@ -3,7 +3,7 @@
 import functools
 import itertools
 
-from episodes import EVERY_PATTERN, SEED, episode_with
+from episodes import EVERY_PATTERN, SEED, batch_of, episode_with
 import numpy as np
 import pytest
 from scipy import stats
@@ -22,23 +22,6 @@ COUNTS = np.array([5 - sum(pattern) for pattern in itertools.product((0, 1), rep
 SEPARATE, WHOLE = 0, 15
 
 pytestmark = pytest.mark.usefixtures("seed")
-
-
-@functools.cache
-def _load_batch(task_name, size, control_timestep):
-    """Batches are built once: compiling sixteen towers takes a second."""
-    return suite.load_batch("towers", task_name, size, {"random": SEED, "control_timestep": control_timestep})
-
-
-def _batch_of(task_name, patterns, control_timestep=0.1):
-    """A batch whose i-th environment starts with `patterns[i]`, and its first positions, [N, 5, 3]."""
-    batch = _load_batch(task_name, len(patterns), control_timestep)
-    positions = []
-    for i, pattern in enumerate(patterns):
-        episode = episode_with(pattern, suite.environment_seed(SEED, i))
-        positions.append(batch.reset(np.array([i]), episode).observation["positions"][0])
-    np.testing.assert_array_equal(batch.hidden, patterns)
-    return batch, np.stack(positions)
 
 
 def _distances(positions, lower: int, upper: int):
@@ -87,7 +70,7 @@ def _random_episodes(task_name):
     """A whole episode of two towers of each pattern: patterns [32] and positions [T, 32, 5, 3]."""
     rng = np.random.default_rng(SEED)
     patterns, positions = np.tile(EVERY_PATTERN, 2), []
-    batch, _ = _batch_of(task_name, patterns)
+    batch, _ = batch_of(task_name, patterns)
     for t in range(26):
         actions = rng.integers(batch.task.num_interactions, size=32)
         if task_name == "fist_features" and t < 4:
@@ -135,7 +118,7 @@ def test_nothing_leaves_the_room_or_sinks_into_its_floor(task_name):
 @pytest.mark.parametrize("first, second", [(0, 2), (1, 3), (2, 1), (3, 0)])
 def test_two_pokes_tell_the_number_of_bodies(first, second):
     """Block 1 in one direction, then block 3 across: patterns of different counts end up more than 2 cm apart."""
-    batch, _ = _batch_of("direct_features", EVERY_PATTERN)
+    batch, _ = batch_of("direct_features", EVERY_PATTERN)
     batch.step(np.full(16, 4 * 1 + first))
     positions = batch.step(np.full(16, 4 * 3 + second)).observation["positions"]
     for one, other in itertools.combinations(EVERY_PATTERN, 2):
@@ -145,7 +128,7 @@ def test_two_pokes_tell_the_number_of_bodies(first, second):
 
 
 def test_a_push_moves_its_own_block_in_its_own_direction():
-    batch, before = _batch_of("direct_features", np.full(20, SEPARATE))
+    batch, before = batch_of("direct_features", np.full(20, SEPARATE))
     moved = (batch.step(np.arange(20)).observation["positions"] - before)[..., :2]
     for action in range(20):
         block, direction = action // 4, DIRECTIONS[action % 4]
@@ -158,7 +141,7 @@ def test_a_push_moves_its_own_block_in_its_own_direction():
 @pytest.mark.parametrize("control_timestep", [0.005, 0.1])
 def test_every_push_moves_every_tower(control_timestep):
     """Also in the shortest control step: a push that moved less than the tolerance would be undone each time."""
-    batch, before = _batch_of("direct_features", np.repeat(EVERY_PATTERN, 20), control_timestep)
+    batch, before = batch_of("direct_features", np.repeat(EVERY_PATTERN, 20), control_timestep)
     actions = np.tile(np.arange(20), 16)
     moved = (batch.step(actions).observation["positions"] - before)[np.arange(320), actions // 4, :2]
     along = (moved * DIRECTIONS[actions % 4]).sum(axis=1)
@@ -177,7 +160,7 @@ def test_the_fist_starts_clear_of_the_tower_at_the_height_of_its_middle():
 def test_exactly_one_held_action_takes_the_fist_into_the_tower():
     hits = []
     for pattern in (SEPARATE, 5, WHOLE):
-        batch, before = _batch_of("fist_features", np.full(4, pattern))
+        batch, before = batch_of("fist_features", np.full(4, pattern))
         for _ in range(26):
             positions = batch.step(np.arange(4)).observation["positions"]
         hits.append(np.abs(positions - before).max(axis=(1, 2)) > 0.02)

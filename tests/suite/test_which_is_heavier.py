@@ -1,8 +1,6 @@
 """Which is Heavier: the physics of a poke, and the distribution of the masses."""
 
 import copy
-import os
-import secrets
 
 import mujoco
 import numpy as np
@@ -22,14 +20,6 @@ TOLERANCE_AT_REST = 1e-5  # m
 # m. The end of the rail is felt once a block has passed it, which takes it at most one simulation step of 0.025 s at
 # the highest speed there is, where the poke meets the damper; and a centimetre more while it is stopped.
 TOLERANCE_AT_CEILING = FORCE / DAMPING * TIMESTEP + 0.01
-
-
-@pytest.fixture
-def seed():
-    """From the operating system, or from PHYSEXP_TEST_SEED to replay a failure."""
-    value = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
-    print(f"PHYSEXP_TEST_SEED={value}")
-    return value
 
 
 def _height_after_one_poke(mass: float) -> float:

@@ -1,0 +1,23 @@
+"""Fixtures of all tests."""
+
+import pytest
+
+from physexp.agents.a3c import config as a3c
+from physexp.analysis import config as config_lib
+from physexp.analysis import run as run_lib
+from physexp.analysis import training
+
+
+@pytest.fixture
+def untrained(tmp_path):
+    """A run whose checkpoint holds a network as it is before training."""
+    config = config_lib.TrainConfig(
+        domain="which_is_heavier", task="features", difficulty=10.0, agent=a3c.A3CConfig(num_workers=1)
+    )
+    run = run_lib.Run(tmp_path / "run")
+    run.create(config)
+    agent = training.make_agent(config)
+    run.checkpointer.save(
+        agent.save(), {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
+    )
+    return run
