@@ -128,8 +128,8 @@ def test_two_pokes_tell_the_number_of_bodies(first, second):
 
 
 def test_a_push_moves_its_own_block_in_its_own_direction():
-    batch, before = batch_of("direct_features", np.full(20, SEPARATE))
-    moved = (batch.step(np.arange(20)).observation["positions"] - before)[..., :2]
+    batch, first = batch_of("direct_features", np.full(20, SEPARATE))
+    moved = (batch.step(np.arange(20)).observation["positions"] - first["positions"])[..., :2]
     for action in range(20):
         block, direction = action // 4, DIRECTIONS[action % 4]
         along, across = moved[action] @ direction, moved[action] @ direction[::-1]
@@ -141,9 +141,9 @@ def test_a_push_moves_its_own_block_in_its_own_direction():
 @pytest.mark.parametrize("control_timestep", [0.005, 0.1])
 def test_every_push_moves_every_tower(control_timestep):
     """Also in the shortest control step: a push that moved less than the tolerance would be undone each time."""
-    batch, before = batch_of("direct_features", np.repeat(EVERY_PATTERN, 20), control_timestep)
+    batch, first = batch_of("direct_features", np.repeat(EVERY_PATTERN, 20), control_timestep)
     actions = np.tile(np.arange(20), 16)
-    moved = (batch.step(actions).observation["positions"] - before)[np.arange(320), actions // 4, :2]
+    moved = (batch.step(actions).observation["positions"] - first["positions"])[np.arange(320), actions // 4, :2]
     along = (moved * DIRECTIONS[actions % 4]).sum(axis=1)
     # The whole tower is the hardest to move: (50 N - 0.3 * 5 kg * 9.81 m/s^2) / 5 kg * (5 ms)^2 = 0.18 mm in 5 ms.
     assert along.min() > 1e-4
@@ -160,10 +160,10 @@ def test_the_fist_starts_clear_of_the_tower_at_the_height_of_its_middle():
 def test_exactly_one_held_action_takes_the_fist_into_the_tower():
     hits = []
     for pattern in (SEPARATE, 5, WHOLE):
-        batch, before = batch_of("fist_features", np.full(4, pattern))
+        batch, first = batch_of("fist_features", np.full(4, pattern))
         for _ in range(26):
             positions = batch.step(np.arange(4)).observation["positions"]
-        hits.append(np.abs(positions - before).max(axis=(1, 2)) > 0.02)
+        hits.append(np.abs(positions - first["positions"]).max(axis=(1, 2)) > 0.02)
     np.testing.assert_array_equal(hits, [[True, False, False, False]] * 3)
 
 
