@@ -64,7 +64,7 @@ def nodes():
     made.cluster.shutdown()
 
 
-def train_meanwhile(run, disturb, seconds=240):
+def train_meanwhile(run, disturb, seconds=400):
     """Trains on the cluster while something happens; returns what training told."""
     told, failed = [], []
 

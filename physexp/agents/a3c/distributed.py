@@ -181,6 +181,9 @@ class _Remote(a3c.Shared):
 class Worker:
     """The actor that acts and learns."""
 
+    def ready(self) -> None:
+        """Answers once there is a process to do so."""
+
     def run(self, server, index: int, make_environment: agent_lib.EnvironmentFactory, config: config_lib.A3CConfig,
             versions: dict[str, str], find_versions: Callable[[], dict[str, str]]) -> None:  # fmt: skip
         """Works until all frames are done or the server stops it.
@@ -258,20 +261,29 @@ class DistributedA3C(agent_lib.Agent):
         """
         self._server = ray.remote(num_cpus=0)(ParameterServer).remote(self._network, self._tensors, self._config)
         make_worker = ray.remote(num_cpus=1, max_restarts=-1)(Worker)
-        workers = [make_worker.remote() for _ in range(self._config.num_workers)]
+        workers: list[Any] = [make_worker.remote() for _ in range(self._config.num_workers)]
         running = {self._run(worker, index): index for index, worker in enumerate(workers)}
+        returning: dict[Any, int] = {}  # Those that have died, and do not answer yet.
         self._deaths = dict.fromkeys(running.values(), 0)
         waited, deadline = time.monotonic(), None
         try:
-            while running:
+            while running or (returning and not self._stopping):
                 if self._stopping and deadline is None:
                     self._ask("stop")
                     deadline = time.monotonic() + _STOP_SECONDS
-                ended, _ = ray.wait(list(running), timeout=_POLL_SECONDS)
+                ended, _ = ray.wait([*running, *returning], timeout=_POLL_SECONDS)
                 for reference in ended:
-                    index = running.pop(reference)
-                    if not self._has_finished(reference, index):
-                        running[self._run(workers[index], index)] = index
+                    if reference in running:
+                        index = running.pop(reference)
+                        if not self._has_finished(reference, index):
+                            returning[workers[index].ready.remote()] = index
+                    else:
+                        index = returning.pop(reference)
+                        if _answers(reference):
+                            running[self._run(workers[index], index)] = index
+                        else:
+                            returning[workers[index].ready.remote()] = index
+                            time.sleep(_POLL_SECONDS)
                 records = self._ask("take")
                 yield from records
                 if records:
@@ -323,6 +335,15 @@ class DistributedA3C(agent_lib.Agent):
         except ray.exceptions.RayTaskError as error:
             raise a3c_agent.WorkerError(f"worker {index}: {error}") from None
         return True
+
+
+def _answers(reference) -> bool:
+    """Whether a worker that was asked is there again."""
+    try:
+        ray.get(reference)
+    except ray.exceptions.RayActorError:
+        return False
+    return True
 
 
 def _cause(error: Any) -> learning.AgentError:
