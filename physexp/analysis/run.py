@@ -94,8 +94,8 @@ class Run:
             raise ValueError(f"{self.path} holds no run (no config.json); give the folder of a run") from None
         except (ValueError, RecursionError) as error:
             raise ValueError(f"{self.path}/config.json is no JSON: {error}") from None
-        if not isinstance(fields, dict) or fields.get("format") != FORMAT:
-            form = fields.get("format") if isinstance(fields, dict) else None
+        form = fields.get("format") if isinstance(fields, dict) else None
+        if form != FORMAT:
             raise ValueError(f"{self.path}/config.json has format {form!r}; this version reads format {FORMAT}")
         return fields
 

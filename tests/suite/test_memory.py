@@ -1,6 +1,6 @@
 """Memory stays flat over thousands of resets, and what is dropped is given back."""
 
-from memory import resident_bytes
+from memory import growth
 import pytest
 
 from physexp import suite
@@ -20,12 +20,7 @@ every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_T
 
 
 def _assert_memory_is_flat(reset, num_resets: int, num_warm_up: int) -> None:
-    for _ in range(num_warm_up):
-        reset()
-    before = resident_bytes()
-    for _ in range(num_resets):
-        reset()
-    grown = resident_bytes() - before
+    grown = growth(reset, num_resets, num_warm_up)
     print(f"{grown} bytes in {num_resets} resets")
     assert grown < FLAT * num_resets + NOISE
 
@@ -54,10 +49,5 @@ def test_environments_and_batches_that_are_dropped_give_their_memory_back(domain
         batch.reset()
         batch.step([0, 0, 0, 0])
 
-    for _ in range(2):
-        build_and_drop()
-    before = resident_bytes()
-    for _ in range(6):
-        build_and_drop()
     # Either one is megabytes large: an arena for contacts, for one, takes some.
-    assert resident_bytes() - before < 6 * 300_000
+    assert growth(build_and_drop, 6, num_warm_up=2) < 6 * 300_000

@@ -8,7 +8,7 @@ import re
 
 import dm_env
 from episodes import AWAY, EVERY_PATTERN, SEED, episode_with, plans_that_miss, random_actions
-from memory import resident_bytes
+import memory
 import numpy as np
 import pytest
 from scipy import spatial
@@ -813,15 +813,6 @@ def test_a_closed_environment_says_so_and_may_be_closed_again(load, domain_name,
 # Memory.
 
 
-def _growth(action, count: int, num_warm_up: int) -> int:
-    for _ in range(num_warm_up):
-        action()
-    before = resident_bytes()
-    for _ in range(count):
-        action()
-    return resident_bytes() - before
-
-
 def test_ten_thousand_resets_leave_memory_as_it_is(seed, drawn):
     """Of one environment, where each of them draws, and of a batch, where each is followed by a step that does."""
     env, batch = _shared(*HEAVIER, seed), _shared(*HEAVIER, seed, 16)
@@ -833,9 +824,9 @@ def test_ten_thousand_resets_leave_memory_as_it_is(seed, drawn):
         batch.reset()
         batch.step(np.zeros(16, int))
 
-    growth = _growth(play, 500, num_warm_up=20)
+    grown = memory.growth(play, 500, num_warm_up=20)
     assert sum(drawn) >= 520 * (4 + 1 + 16)
-    assert growth < 2_000_000, f"{growth} bytes; an image has {EDGE * EDGE * 3}"
+    assert grown < 2_000_000, f"{grown} bytes; an image has {EDGE * EDGE * 3}"
 
 
 @pytest.mark.parametrize("end", ["closed", "dropped"])
@@ -848,5 +839,5 @@ def test_environments_that_are_gone_give_their_memory_back(end):
             if end == "closed":
                 env.close()
 
-    growth = _growth(play, 3, num_warm_up=3)
-    assert growth < 7_000_000, f"{growth} bytes"
+    grown = memory.growth(play, 3, num_warm_up=3)
+    assert grown < 7_000_000, f"{grown} bytes"

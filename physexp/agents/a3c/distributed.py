@@ -275,15 +275,15 @@ class DistributedA3C(agent_lib.Agent):
                 for reference in ended:
                     if reference in running:
                         index = running.pop(reference)
-                        if not self._has_finished(reference, index):
-                            returning[workers[index].ready.remote()] = index
+                        if self._has_finished(reference, index):
+                            continue
                     else:
                         index = returning.pop(reference)
                         if _answers(reference):
                             running[self._run(workers[index], index)] = index
-                        else:
-                            returning[workers[index].ready.remote()] = index
-                            time.sleep(_POLL_SECONDS)
+                            continue
+                        time.sleep(_POLL_SECONDS)
+                    returning[workers[index].ready.remote()] = index
                 records = self._ask("take")
                 yield from records
                 if records:

@@ -65,8 +65,9 @@ def write(path: Path, groups: Sequence[Callable[[], Sequence[recording.Episode]]
         for number, group in enumerate(groups):
             parts.append(Path(folder) / f"{number:06d}.rrd")
             episodes = list(group())
-            parts[-1].write_bytes(_recording(episodes))
-            merged = _run("rrd", "merge", *map(str, parts)) if len(parts) > 1 else parts[-1].read_bytes()
+            newest = _recording(episodes)
+            parts[-1].write_bytes(newest)
+            merged = _run("rrd", "merge", *map(str, parts)) if len(parts) > 1 else newest
             checkpointing.write_atomically(path, merged)
             report(f"{number + 1} of {len(groups)}: {_name(episodes[0])}")
     return path
