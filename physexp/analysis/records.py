@@ -12,6 +12,7 @@ from physexp.agents import checkpointing
 from physexp.analysis import config as config_lib
 from physexp.analysis import evaluation
 from physexp.analysis import run as run_lib
+from physexp.suite import which_is_heavier
 
 SCHEMA = pyarrow.schema(
     [
@@ -38,12 +39,6 @@ SCHEMA = pyarrow.schema(
 )
 
 
-def mass_gaps(masses: np.ndarray) -> np.ndarray:
-    """By how much the heaviest block is heavier than the second, [N], of masses [N, num_blocks] in [0, 1]."""
-    two_heaviest = np.partition(masses, -2, axis=1)[:, -2:]
-    return two_heaviest[:, 1] - two_heaviest[:, 0]
-
-
 def table(played: evaluation.Episodes, config: config_lib.TrainConfig, interaction: str,
           control_timestep: float) -> pyarrow.Table:  # fmt: skip
     """The rows of some episodes, as `SCHEMA` has them; `config` is of the agent that played them."""
@@ -61,7 +56,7 @@ def table(played: evaluation.Episodes, config: config_lib.TrainConfig, interacti
         "seed": played.seeds,
         "episode": played.numbers,
         "masses": list(played.hidden.astype(np.float32)) if is_masses else nothing,
-        "mass_gap": mass_gaps(played.hidden).astype(np.float32) if is_masses else nothing,
+        "mass_gap": which_is_heavier.mass_gaps(played.hidden).astype(np.float32) if is_masses else nothing,
         "pattern": nothing if is_masses else played.hidden,
         "actions": played.actions,
         "answer": played.answers,

@@ -126,13 +126,18 @@ def draw_masses(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> n
     """
     masses = masses_from(seeding.uniforms(seeds, episodes, NUM_BLOCKS + 1), difficulty)
     for attempt in range(1, _MAX_DRAWS):
-        two_heaviest = np.partition(masses, -2, axis=1)[:, -2:]
-        tied = two_heaviest[:, 0] == two_heaviest[:, 1]
+        tied = mass_gaps(masses) == 0
         if not tied.any():
             return masses
         again = seeding.uniforms(seeds[tied], episodes[tied], NUM_BLOCKS + 1, attempt)
         masses[tied] = masses_from(again, difficulty)
     raise RuntimeError(f"difficulty {difficulty} makes blocks tie in {_MAX_DRAWS} draws; choose one closer to 1")
+
+
+def mass_gaps(masses: np.ndarray) -> np.ndarray:
+    """By how much the heaviest block is heavier than the second, [N], of masses [N, num_blocks] in [0, 1]."""
+    two_heaviest = np.partition(masses, -2, axis=1)[:, -2:]
+    return two_heaviest[:, 1] - two_heaviest[:, 0]
 
 
 def masses_from(draws: np.ndarray, difficulty: float) -> np.ndarray:

@@ -71,12 +71,10 @@ def draw(frame):
 
 def _ideal_means(beta: float):
     """The ideal experimenter's mean pokes for mass gaps in the bins."""
-    from physexp.analysis import records
-
     seeds, episodes = np.full(50_000, 1), np.arange(50_000)
     masses = which_is_heavier.draw_masses(seeds, episodes, beta)
     pokes, _ = ideal.solve(beta, _DISCOUNT).play(masses)
-    bins = np.digitize(records.mass_gaps(masses), _BINS[1:-1])
+    bins = np.digitize(which_is_heavier.mass_gaps(masses), _BINS[1:-1])
     return (_BINS[1:] + _BINS[:-1]) / 2, [pokes[bins == b].mean() for b in range(len(_BINS) - 1)]
 
 

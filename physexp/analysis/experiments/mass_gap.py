@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from physexp.analysis import claims, figures, records, statistics
+from physexp.analysis import claims, figures, statistics
 from physexp.analysis.experiments import base, conditions
 
 _EPISODES = 200_000
@@ -19,7 +19,7 @@ def load(results: base.Results):
     frames = []
     for difficulty in conditions.DIFFICULTIES:
         masses = which_is_heavier.draw_masses(seeds, episodes, difficulty)
-        frames.append(pandas.DataFrame({"difficulty": difficulty, "mass_gap": records.mass_gaps(masses)}))
+        frames.append(pandas.DataFrame({"difficulty": difficulty, "mass_gap": which_is_heavier.mass_gaps(masses)}))
     return pandas.concat(frames, ignore_index=True)
 
 

@@ -7,7 +7,8 @@ import numpy as np
 
 from physexp.agents import networks
 from physexp.analysis import config as config_lib
-from physexp.analysis import evaluation, records
+from physexp.analysis import evaluation
+from physexp.suite import which_is_heavier
 
 Selection = Literal["any", "wrong", "right", "longest", "hardest"]
 _MOST = 10_000  # Episodes played in search of enough.
@@ -55,7 +56,7 @@ def _order(played: evaluation.Episodes, selection: Selection) -> np.ndarray:
         return np.argsort(-played.interactions, kind="stable")
     if selection == "hardest":
         if played.hidden.ndim == 2:
-            return np.argsort(records.mass_gaps(played.hidden), kind="stable")
+            return np.argsort(which_is_heavier.mass_gaps(played.hidden), kind="stable")
         _, pattern = np.unique(played.hidden, return_inverse=True)
         typical = np.bincount(pattern, played.interactions) / np.bincount(pattern)
         return np.argsort(-typical[pattern], kind="stable")
