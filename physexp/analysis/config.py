@@ -34,11 +34,11 @@ def _prior(num_interactions: int, label: float) -> tuple[float, ...]:
     return (0.0,) * num_interactions + (label,) * 5
 
 
-# With an entropy cost of 0.01, two of seven fists settled on too few pushes to tell every tower from the others.
 A3C = {
     ("which_is_heavier", "features"): _HEAVIER,
     ("which_is_heavier", "pixels"): _HEAVIER_PIXELS,
     ("towers", "direct_features"): _TOWERS.replace(frames=1_000_000, action_prior=_prior(20, -1.0)),
+    # With 0.01, two of seven settled on too few pushes to tell every tower from the others.
     ("towers", "fist_features"): _TOWERS.replace(frames=500_000, action_prior=_prior(4, -3.0), entropy_cost=0.03),
     ("towers", "direct_pixels"): _TOWERS_PIXELS.replace(frames=400_000, action_prior=_prior(20, -1.0)),
     ("towers", "fist_pixels"): _TOWERS_PIXELS.replace(frames=500_000, action_prior=_prior(4, -3.0)),

@@ -62,10 +62,15 @@ class Players:
         return int((self._timestep.step_type != dm_env.StepType.LAST).sum())
 
 
+def warm_players(domain, task, size):
+    players = Players(domain, task, size, fresh_seed())
+    for _ in range(WARM_UP):
+        players.step()
+    return players
+
+
 def compare(old, new, num_steps):
     """Median seconds of a step of either, in turns: the machine's own speed changes from hour to hour."""
-    for _ in range(WARM_UP):
-        new.step()
     seconds = np.zeros((num_steps, 2))
     for step in range(num_steps):
         for side, players in enumerate((old, new)):
@@ -80,9 +85,7 @@ def test_a_batch_plays_on_and_on(domain, task):
     """The last tenth of a long life is as quick as the first tenth of a new one."""
     torch.set_num_threads(1)
     kind = task.rpartition("_")[2]
-    players = Players(domain, task, SIZES[kind], fresh_seed())
-    for _ in range(WARM_UP):
-        players.step()
+    players = warm_players(domain, task, SIZES[kind])
     steps = FULL_STEPS[kind] if FULL else SHORT_STEPS.get(f"{domain}/{task}", SHORT_STEPS[kind])
     num_steps = steps // SIZES[kind]
     before, start = resident_bytes(), time.monotonic()
@@ -93,7 +96,7 @@ def test_a_batch_plays_on_and_on(domain, task):
             print(f"{domain}/{task}: {(step + 1) * SIZES[kind]:,} steps, time left {elapsed / done - elapsed:.0f} s",
                   flush=True)  # fmt: skip
     grown = resident_bytes() - before
-    old, new = compare(players, Players(domain, task, SIZES[kind], fresh_seed()), num_steps // 10)
+    old, new = compare(players, warm_players(domain, task, SIZES[kind]), num_steps // 10)
     print(f"{players.ended} episodes, {SIZES[kind] / old:.0f} steps/s, {grown / 1e6:.1f} MB more, "
           f"{old / new:.3f} of the time of a new batch")  # fmt: skip
     assert players.batch.num_divergences == 0
