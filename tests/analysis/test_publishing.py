@@ -42,6 +42,16 @@ def test_the_command_on_the_card_describes_the_same_run(published):
     assert train.config == run.config.agent
 
 
+@pytest.mark.parametrize("card", sorted(pretrained.FOLDER.glob("*.json")), ids=lambda path: path.stem)
+def test_the_commands_of_the_agents_that_come_with_the_package_describe_them_still(card):
+    said = json.loads(card.read_text())
+    _, *arguments = shlex.split(said["command"])
+    train = cli._parse(arguments)
+    assert (train.domain, train.task, train.difficulty) == (said["domain"], said["task"], said["difficulty"])
+    fields = {name: said[name] for name in ("domain", "task", "agent")}
+    assert train.config == config_lib.TrainConfig.from_json(fields).agent
+
+
 @pytest.mark.parametrize("algorithm", config_lib.ALGORITHMS)
 @pytest.mark.parametrize("task", config_lib.A3C)
 def test_every_field_of_an_agent_survives_the_way_over_the_command_line(task, algorithm):
