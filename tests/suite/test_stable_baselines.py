@@ -34,7 +34,8 @@ def test_an_episode_that_ends_is_followed_by_the_next_in_the_same_step(seed):
             batch.reset(np.flatnonzero(dones))
 
 
-def test_recurrent_ppo_of_sb3_contrib_learns_to_beat_chance():
+def test_recurrent_ppo_of_sb3_contrib_learns_to_beat_chance(tmp_path, monkeypatch):
+    monkeypatch.setenv("SB3_LOGDIR", str(tmp_path))  # It would leave a folder among the system's temporary files.
     batch = stable_baselines.VecEnv("which_is_heavier", "features", 64, random=0, difficulty=20.0)
     vector = vec_env.VecNormalize(batch, norm_reward=False)  # Heights are tenths of a metre.
     learner = RecurrentPPO("MultiInputLstmPolicy", vector, n_steps=16, batch_size=512, n_epochs=10, learning_rate=3e-3,
