@@ -49,6 +49,5 @@ def test_environments_and_batches_that_are_dropped_give_their_memory_back(domain
         batch.reset()
         batch.step([0, 0, 0, 0])
 
-    # Either one is megabytes large: an arena for contacts, for one, takes some. What is kept is kept every time; the
-    # allocator holds on to megabytes now and then.
-    assert min(growth(build_and_drop, 6, num_warm_up=2) for _ in range(3)) < 6 * 300_000
+    # Either one takes half a megabyte or more. The allocator settles within some tens of them.
+    assert growth(build_and_drop, 6, num_warm_up=30) < 6 * 300_000
