@@ -38,7 +38,7 @@ A3C = {
     ("which_is_heavier", "features"): _HEAVIER,
     ("which_is_heavier", "pixels"): _HEAVIER_PIXELS,
     ("towers", "direct_features"): _TOWERS.replace(frames=1_000_000, action_prior=_prior(20, -1.0)),
-    # With 0.01, two of seven settled on too few pushes to tell every tower from the others.
+    # With an entropy cost of 0.01, two of seven settled on too few pushes to tell every tower from the others.
     ("towers", "fist_features"): _TOWERS.replace(frames=500_000, action_prior=_prior(4, -3.0), entropy_cost=0.03),
     ("towers", "direct_pixels"): _TOWERS_PIXELS.replace(frames=400_000, action_prior=_prior(20, -1.0)),
     # A random fist meets the tower once in a hundred frames, and only hits teach labels. Until they have, what moves
