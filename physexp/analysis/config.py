@@ -41,12 +41,13 @@ A3C = {
     # With an entropy cost of 0.01, two of seven settled on too few pushes to tell every tower from the others.
     ("towers", "fist_features"): _TOWERS.replace(frames=500_000, action_prior=_prior(4, -3.0), entropy_cost=0.03),
     ("towers", "direct_pixels"): _TOWERS_PIXELS.replace(frames=400_000, action_prior=_prior(20, -1.0)),
-    # A random fist meets the tower once in a hundred frames, and only hits teach labels. Until they have, what moves
-    # seem worth is noise that carries the fist off: entropy holds it back, and a trace of 0 keeps the luck of answers
-    # out of it. Small steps, of the values' loss hardly any, keep 3136 inputs from saturating the LSTM meanwhile.
+    # A fist that moves at random meets the tower once in a hundred frames, and only hits teach labels: a preference for
+    # +x, where the tower is, makes that four. Until labels are known, what moves seem worth is noise that carries the
+    # fist off: entropy holds it back, and a trace of 0 keeps the luck of answers out of it. Small steps, of the values'
+    # loss hardly any, keep 3136 inputs from saturating the LSTM meanwhile.
     ("towers", "fist_pixels"): _TOWERS_PIXELS.replace(
         frames=800_000,
-        action_prior=_prior(4, -3.0),
+        action_prior=(1.0, *_prior(3, -2.0)),
         learning_rate=3e-4,
         trace=0.0,
         baseline_cost=0.05,
