@@ -21,6 +21,7 @@ class AgentConfig:
       learning_rate: step size of Adam, decaying linearly to zero over `frames`.
       entropy_cost: weight of the entropy bonus at the start.
       final_entropy_cost: the same at the end; the decay is exponential over `frames`.
+      relative_entropy: have the bonus hold the policy near `action_prior`; False is the paper's, near the uniform one.
       trace: how far along an episode advantages look for what an action brought (lambda of generalized advantage
         estimation); 1 is the paper's, which looks to the end.
       baseline_cost: weight of the value loss.
@@ -43,6 +44,7 @@ class AgentConfig:
     learning_rate: float = 5e-3
     entropy_cost: float = 0.15
     final_entropy_cost: float = 0.0001
+    relative_entropy: bool = False
     trace: float = 1.0
     baseline_cost: float = 0.5
     max_gradient_norm: float = 1.0
@@ -64,6 +66,11 @@ class AgentConfig:
         """A copy with some values changed."""
         return dataclasses.replace(self, **changes)
 
+    @property
+    def entropy_prior(self) -> tuple[float, ...]:
+        """What the entropy bonus is relative to, logits of the actions; none for the uniform policy."""
+        return self.action_prior if self.relative_entropy else ()
+
     def at(self, progress: float) -> tuple[float, float]:
         """Step size and weight of the entropy bonus when this share of training is done."""
         entropy_cost = self.entropy_cost ** (1 - progress) * self.final_entropy_cost**progress
@@ -82,8 +89,9 @@ class AgentConfig:
             raise ValueError(f"device is {self.device!r}; choose from {', '.join(get_args(Device))}")
         if not isinstance(self.action_prior, tuple) or not all(map(_is_number, self.action_prior)):
             raise ValueError(f"action_prior is {self.action_prior!r}; give finite numbers, one for each action")
-        if not isinstance(self.relative_pixels, bool):
-            raise ValueError(f"relative_pixels is {self.relative_pixels!r}; give True or False")
+        for name in ("relative_entropy", "relative_pixels"):
+            if not isinstance(getattr(self, name), bool):
+                raise ValueError(f"{name} is {getattr(self, name)!r}; give True or False")
         if not _is_number(self.trace) or not 0 <= self.trace <= 1:
             raise ValueError(f"trace is {self.trace!r}; give a number in [0, 1]")
         if not _is_number(self.discount) or not 0 < self.discount <= 1:

@@ -1,5 +1,7 @@
 """Returns and losses as pure functions on tensors with leading axes [T, B] (time, episode)."""
 
+from collections.abc import Sequence
+
 import torch
 
 
@@ -46,7 +48,7 @@ def generalized_advantages(rewards: torch.Tensor, discounts: torch.Tensor, value
 
 
 def actor_critic_losses(logits: torch.Tensor, values: torch.Tensor, actions: torch.Tensor, returns: torch.Tensor,
-                        advantages: torch.Tensor):  # fmt: skip
+                        advantages: torch.Tensor, prior: Sequence[float] = ()):  # fmt: skip
     """The three losses of advantage actor-critic (Mnih et al., 2016, Section 4), averaged over all leading axes.
 
     Args:
@@ -55,33 +57,35 @@ def actor_critic_losses(logits: torch.Tensor, values: torch.Tensor, actions: tor
       actions: actions taken, int64 [...].
       returns: returns that followed, the targets of the values, [...].
       advantages: by how much each action was better than expected, [...]; constants.
+      prior: logits of a policy, one for each action, which the entropy is relative to; none for the uniform policy.
 
     Returns:
       Policy loss, -log pi(a) times the advantage; baseline loss, half the squared error of the values; and the mean
-      entropy of the policy (nats).
+      entropy of the policy (nats), to which a prior adds the mean of its logits: it is largest at the prior's policy.
     """
     log_probabilities = torch.log_softmax(logits, dim=-1)
     policy_loss = -(_of_actions(log_probabilities, actions) * advantages.detach()).mean()
-    return policy_loss, _baseline_loss(values, returns), _entropy(log_probabilities)
+    return policy_loss, _baseline_loss(values, returns), _entropy(log_probabilities, prior)
 
 
 def clipped_losses(logits: torch.Tensor, values: torch.Tensor, actions: torch.Tensor, behaviour: torch.Tensor,
-                   returns: torch.Tensor, advantages: torch.Tensor, clip: float):  # fmt: skip
+                   returns: torch.Tensor, advantages: torch.Tensor, clip: float,
+                   prior: Sequence[float] = ()):  # fmt: skip
     """The three losses of PPO (Schulman et al., 2017, equations 7 and 9), averaged over all leading axes.
 
     Args:
-      logits, values, actions, returns, advantages: as for `actor_critic_losses`.
+      logits, values, actions, returns, advantages, prior: as for `actor_critic_losses`.
       behaviour: log probabilities of the actions under the policy that took them, [...].
       clip: epsilon: past a ratio of 1 - epsilon or 1 + epsilon, an action gains nothing more.
 
     Returns:
-      Policy loss, -min(ratio times the advantage, clipped ratio times the advantage); baseline loss, half the squared
-      error of the values; and the mean entropy of the policy (nats).
+      Policy loss, -min(ratio times the advantage, clipped ratio times the advantage); baseline loss and entropy as of
+      `actor_critic_losses`.
     """
     log_probabilities = torch.log_softmax(logits, dim=-1)
     ratios = (_of_actions(log_probabilities, actions) - behaviour).exp()
     gains = torch.minimum(ratios * advantages, ratios.clamp(1 - clip, 1 + clip) * advantages)
-    return -gains.mean(), _baseline_loss(values, returns), _entropy(log_probabilities)
+    return -gains.mean(), _baseline_loss(values, returns), _entropy(log_probabilities, prior)
 
 
 def _of_actions(log_probabilities: torch.Tensor, actions: torch.Tensor) -> torch.Tensor:
@@ -92,5 +96,6 @@ def _baseline_loss(values: torch.Tensor, returns: torch.Tensor) -> torch.Tensor:
     return 0.5 * (returns - values).square().mean()
 
 
-def _entropy(log_probabilities: torch.Tensor) -> torch.Tensor:
-    return -(log_probabilities.exp() * log_probabilities).sum(-1).mean()
+def _entropy(log_probabilities: torch.Tensor, prior: Sequence[float]) -> torch.Tensor:
+    relative = log_probabilities - log_probabilities.new_tensor(prior) if prior else log_probabilities
+    return -(log_probabilities.exp() * relative).sum(-1).mean()

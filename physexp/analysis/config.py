@@ -41,18 +41,18 @@ A3C = {
     # With an entropy cost of 0.01, two of seven settled on too few pushes to tell every tower from the others.
     ("towers", "fist_features"): _TOWERS.replace(frames=500_000, action_prior=_prior(4, -3.0), entropy_cost=0.03),
     ("towers", "direct_pixels"): _TOWERS_PIXELS.replace(frames=400_000, action_prior=_prior(20, -1.0)),
-    # A fist that moves at random meets the tower once in a hundred frames, and only hits teach labels: a preference for
-    # +x, where the tower is, makes that four. Until labels are known, what moves seem worth is noise that carries the
-    # fist off: entropy holds it back, and a trace of 0 keeps the luck of answers out of it. Small steps, of the values'
-    # loss hardly any, keep 3136 inputs from saturating the LSTM meanwhile.
+    # Only hits teach labels. A fist that moves at random hits the tower ten times in a thousand frames; one that
+    # prefers +x, where the tower is, forty times. Until labels are known, what moves seem worth is noise, which carries
+    # the fist off unless entropy relative to that preference holds it. Small steps, of the values' loss hardly any,
+    # keep 3136 inputs from saturating the LSTM meanwhile.
     ("towers", "fist_pixels"): _TOWERS_PIXELS.replace(
-        frames=800_000,
+        frames=600_000,
         action_prior=(1.0, *_prior(3, -2.0)),
         learning_rate=3e-4,
         trace=0.0,
         baseline_cost=0.05,
-        entropy_cost=0.015,
-        final_entropy_cost=0.0003,
+        entropy_cost=0.1,
+        relative_entropy=True,
     ),
 }
 """The default configuration of each task's A3C; `docs/performance.md` says how they were found."""

@@ -53,6 +53,17 @@ def test_more_parts_than_episodes_are_refused():
         ppo.PPOConfig(num_environments=8, num_minibatches=9)
 
 
+@pytest.mark.parametrize("name", ["relative_entropy", "relative_pixels"])
+def test_what_is_on_or_off_takes_nothing_else(name):
+    with pytest.raises(ValueError, match=f"^{name} is 1; give True or False"):
+        a3c.A3CConfig(**{name: 1})
+
+
+def test_entropy_is_relative_to_the_prior_only_where_that_is_wanted():
+    assert a3c.A3CConfig(action_prior=(1.0, 0.0)).entropy_prior == ()
+    assert a3c.A3CConfig(action_prior=(1.0, 0.0), relative_entropy=True).entropy_prior == (1.0, 0.0)
+
+
 def test_costs_and_rates_decay_over_training():
     config = a3c.A3CConfig(learning_rate=0.1, entropy_cost=0.1, final_entropy_cost=0.001)
     assert config.at(0.0) == (0.1, 0.1)

@@ -1,5 +1,6 @@
 """Returns and losses agree with values derived by hand."""
 
+import functools
 import math
 
 import numpy as np
@@ -68,6 +69,24 @@ def test_the_losses_of_two_steps_are_those_computed_by_hand():
     assert policy_loss.item() == pytest.approx(-0.75 * math.log(2), abs=1e-6)
     assert baseline_loss.item() == pytest.approx(0.3125, abs=1e-6)
     assert entropy.item() == pytest.approx((math.log(2) + math.log(4) - 0.75 * math.log(3)) / 2, abs=1e-6)
+
+
+def test_the_entropy_relative_to_a_prior_is_what_pulls_the_policy_towards_it():
+    # Policy 3/4, 1/4, prior logits 2 and 0: the entropy ln 4 - 3/4 ln 3 and the mean logit 3/4 * 2.
+    # Policy gradients vanish where advantages are 0, so the step that is left is the bonus's.
+    logits, prior = torch.tensor([[math.log(3), 0.0]], requires_grad=True), (2.0, 0.0)
+    nothing, action = torch.zeros(1), torch.tensor([0])
+    clipped = functools.partial(losses.clipped_losses, logits, nothing, action, nothing, nothing, nothing, 0.2)
+    plain = functools.partial(losses.actor_critic_losses, logits, nothing, action, nothing, nothing)
+    for find_losses in (plain, clipped):
+        entropy = find_losses(prior=prior)[2]
+        assert entropy.item() == pytest.approx(math.log(4) - 0.75 * math.log(3) + 1.5, abs=1e-6)
+        towards, towards_uniform = (torch.autograd.grad(find_losses(prior=each)[2], logits)[0] for each in (prior, ()))
+        # ln 3 is less than the prior's 2 and more than the uniform policy's 0.
+        assert towards[0, 0] > 0 > towards[0, 1] and towards_uniform[0, 0] < 0 < towards_uniform[0, 1]
+        at_prior = losses.actor_critic_losses(torch.tensor([prior], requires_grad=True), nothing, action, nothing,
+                                              nothing, prior)[2]  # fmt: skip
+        assert at_prior.item() == pytest.approx(math.log(math.exp(2) + 1), abs=1e-6) and at_prior > entropy
 
 
 def test_the_losses_do_not_care_how_the_leading_axes_are_laid_out():

@@ -1,6 +1,6 @@
 """Learning: gradients of whole episodes, applied to variables that all workers share."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 import dataclasses
 from typing import Protocol
 
@@ -153,7 +153,9 @@ class A3CLearner(core.Learner):
         config = self._config
         learning_rate, entropy_cost = config.at(min(1.0, pulled.frames / config.frames))
         self.last_round = episodes = self._play(pulled.rounds)
-        policy_loss, baseline_loss, entropy = round_losses(self._network, episodes, config.discount, config.trace)
+        policy_loss, baseline_loss, entropy = round_losses(
+            self._network, episodes, config.discount, config.trace, config.entropy_prior
+        )
         loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
         gradients, norm = learning.clipped_gradients(self._network, loss, config.max_gradient_norm, episodes)
         metrics = {
@@ -176,11 +178,14 @@ class A3CLearner(core.Learner):
         self._shared.restore(state)
 
 
-def round_losses(network: networks.RecurrentActorCritic, episodes: acting.Round, discount: float, trace: float = 1.0):
+def round_losses(network: networks.RecurrentActorCritic, episodes: acting.Round, discount: float, trace: float = 1.0,
+                 prior: Sequence[float] = ()):  # fmt: skip
     """The losses of a round (see `losses.actor_critic_losses`), the network unrolled over whole episodes."""
     episodes = episodes.select()
     assert isinstance(episodes.inputs, torch.Tensor)
     logits, values = network.unroll(episodes.inputs, episodes.batch_sizes)
     returns, advantages = learning.targets(episodes, values.detach().cpu(), discount, trace)
-    packed = (array.to(logits.device) for array in (episodes.packed(episodes.actions), returns, advantages))
-    return losses.actor_critic_losses(logits, values, *packed)
+    actions, returns, advantages = (
+        array.to(logits.device) for array in (episodes.packed(episodes.actions), returns, advantages)
+    )
+    return losses.actor_critic_losses(logits, values, actions, returns, advantages, prior)

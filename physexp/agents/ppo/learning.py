@@ -64,7 +64,7 @@ class PPOLearner(core.Learner):
         device = logits.device
         policy_loss, baseline_loss, entropy = losses.clipped_losses(
             logits, values, episodes.packed(episodes.actions).to(device), transcript.log_probabilities.to(device),
-            returns.to(device), _standardized(advantages).to(device), config.clip,
+            returns.to(device), _standardized(advantages).to(device), config.clip, config.entropy_prior,
         )  # fmt: skip
         loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
         gradients, norm = learning.clipped_gradients(network, loss, config.max_gradient_norm, episodes)
