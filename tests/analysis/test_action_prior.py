@@ -1,0 +1,32 @@
+"""An agent that is told which actions to prefer keeps to them as long as its entropy bonus says so."""
+
+import numpy as np
+import pytest
+import torch
+import trainers
+
+from physexp.analysis import evaluation, training
+
+PRIOR = (2.0, 0.0, 0.0, 0.0, -2.0, -2.0, -2.0, -2.0)
+
+
+def _first_policy(run):
+    """Probabilities of the actions at an episode's start."""
+    network = evaluation.load_network(run)
+    heights = torch.full((1, 4), 0.1)
+    with torch.no_grad():
+        logits, _, _ = network.step(network.encode({"heights": heights}), network.initial_state(1))
+    return torch.softmax(logits[0], 0).numpy()
+
+
+@pytest.mark.parametrize("algorithm", trainers.SMALL)
+@pytest.mark.parametrize("relative", [True, False])
+def test_a_large_bonus_makes_the_policy_the_priors_or_uniform(algorithm, relative, tmp_path):
+    # A bonus of 100 leaves rewards of 1 no say, so what is left is where the bonus is largest.
+    run = trainers.create(
+        tmp_path / "run", algorithm, seed=trainers.fresh_seed(), frames=40_000, learning_rate=0.02, entropy_cost=100.0,
+        final_entropy_cost=100.0, action_prior=PRIOR, relative_entropy=relative,
+    )  # fmt: skip
+    training.train(run)
+    expected = np.exp(PRIOR) / np.exp(PRIOR).sum() if relative else np.full(8, 1 / 8)
+    np.testing.assert_allclose(_first_policy(run), expected, atol=0.05)
