@@ -67,13 +67,10 @@ def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report
 
     Raises:
       RuntimeError: when some agents could not be trained; all others are done by then.
-      ValueError: when the folder holds a run of the same name with another configuration.
+      ValueError: when the folder holds a run of the same name with another configuration, or what such a run played.
     """
     for job in wanted:
-        run_of_job = results.run(job.config)
-        if (run_of_job.path / "config.json").exists() and run_of_job.config != job.config:
-            raise ValueError(f"{run_of_job.path} was made with another configuration; move it away or choose another "
-                             "--results-dir")  # fmt: skip
+        _check(job, results)
     todo = [job for job in wanted if not _is_done(job, results)]
     report(f"{len(wanted) - len(todo)} of {len(wanted)} agents are done")
     if not todo:
@@ -102,6 +99,18 @@ def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report
             raise
     if failures:
         raise RuntimeError(f"{len(failures)} of {len(todo)} agents could not be trained: {'; '.join(failures)}")
+
+
+def _check(job: Job, results: base.Results) -> None:
+    """Refuses what another agent of the same name has left."""
+    run_of_job = results.run(job.config)
+    if (run_of_job.path / "config.json").exists():
+        if run_of_job.config != job.config:
+            raise ValueError(f"{run_of_job.path} was made with another configuration; move it away or choose another "
+                             "--results-dir")  # fmt: skip
+    elif played := results.all_episodes(job.config):
+        raise ValueError(f"{', '.join(map(str, played))}: the run that played this is gone; move it away or choose "
+                         "another --results-dir")  # fmt: skip
 
 
 def _is_done(job: Job, results: base.Results) -> bool:

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 
@@ -79,6 +80,19 @@ def test_runs_with_another_configuration_are_not_mixed_in(rehearsed):
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
     assert "was made with another configuration; move it away or choose another --results-dir" in done.stderr
+
+
+def test_episodes_of_a_run_that_is_gone_are_not_taken_for_those_of_the_next(rehearsed, tmp_path):
+    results, _ = rehearsed
+    folder = tmp_path / "results"
+    shutil.copytree(results.path, folder)
+    shutil.rmtree(folder / "runs" / NAMES[0])
+    refused = subprocess.run(command(folder, 5000), capture_output=True, text=True, check=False)
+    assert refused.returncode == 2
+    assert refused.stderr.count("\n") == 1
+    played = folder / "episodes" / "learned" / f"{NAMES[0]}.parquet"
+    assert f"{played}: the run that played this is gone; move it away" in refused.stderr
+    assert played.exists()
 
 
 def test_the_report_has_every_figure_there_is_data_for_and_says_what_is_left_out(rehearsed):

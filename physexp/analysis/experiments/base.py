@@ -54,6 +54,10 @@ class Results:
     def episodes_path(self, trial: Trial, config: config_lib.TrainConfig) -> Path:
         return self.path / "episodes" / trial.name / f"{config.name}.parquet"
 
+    def all_episodes(self, config: config_lib.TrainConfig) -> list[Path]:
+        """The files of all that a run's agent played, of whichever trial."""
+        return sorted(self.path.glob(f"episodes/*/{config.name}.parquet"))
+
     def episodes(self, trials: Sequence[Trial], configs: Sequence[config_lib.TrainConfig],
                  columns: Sequence[str] = ()) -> Any:  # fmt: skip
         """What agents of these conditions have played: a DataFrame with columns of `records.SCHEMA` and `condition`.

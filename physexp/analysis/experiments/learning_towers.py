@@ -32,9 +32,9 @@ def find_claims(frame) -> list[claims.Claim]:
                 text="The fist leads to faster learning than direct actuation", section="6.3", condition=kind,
                 statistic=f"environment steps to {_LEARNED:.0%} right answers, fist over direct, ratio of means",
                 estimate=statistics.ratio_of_means(fist, direct), below=1,
-                reason="Our configurations give the fist's policy a stronger initial preference for interactions than "
-                "direct actuation's, and every push touches the tower while the fist must first travel to it: what is "
-                "slow here is reaching the tower, not affecting several blocks.",
+                reason="Every push touches the tower, while the fist must first travel to it, though our "
+                "configurations start it in the right direction: what is slow here is reaching the tower, not "
+                "affecting several blocks.",
             ))  # fmt: skip
     return found
 
