@@ -34,20 +34,23 @@ def _prior(num_interactions: int, label: float) -> tuple[float, ...]:
     return (0.0,) * num_interactions + (label,) * 5
 
 
+# Only hits teach labels. A fist that moves at random hits the tower ten times in a thousand frames; one that prefers
+# +x, where the tower is, forty times. Until labels are known, what moves seem worth is noise, which carries the fist
+# off unless entropy relative to this preference holds it.
+_FIST = (1.0, *_prior(3, -2.0))
+
 A3C = {
     ("which_is_heavier", "features"): _HEAVIER,
     ("which_is_heavier", "pixels"): _HEAVIER_PIXELS,
     ("towers", "direct_features"): _TOWERS.replace(frames=1_000_000, action_prior=_prior(20, -1.0)),
-    # With an entropy cost of 0.01, two of seven settled on too few pushes to tell every tower from the others.
-    ("towers", "fist_features"): _TOWERS.replace(frames=500_000, action_prior=_prior(4, -3.0), entropy_cost=0.03),
+    ("towers", "fist_features"): _TOWERS.replace(
+        frames=400_000, action_prior=_FIST, entropy_cost=0.05, relative_entropy=True
+    ),
     ("towers", "direct_pixels"): _TOWERS_PIXELS.replace(frames=400_000, action_prior=_prior(20, -1.0)),
-    # Only hits teach labels. A fist that moves at random hits the tower ten times in a thousand frames; one that
-    # prefers +x, where the tower is, forty times. Until labels are known, what moves seem worth is noise, which carries
-    # the fist off unless entropy relative to that preference holds it. Small steps, of the values' loss hardly any,
-    # keep 3136 inputs from saturating the LSTM meanwhile.
+    # Small steps, of the values' loss hardly any, keep 3136 inputs from saturating the LSTM before labels are known.
     ("towers", "fist_pixels"): _TOWERS_PIXELS.replace(
         frames=600_000,
-        action_prior=(1.0, *_prior(3, -2.0)),
+        action_prior=_FIST,
         learning_rate=3e-4,
         trace=0.0,
         baseline_cost=0.05,
