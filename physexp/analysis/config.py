@@ -47,7 +47,8 @@ A3C = {
         frames=400_000, action_prior=_FIST, entropy_cost=0.05, relative_entropy=True
     ),
     ("towers", "direct_pixels"): _TOWERS_PIXELS.replace(frames=400_000, action_prior=_prior(20, -1.0)),
-    # Small steps, of the values' loss hardly any, keep 3136 inputs from saturating the LSTM before labels are known.
+    # Small steps, of the values' loss hardly any, keep 3136 inputs from saturating the LSTM before labels are known. A
+    # trace of 0 keeps the luck of answers out of what moves seem worth.
     ("towers", "fist_pixels"): _TOWERS_PIXELS.replace(
         frames=600_000,
         action_prior=_FIST,

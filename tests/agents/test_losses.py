@@ -84,8 +84,7 @@ def test_the_entropy_relative_to_a_prior_is_what_pulls_the_policy_towards_it():
         towards, towards_uniform = (torch.autograd.grad(find_losses(prior=each)[2], logits)[0] for each in (prior, ()))
         # ln 3 is less than the prior's 2 and more than the uniform policy's 0.
         assert towards[0, 0] > 0 > towards[0, 1] and towards_uniform[0, 0] < 0 < towards_uniform[0, 1]
-        at_prior = losses.actor_critic_losses(torch.tensor([prior], requires_grad=True), nothing, action, nothing,
-                                              nothing, prior)[2]  # fmt: skip
+        at_prior = losses.actor_critic_losses(torch.tensor([prior]), nothing, action, nothing, nothing, prior)[2]
         assert at_prior.item() == pytest.approx(math.log(math.exp(2) + 1), abs=1e-6) and at_prior > entropy
 
 
