@@ -252,17 +252,15 @@ class Ideal:
     json: bool = False
 
     def run(self) -> None:
-        discount = self.discount
+        discount = config_lib.DISCOUNT[self.domain] if self.discount is None else self.discount
         if self.domain == "which_is_heavier":
             from physexp.analysis.ideal import which_is_heavier
 
-            summary = which_is_heavier.solve(
-                self.difficulty, 0.95 if discount is None else discount, self.blocks
-            ).summary()
+            summary = which_is_heavier.solve(self.difficulty, discount, self.blocks).summary()
         else:
             from physexp.analysis.ideal import towers
 
-            summary = towers.solve(self.task, self.resolution, 0.98 if discount is None else discount).summary()
+            summary = towers.solve(self.task, self.resolution, discount).summary()
         _show(summary, self.json)
 
 

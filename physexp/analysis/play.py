@@ -58,7 +58,7 @@ def play(domain: str, task: str, difficulty: float | None = None, seed: int | No
     kwargs: dict[str, Any] = {} if difficulty is None else {"difficulty": difficulty}
     environment = suite.load(domain, task, task_kwargs={**kwargs, "random": seed})
     observers = _viewers(environment, domain, task, kwargs) if view else []
-    others, discount = _others(domain, task, kwargs)
+    others, discount = _others(environment, domain, task)
     scores = {"you": Score(), **{name: Score() for name in others}}
     show(_rules(environment))
     while True:
@@ -81,7 +81,7 @@ def _viewers(environment: suite.Environment, domain, task, kwargs) -> list[envir
     return [recorder, writing.Live(recorder, writing.open_viewer)]
 
 
-def _others(domain: str, task: str, kwargs: Mapping[str, Any]) -> tuple[dict[str, core.Actor], float]:
+def _others(environment: suite.Environment, domain: str, task: str) -> tuple[dict[str, core.Actor], float]:
     """The players to compare with, and the discount that the trained one knows."""
     agent = pretrained.load(domain, task)
     discount = agent.card["agent"]["discount"]
@@ -89,7 +89,7 @@ def _others(domain: str, task: str, kwargs: Mapping[str, Any]) -> tuple[dict[str
     if domain == "towers":
         others["ideal experimenter"] = towers.IdealExperimenter(towers.solve(task, 0.0, discount))
     elif task == "features":
-        solution = which_is_heavier.solve(kwargs.get("difficulty", 5.0), discount)
+        solution = which_is_heavier.solve(environment.task.options.difficulty, discount)
         others["ideal experimenter"] = playing.IdealExperimenter(solution)
     return others, discount
 

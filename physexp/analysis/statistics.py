@@ -57,6 +57,12 @@ def mean(values: Sequence[float] | np.ndarray) -> Estimate:
     return Estimate(average, average - half, average + half)
 
 
+def mean_share(shares: Sequence[float] | np.ndarray) -> Estimate:
+    """The mean of independent shares, [N] in [0, 1], with the part of Student's interval that a share can lie in."""
+    estimate = mean(shares)
+    return Estimate(estimate.value, max(0.0, estimate.low), min(1.0, estimate.high))
+
+
 def median(values: Sequence[float] | np.ndarray) -> Estimate:
     """The median of independent values, [N], with the interval of the order statistics; infinite for too few values."""
     from scipy import stats

@@ -96,6 +96,16 @@ def test_intervals_of_medians_hold_the_truth_of_a_skewed_distribution(count):
     assert_covers([statistics.median(values) for values in draws], math.log(2), level=held)
 
 
+def test_the_interval_of_a_mean_share_ends_where_shares_do():
+    # Of 0.9, 1: mean 0.95, standard error 0.05; t_1 at 97.5 % is 12.706205, so that Student's goes beyond both ends.
+    assert_same(statistics.mean([0.9, 1.0]), (0.95, 0.95 - 0.635310, 0.95 + 0.635310), abs=1e-5)
+    assert_same(statistics.mean_share([0.9, 1.0]), (0.95, 0.95 - 0.635310, 1.0), abs=1e-5)
+    assert_same(statistics.mean_share([0.1, 0.0]), (0.05, 0.0, 0.05 + 0.635310), abs=1e-5)
+    assert_same(statistics.mean_share([0.7]), (0.7, 0.0, 1.0))
+    inside = [0.4, 0.5, 0.6]
+    assert statistics.mean_share(inside) == statistics.mean(inside)
+
+
 def test_a_ratio_of_means_is_that_of_the_geometric_ones_with_welchs_interval():
     # Geometric means of (2, 8) and (1, 4): 4 and 2. Logarithms deviate by log 2 from their means: variances
     # 2 log(2)^2 each, standard error sqrt(2 log(2)^2) = 0.980258, 2 degrees of freedom, t_2 at 97.5 % 4.302653.

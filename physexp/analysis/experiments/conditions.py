@@ -5,6 +5,7 @@ from physexp.analysis import config as config_lib
 DIFFICULTIES = (3.0, 5.0, 10.0)
 OBSERVATIONS = ("features", "pixels")
 ACTUATORS = ("direct", "fist")
+PATIENT_DISCOUNT = 0.99  # Under which waiting costs little.
 SEEDS = {"features": 10, "pixels": 3}  # How many agents are trained in each condition.
 
 # Environment steps: the easier, the sooner the curve is flat.
@@ -19,7 +20,8 @@ _FRAMES = {
 }
 
 
-def heavier(difficulty: float, observations: str, frames: int, discount: float = 0.95) -> config_lib.TrainConfig:
+def heavier(difficulty: float, observations: str, frames: int,
+            discount: float = config_lib.DISCOUNT["which_is_heavier"]) -> config_lib.TrainConfig:  # fmt: skip
     """Which is Heavier at a difficulty, for so many environment steps, the agent's gamma being `discount`."""
     agent = config_lib.preset("which_is_heavier", observations)
     return config_lib.TrainConfig(
@@ -38,8 +40,8 @@ def towers(actuator: str, observations: str = "features") -> config_lib.TrainCon
 HEAVIER = tuple(heavier(beta, kind, _FRAMES[kind, beta]) for kind in OBSERVATIONS for beta in DIFFICULTIES)
 """At the paper's gamma of 0.95."""
 
-PATIENT = tuple(heavier(beta, "features", _PATIENT_FRAMES[beta], discount=0.99) for beta in DIFFICULTIES)
-"""At the paper's gamma of 0.99, under which waiting costs little."""
+PATIENT = tuple(heavier(beta, "features", _PATIENT_FRAMES[beta], discount=PATIENT_DISCOUNT) for beta in DIFFICULTIES)
+"""At the paper's gamma of 0.99."""
 
 TOWERS = tuple(towers(actuator, kind) for actuator in ACTUATORS for kind in OBSERVATIONS)
 

@@ -7,7 +7,6 @@ from physexp.analysis.experiments import base, conditions
 from physexp.analysis.ideal import which_is_heavier as ideal
 from physexp.suite import which_is_heavier
 
-_DISCOUNT = 0.99
 _SHOWN = 4000  # Episodes drawn as dots.
 _FEWEST = 20  # Episodes that a mean is drawn of.
 _BINS = np.linspace(0, 1, 11)
@@ -73,7 +72,7 @@ def _ideal_means(beta: float):
     """The ideal experimenter's mean pokes for mass gaps in the bins."""
     seeds, episodes = np.full(50_000, 1), np.arange(50_000)
     masses = which_is_heavier.draw_masses(seeds, episodes, beta)
-    pokes, _ = ideal.solve(beta, _DISCOUNT).play(masses)
+    pokes, _ = ideal.solve(beta, conditions.PATIENT_DISCOUNT).play(masses)
     bins = np.digitize(which_is_heavier.mass_gaps(masses), _BINS[1:-1])
     return (_BINS[1:] + _BINS[:-1]) / 2, [pokes[bins == b].mean() for b in range(len(_BINS) - 1)]
 

@@ -16,7 +16,7 @@ def find_claims(frame) -> list[claims.Claim]:
         found.append(claims.Claim(
             text="Agents are trained successfully from features and from pixels", section="5.3", condition=name,
             statistic="share of right answers at the end of training, mean of agents; twice chance is 0.5",
-            estimate=statistics.mean(rates), above=2 * _CHANCE,
+            estimate=statistics.mean_share(rates), above=2 * _CHANCE,
         ))  # fmt: skip
     for kind in conditions.OBSERVATIONS:
         names = [conditions.label("which_is_heavier", kind, beta) for beta in conditions.DIFFICULTIES]
@@ -40,7 +40,7 @@ def draw(frame):
         names = [conditions.label("which_is_heavier", kind, beta) for beta in conditions.DIFFICULTIES]
         learning.draw_panel(axes, curves, names, [rf"$\beta$ = {beta:g}" for beta in conditions.DIFFICULTIES], _CHANCE)
         for number, beta in enumerate(conditions.DIFFICULTIES):
-            accuracy = ideal.solve(beta, 0.95).summary()["accuracy"]
+            accuracy = ideal.solve(beta).summary()["accuracy"]
             axes.plot([1.0], [accuracy], marker=5, color=figures.COLORS[number], transform=axes.get_yaxis_transform(),
                       clip_on=False, markersize=4)  # fmt: skip
         axes.set_title(f"from {kind}")

@@ -19,7 +19,7 @@ def find_claims(frame) -> list[claims.Claim]:
         found.append(claims.Claim(
             text="All four conditions are solved nearly perfectly", section="6.3", condition=name,
             statistic="share of right answers at the end of training, mean of agents",
-            estimate=statistics.mean(rates), above=_NEARLY_PERFECT,
+            estimate=statistics.mean_share(rates), above=_NEARLY_PERFECT,
         ))  # fmt: skip
     reached = learning.first_reached(frame, _LEARNED)
     for kind in conditions.OBSERVATIONS:

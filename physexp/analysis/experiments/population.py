@@ -6,7 +6,6 @@ from physexp.analysis import claims, figures, statistics
 from physexp.analysis.experiments import base, conditions
 from physexp.analysis.ideal import which_is_heavier as ideal
 
-_DISCOUNT = 0.95
 _ALL_BLOCKS = 4
 _LONGEST = 10  # Interactions shown.
 CONDITIONS = tuple(condition for condition in conditions.HEAVIER if condition.task == "features")
@@ -33,13 +32,13 @@ def find_claims(frame) -> list[claims.Claim]:
     shares = (hard.interactions >= _ALL_BLOCKS).groupby(hard.training_seed).mean()
     found.append(claims.Claim(
         text="At difficulty 3 agents poke all four blocks before answering", section="5.3", condition="3-F",
-        statistic="share of episodes with at least four pokes, mean of agents", estimate=statistics.mean(shares),
+        statistic="share of episodes with at least four pokes, mean of agents", estimate=statistics.mean_share(shares),
         above=0.5,
     ))  # fmt: skip
     short = (frame.interactions < 30).groupby([frame.condition, frame.training_seed]).mean()
     found.append(claims.Claim(
         text="The vast majority of episodes ends in less than 30 steps", section="5.3", condition="all",
-        statistic="share of such episodes, mean of agents", estimate=statistics.mean(short), above=0.95,
+        statistic="share of such episodes, mean of agents", estimate=statistics.mean_share(short), above=0.95,
     ))  # fmt: skip
     return found
 
@@ -53,7 +52,7 @@ def draw(frame):
         pokes = frame.interactions[frame.difficulty == beta].clip(upper=_LONGEST)
         axes.bar(bins, np.bincount(pokes, minlength=len(bins)) / len(pokes), color=figures.COLORS[number], width=0.8,
                  alpha=0.75, label="agents")  # fmt: skip
-        solution = ideal.solve(beta, _DISCOUNT).summary()
+        solution = ideal.solve(beta).summary()
         best = np.zeros(len(bins))
         best[: len(solution["histogram"])] = list(solution["histogram"].values())
         axes.stairs(best, np.arange(len(bins) + 1) - 0.5, color=figures.GREY, linewidth=1.3, label="ideal")

@@ -28,7 +28,7 @@ def find_claims(frame) -> list[claims.Claim]:
 def _ideal() -> dict[str, tuple[float, float]]:
     found = {}
     for beta in conditions.DIFFICULTIES:
-        summary = ideal.solve(beta, 0.95).summary()
+        summary = ideal.solve(beta).summary()
         for kind in conditions.OBSERVATIONS:
             found[conditions.label("which_is_heavier", kind, beta)] = (
                 summary["mean_interactions"],

@@ -44,7 +44,7 @@ def find_claims(frame) -> list[claims.Claim]:
         found.append(claims.Claim(
             **common, text="Accuracy drops little with the control step",
             statistic="share of right answers at the worst control step, mean of agents; chance is 0.2",
-            estimate=statistics.mean(worst), above=0.6,
+            estimate=statistics.mean_share(worst), above=0.6,
             reason="Our agents were trained for few frames, with control steps of one size, and part of what tells "
             "them to answer is how many steps have passed: with smaller ones they answer after less time, before the "
             "tower has come apart.",

@@ -15,6 +15,7 @@ import numpy as np
 
 from physexp import suite
 from physexp.agents import core
+from physexp.analysis import config
 from physexp.analysis.ideal import trajectories as trajectories_lib
 from physexp.suite import tower
 
@@ -153,8 +154,9 @@ class Solution:
                 "histogram": {number: float(share) for number, share in enumerate(shares)}}  # fmt: skip
 
 
-def solve(task: str = "fist_features", resolution: float = 0.0, discount: float = 0.98, objective: str = "return", *,
-          max_depth: int = 8, max_steps: int = 2_000_000, trajectories: trajectories_lib.Trajectories | None = None,
+def solve(task: str = "fist_features", resolution: float = 0.0, discount: float = config.DISCOUNT["towers"],
+          objective: str = "return", *, max_depth: int = 8, max_steps: int = 2_000_000,
+          trajectories: trajectories_lib.Trajectories | None = None,
           task_kwargs: Mapping[str, Any] | None = None) -> Solution:  # fmt: skip
     """Searches for the best policy.
 
@@ -193,7 +195,7 @@ def solve(task: str = "fist_features", resolution: float = 0.0, discount: float 
                     search.policy())  # fmt: skip
 
 
-def curve(task: str, resolutions: Sequence[float], discount: float = 0.98) -> list[dict[str, Any]]:
+def curve(task: str, resolutions: Sequence[float], discount: float = config.DISCOUNT["towers"]) -> list[dict[str, Any]]:
     """Summaries for both objectives at several resolutions, with `resolution` and `objective` beside them."""
     trajectories = trajectories_lib.Trajectories(task)
     return [

@@ -14,6 +14,7 @@ import numpy as np
 from scipy import interpolate, special
 from scipy.stats import qmc
 
+from physexp.analysis import config
 from physexp.suite import which_is_heavier
 
 _HEAVIEST_NODES, _RATIO_NODES = 400, 33
@@ -155,7 +156,9 @@ def _evenly_drawn_episodes(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
 
 
 @functools.lru_cache(maxsize=64)
-def solve(difficulty: float = 5.0, discount: float = 0.95, num_blocks: int = which_is_heavier.NUM_BLOCKS) -> Solution:
+def solve(difficulty: float = which_is_heavier.Options.difficulty,
+          discount: float = config.DISCOUNT["which_is_heavier"],
+          num_blocks: int = which_is_heavier.NUM_BLOCKS) -> Solution:  # fmt: skip
     """Finds the best policy, its value to better than 0.0001.
 
     Args:
