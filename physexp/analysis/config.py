@@ -73,15 +73,20 @@ def _ppo(preset: a3c.A3CConfig, **changes) -> ppo.PPOConfig:
 
 
 # Never to answer a tower is worth as much as to answer at random. Several steps on one round get there before anything
-# has been learned, unless the entropy holds them back.
+# has been learned, unless the entropy holds them back: more of it for the fist, whose hits are rare at first.
 PPO = {
     ("which_is_heavier", "features"): _ppo(_HEAVIER, frames=1_500_000, learning_rate=3e-3),
     ("which_is_heavier", "pixels"): _ppo(_HEAVIER_PIXELS, learning_rate=5e-4, num_environments=64),
     **{
-        ("towers", task): _ppo(
-            A3C["towers", task], learning_rate=1e-3, entropy_cost=0.05, num_environments=32, num_minibatches=2
+        ("towers", f"{actuator}_{kind}"): _ppo(
+            A3C["towers", f"{actuator}_{kind}"],
+            learning_rate=1e-3,
+            entropy_cost=entropy_cost,
+            num_environments=32,
+            num_minibatches=2,
         )
-        for task in ("direct_features", "fist_features", "direct_pixels", "fist_pixels")
+        for actuator, entropy_cost in (("direct", 0.05), ("fist", 0.1))
+        for kind in ("features", "pixels")
     },
 }
 """The same of PPO."""
