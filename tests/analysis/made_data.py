@@ -103,6 +103,7 @@ def curves(num_agents, generator, plateaus: dict[str, float], chance: float, lea
                 "domain": config.domain, "task": config.task, "difficulty": config.difficulty,
                 "discount": config.agent.discount, "training_seed": seed, "condition": name,
                 "algorithm": config.agent.algorithm, "seconds": frames / 1000,
+                "episodes": frames.astype(int) // 20,
             }))  # fmt: skip
     return pandas.concat(found, ignore_index=True)
 

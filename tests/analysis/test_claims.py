@@ -5,6 +5,7 @@ import math
 
 import made_data
 import numpy as np
+import pandas
 import pytest
 from trainers import fresh_seed
 
@@ -239,16 +240,40 @@ def test_success_at_the_end_is_that_of_the_last_twentieth_of_training():
         assert one.success_rate == pytest.approx(run.success_rate.to_numpy()[-11:].mean())
 
 
-def test_a_level_is_reached_where_the_mean_of_five_rows_is_first_at_it():
-    frame = made_data.learning_towers(1, generator())
-    frame = frame[frame.condition == "F-F"].copy()
-    frame["success_rate"] = [0.2] * 100 + [0.9] * 100
-    step = int(frame.frames.iloc[0])  # Of the first row.
-    # After k rows of 0.9 the mean of the last five is 0.2 + 0.14 k: 0.62 after three, and 0.9 after five.
-    for level, row in ((0.5, 103), (0.61, 103), (0.7, 104), (0.89, 105)):
-        assert learning.first_reached(frame, level).frames.tolist() == [row * step]
-    assert learning.first_reached(frame, 0.95).frames.tolist() == [math.inf]
-    assert learning.first_reached(frame.sample(frac=1, random_state=0), 0.61).frames.tolist() == [103 * step]
+@pytest.mark.parametrize("row", [250, 1000, 2000])
+def test_a_level_is_reached_where_the_mean_of_2000_episodes_crosses_it(row):
+    run = jumping_run(row)
+    # 2000 episodes whose middle is k episodes, of 20 frames each, after the jump have 0.2 + 0.7 * (1000 + k) / 2000.
+    for level, frames in ((0.375, 1_990_000), (0.55, 2_000_000), (0.725, 2_010_000), (0.899, 2_020_000)):
+        assert learning.first_reached(run, level) == pytest.approx(frames, rel=1e-4)
+        assert learning.first_reached(run.sample(frac=1, random_state=0), level) == learning.first_reached(run, level)
+    assert learning.first_reached(run, 0.1) == row / 2 * 20  # The middle of the first row.
+    assert learning.first_reached(run, 0.95) == math.inf
+
+
+def test_a_level_is_reached_at_the_same_place_when_rows_hold_many_episodes():
+    # Each row is its own window: 0.2 in the middle of the last before the jump, 0.9 in that of the first after it.
+    assert learning.first_reached(jumping_run(10_000), 0.55) == pytest.approx(2_000_000)
+    assert learning.first_reached(jumping_run(10_000), 0.899) == pytest.approx(2_100_000, rel=1e-3)
+
+
+def jumping_run(row: int):
+    """Success of 0.2 in 100 000 episodes and 0.9 in as many, of 20 frames each, in rows of so many episodes."""
+    episodes = np.arange(row, 200_001, row)
+    success = np.where(episodes <= 100_000, 0.2, 0.9)
+    return pandas.DataFrame({"episodes": episodes, "frames": 20 * episodes, "success_rate": success})
+
+
+def test_agents_who_never_learn_are_given_the_shortest_training_of_all():
+    long, short = jumping_run(1000), jumping_run(1000)[:150]
+    frame = pandas.concat([
+        long.assign(condition="learns", training_seed=0), short.assign(condition="learns", training_seed=1),
+        long.assign(condition="never", training_seed=0, success_rate=0.2),
+    ])  # fmt: skip
+    learns, never, absent = learning.compare_first_reached(frame, ["learns", "never", "absent"], 0.55)
+    assert learns == pytest.approx([2_000_000, 2_000_000])
+    assert never.tolist() == [150 * 1000 * 20]
+    assert len(absent) == 0
 
 
 @pytest.mark.parametrize("never, verdict", [("direct", HOLDS), ("fist", FAILS)])

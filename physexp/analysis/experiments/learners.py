@@ -35,9 +35,9 @@ def find_claims(frame) -> list[claims.Claim]:
     """PPO learns from less, and takes no longer."""
     found = []
     for along, (text, unit) in _CLAIMS.items():
-        reached = learning.first_reached(frame, _LEARNED, along)
         for task in _TASKS:
-            ppo, a3c = (reached[along][reached.condition == f"{task} {name}"] for name in _NAMES.values())
+            names = [f"{task} {name}" for name in _NAMES.values()]
+            ppo, a3c = learning.compare_first_reached(frame, names, _LEARNED, along)
             if len(ppo) and len(a3c):
                 found.append(claims.Claim(
                     text=text, section="ours", condition=task,

@@ -7,10 +7,29 @@ import numpy as np
 from physexp.analysis import figures, statistics
 
 _POINTS = 120
-_SMOOTHING = 5  # Rows of metrics.csv, each some seconds of training.
+_WINDOW = 2000  # Episodes over which success is averaged, whatever the speed of the machine they were played on.
 
 AXES = {"frames": (1e6, "environment steps, millions"), "seconds": (60.0, "minutes of training")}
 """What success may be drawn along: the column, its unit, and what the axis is called."""
+
+
+def moving_success(run, along: str = "frames") -> tuple[np.ndarray, np.ndarray]:
+    """Success over the last `_WINDOW` episodes, or over those between two rows where they are more.
+
+    Args:
+      run: the rows of a run.
+      along: a column.
+
+    Returns:
+      Where on the column the middle of these episodes lies, and the share of right answers among them; [rows] both.
+    """
+    run = run.sort_values("frames")
+    episodes, places = (np.concatenate([[0], run[column]]) for column in ("episodes", along))
+    right = np.concatenate([[0], np.cumsum(run.success_rate * np.diff(episodes))])
+    ends = episodes[1:]
+    starts = np.minimum(episodes[:-1], np.maximum(ends - _WINDOW, 0))
+    success = (right[1:] - np.interp(starts, episodes, right)) / (ends - starts)
+    return np.interp((starts + ends) / 2, episodes, places), success
 
 
 def smoothed(frame, along: str = "frames"):
@@ -20,11 +39,10 @@ def smoothed(frame, along: str = "frames"):
     """
     curves = {}
     for condition, rows in frame.groupby("condition", sort=False):
-        runs = [run.sort_values("frames") for _, run in rows.groupby("training_seed")]
-        grid = np.linspace(0, min(run[along].max() for run in runs), _POINTS)
-        success = [run.success_rate.rolling(_SMOOTHING, min_periods=1).mean().to_numpy() for run in runs]
-        best = statistics.better_half([values[-1] for values in success])
-        lines = [np.interp(grid, runs[index][along], success[index]) for index in best]
+        grid = np.linspace(0, rows.groupby("training_seed")[along].max().min(), _POINTS)
+        runs = [moving_success(run, along) for _, run in rows.groupby("training_seed")]
+        best = statistics.better_half([success[-1] for _, success in runs])
+        lines = [np.interp(grid, *runs[index]) for index in best]
         curves[condition] = (grid / AXES[along][0], np.array(lines))
     return curves
 
@@ -50,18 +68,23 @@ def final_success(frame, share: float = 0.05):
     return last.groupby(["condition", "training_seed"], as_index=False, sort=False).success_rate.mean()
 
 
-def first_reached(frame, level: float, along: str = "frames"):
-    """When an agent's smoothed success first reaches a level, in frames or seconds; infinite where it never does.
+def first_reached(run, level: float, along: str = "frames") -> float:
+    """Where on a column a run's moving success first reaches a level, on a line between rows; else infinity."""
+    places, success = moving_success(run, along)
+    above = np.flatnonzero(success >= level)
+    if not len(above):
+        return np.inf
+    first = above[0]
+    if not first:
+        return float(places[0])
+    return float(np.interp(level, success[first - 1 : first + 1], places[first - 1 : first + 1]))
 
-    Returns:
-      A DataFrame of condition, training_seed, and `along`.
+
+def compare_first_reached(frame, names: Sequence[str], level: float, along: str = "frames") -> list[np.ndarray]:
+    """Where agents of conditions first reach a level: [agents] for each name.
+
+    An agent who never does is given the end of the shortest training among them all.
     """
-    import pandas
-
-    found = []
-    for (condition, seed), run in frame.groupby(["condition", "training_seed"], sort=False):
-        run = run.sort_values("frames")
-        reached = run[along][run.success_rate.rolling(_SMOOTHING, min_periods=1).mean() >= level]
-        found.append({"condition": condition, "training_seed": seed,
-                      along: float(reached.iloc[0]) if len(reached) else np.inf})  # fmt: skip
-    return pandas.DataFrame(found)
+    runs = {name: [run for _, run in frame[frame.condition == name].groupby("training_seed")] for name in names}
+    shortest = min((run[along].max() for group in runs.values() for run in group), default=np.inf)
+    return [np.array([min(first_reached(run, level, along), shortest) for run in runs[name]]) for name in names]

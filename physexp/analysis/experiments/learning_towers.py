@@ -1,7 +1,5 @@
 """Success in learning Towers (paper, Section 6.3; Figure 6)."""
 
-import numpy as np
-
 from physexp.analysis import claims, figures, statistics
 from physexp.analysis.experiments import base, conditions, learning
 
@@ -21,12 +19,9 @@ def find_claims(frame) -> list[claims.Claim]:
             statistic="share of right answers at the end of training, mean of agents",
             estimate=statistics.mean_share(rates), above=_NEARLY_PERFECT,
         ))  # fmt: skip
-    reached = learning.first_reached(frame, _LEARNED)
     for kind in conditions.OBSERVATIONS:
         names = [conditions.label("towers", f"{actuator}_{kind}", None) for actuator in ("fist", "direct")]
-        # Where not all learn, what counts is the time within the shortest training.
-        shortest = frame[frame.condition.isin(names)].groupby(["condition", "training_seed"]).frames.max().min()
-        fist, direct = (np.minimum(reached.frames[reached.condition == name], shortest) for name in names)
+        fist, direct = learning.compare_first_reached(frame, names, _LEARNED)
         if len(fist) and len(direct):
             found.append(claims.Claim(
                 text="The fist leads to faster learning than direct actuation", section="6.3", condition=kind,
