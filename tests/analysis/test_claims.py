@@ -264,6 +264,17 @@ def jumping_run(row: int):
     return pandas.DataFrame({"episodes": episodes, "frames": 20 * episodes, "success_rate": success})
 
 
+def test_curves_are_those_of_the_better_half_from_the_middle_of_the_first_episodes_on():
+    worse = jumping_run(5000).assign(success_rate=0.2)
+    runs = [worse, jumping_run(5000)]
+    frame = pandas.concat([run.assign(condition="F-F", training_seed=seed) for seed, run in enumerate(runs)])
+    grid, (line,) = learning.smoothed(frame)["F-F"]
+    assert (grid[0], grid[-1]) == (0, 4)  # Millions.
+    assert np.isnan(line[grid < 0.05]).all()  # The first row has 100 000 frames.
+    assert line[(grid > 0.05) & (grid < 1.95)] == pytest.approx(0.2)
+    assert line[grid > 2.05] == pytest.approx(0.9)
+
+
 def test_agents_who_never_learn_are_given_the_shortest_training_of_all():
     long, short = jumping_run(1000), jumping_run(1000)[:150]
     frame = pandas.concat([

@@ -35,14 +35,15 @@ def moving_success(run, along: str = "frames") -> tuple[np.ndarray, np.ndarray]:
 def smoothed(frame, along: str = "frames"):
     """Curves on common grids: for each condition, the grid, in the unit of `AXES`, and success [agents, _POINTS].
 
-    The agents are those in the better half at the end of training, as in the paper's figures, the best first.
+    The agents are those in the better half at the end of training, as in the paper's figures, the best first. Before
+    the middle of an agent's first episodes nothing is known: NaN.
     """
     curves = {}
     for condition, rows in frame.groupby("condition", sort=False):
         grid = np.linspace(0, rows.groupby("training_seed")[along].max().min(), _POINTS)
         runs = [moving_success(run, along) for _, run in rows.groupby("training_seed")]
         best = statistics.better_half([success[-1] for _, success in runs])
-        lines = [np.interp(grid, *runs[index]) for index in best]
+        lines = [np.interp(grid, *runs[index], left=np.nan) for index in best]
         curves[condition] = (grid / AXES[along][0], np.array(lines))
     return curves
 
