@@ -34,8 +34,8 @@ def _reached(results: base.Results, condition) -> Iterator[dict]:
         "training_seed"
     )
     returns, success = agents.agent_return.mean().to_numpy(), agents.right.mean().to_numpy()
-    absolute = {"agents": len(returns), "worst": returns.min(), "best": returns.max(), "right": success.mean(),
-                "million_frames": condition.agent.frames / 1e6}  # fmt: skip
+    absolute = {"agents": len(returns), "worst_return": returns.min(), "best_return": returns.max(),
+                "right": success.mean(), "million_frames": condition.agent.frames / 1e6}  # fmt: skip
     reached = ideal_gap.median_of_top_half
     name = frame.condition.iloc[0]
     if condition.domain == "towers":
