@@ -42,8 +42,8 @@ def smoothed(frame, along: str = "frames"):
     for condition, rows in frame.groupby("condition", sort=False):
         grid = np.linspace(0, rows.groupby("training_seed")[along].max().min(), _POINTS)
         runs = [moving_success(run, along) for _, run in rows.groupby("training_seed")]
-        best = statistics.better_half([success[-1] for _, success in runs])
-        lines = [np.interp(grid, *runs[index], left=np.nan) for index in best]
+        best = [runs[index] for index in statistics.better_half([success[-1] for _, success in runs])]
+        lines = [np.interp(grid, places, success, left=np.nan) for places, success in best]
         curves[condition] = (grid / AXES[along][0], np.array(lines))
     return curves
 
