@@ -31,13 +31,17 @@ def load(results: base.Results):
     return frame.assign(condition=frame.condition + " " + frame.algorithm.map(_NAMES))
 
 
+def _curve_names(task: str) -> list[str]:
+    """What `load` calls the curves of a task, in the order of `_NAMES`."""
+    return [f"{task} {name}" for name in _NAMES.values()]
+
+
 def find_claims(frame) -> list[claims.Claim]:
     """PPO learns from less, and takes no longer."""
     found = []
     for along, (text, unit) in _CLAIMS.items():
         for task in _TASKS:
-            names = [f"{task} {name}" for name in _NAMES.values()]
-            ppo, a3c = learning.compare_first_reached(frame, names, _LEARNED, along)
+            ppo, a3c = learning.compare_first_reached(frame, _curve_names(task), _LEARNED, along)
             if len(ppo) and len(a3c):
                 found.append(claims.Claim(
                     text=text, section="ours", condition=task,
@@ -50,12 +54,12 @@ def find_claims(frame) -> list[claims.Claim]:
 def draw(frame):
     """A row for each task, against frames and against minutes."""
     tasks = [task for task in _TASKS if frame.condition.str.startswith(task).any()]
+    curves = {along: learning.smoothed(frame, along) for along in learning.AXES}
     figure, panels = figures.new(rows=len(tasks), columns=2, height=2.2, sharey=True, squeeze=False)
     for row, task in zip(panels, tasks, strict=True):
         chance = 1 / (4 if task[0].isdigit() else 5)
         for axes, along in zip(row, learning.AXES, strict=True):
-            names = [f"{task} {name}" for name in _NAMES.values()]
-            learning.draw_panel(axes, learning.smoothed(frame, along), names, list(_NAMES.values()), chance, along)
+            learning.draw_panel(axes, curves[along], _curve_names(task), list(_NAMES.values()), chance, along)
         row[0].set(title=task, ylabel="share of right answers")
         row[0].legend(loc="lower right", bbox_to_anchor=(1, 0.3))
     return figure

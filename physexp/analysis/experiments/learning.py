@@ -82,9 +82,9 @@ def first_reached(run, level: float, along: str = "frames") -> float:
 
 
 def compare_first_reached(frame, names: Sequence[str], level: float, along: str = "frames") -> list[np.ndarray]:
-    """Where agents of conditions first reach a level: [agents] for each name.
+    """Where agents of conditions first reach a level, within the shortest training of them all: [agents] for each name.
 
-    An agent who never does is given the end of the shortest training among them all.
+    An agent who needs longer, or never does, is given the end of that training.
     """
     runs = {name: [run for _, run in frame[frame.condition == name].groupby("training_seed")] for name in names}
     shortest = min((run[along].max() for group in runs.values() for run in group), default=np.inf)
