@@ -20,6 +20,9 @@ class _AllocatorFigures(ctypes.Structure):
     ]  # fmt: skip
 
 
+_libc.mallinfo2.restype = _AllocatorFigures
+
+
 def resident_bytes() -> int:
     """What this process holds; what has been freed goes back to the system first, and does not count."""
     gc.collect()
@@ -29,9 +32,8 @@ def resident_bytes() -> int:
 
 
 def allocated_bytes() -> int:
-    """What has been asked for and not given back, whatever pages it lies in: at most that, to some hundred bytes."""
+    """What has been asked for and not given back, whatever pages it lies in; small objects count as the largest."""
     gc.collect()
-    _libc.mallinfo2.restype = _AllocatorFigures
     figures = _libc.mallinfo2()
     return figures.uordblks + figures.hblkhd + _LARGEST_BLOCK * sys.getallocatedblocks()
 
