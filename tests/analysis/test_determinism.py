@@ -12,7 +12,7 @@ from physexp import suite
 from physexp.analysis import run as run_lib
 from physexp.analysis import training
 
-FRAMES = 8_000
+FRAMES = 24_000  # Some seconds, with several checkpoints in each.
 
 
 @pytest.fixture(scope="module", params=trainers.SMALL)
@@ -87,10 +87,11 @@ def test_a_run_killed_at_any_moment_resumes_to_the_same_weights(uninterrupted, t
     agent = uninterrupted.config.agent
     run = trainers.create(tmp_path / "run", agent.algorithm, frames=FRAMES, seed=agent.seed)
     with trainers.trainer(run) as process:
-        trainers.wait_for_checkpoint(process, run, beyond=0)  # The first may be of no frames at all.
-        moment = np.random.default_rng(trainers.fresh_seed()).uniform(0, 1)
-        print("killed", moment, "s after the first checkpoint of an update")
-        time.sleep(moment)
+        generator = np.random.default_rng(trainers.fresh_seed())
+        beyond, delay = generator.integers(FRAMES // 2), generator.uniform(0, agent.checkpoint_seconds)
+        trainers.wait_for_checkpoint(process, run, beyond)
+        print("killed", delay, "s after the first checkpoint beyond frame", beyond)
+        time.sleep(delay)
         assert process.poll() is None, "it has to be killed before it is done; give it more frames"
     reached = int(run.checkpointer.latest()[0]["frames"])
     assert 0 < reached < FRAMES

@@ -12,7 +12,7 @@ NUM_BATCH_RESETS = 10_000
 
 # Bytes a reset. The smallest thing that a reset could lose is a few hundred bytes (a small array, a TimeStep).
 FLAT = 100
-NOISE = 50_000  # bytes: small objects that resets use for the first time, after the warm-up too, came to 40 kB.
+NOISE = 50_000  # bytes: buffers that numpy keeps came to 5 kB.
 
 FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
 every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_TASKS)
@@ -27,8 +27,7 @@ def _assert_memory_is_flat(reset, num_resets: int, num_warm_up: int) -> None:
 @every_feature_task
 def test_resets_of_one_environment_leave_memory_as_it_is(seed, domain_name, task_name):
     env = suite.load(domain_name, task_name, {"random": seed})
-    # Meanwhile the sixteen towers are compiled: each comes up with a probability of 1/30 at least. What is used of each
-    # for the first time, some hundred small objects, comes up within a thousand.
+    # Meanwhile the sixteen towers are compiled: each comes up with a probability of 1/30 at least.
     _assert_memory_is_flat(env.reset, NUM_RESETS[domain_name], num_warm_up=1000)
 
 
