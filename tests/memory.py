@@ -33,7 +33,7 @@ def resident_bytes() -> int:
 
 def allocated_bytes() -> int:
     """What has been asked for and not given back, whatever pages it lies in; small objects count as the largest."""
-    sys._clear_type_cache()  # It keeps up to 4096 names of attributes that were put together, as dm_control's hooks' are.
+    sys._clear_type_cache()  # Of names of attributes: up to 4096, when they are new ones each time.
     gc.collect()
     figures = _libc.mallinfo2()
     return figures.uordblks + figures.hblkhd + _LARGEST_BLOCK * sys.getallocatedblocks()
