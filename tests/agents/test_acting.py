@@ -42,9 +42,19 @@ def test_acting_logits_and_values_equal_those_of_training(domain, task):
     batch = suite.load_batch(domain, task, 24, {"random": seed})
     network = make_network(batch, seed, Recording)
     network.calibrate(acting.as_tensors(batch.reset().observation))
-    episodes = acting.play_round(network, batch, 0, np.random.default_rng(seed), differentiable=True)
+    label = batch.action_spec().num_values - 1
+
+    def vary_lengths(actions, generator):
+        """Whatever the network prefers, an episode ends with a probability of 0.1 to 0.3 at each step."""
+        drawn = generator.choice([0, label, -1], len(actions), p=[0.7, 0.1, 0.2])
+        return np.where(drawn < 0, actions, drawn)
+
+    episodes = acting.play_round(
+        network, batch, 0, np.random.default_rng(seed), interference=vary_lengths, differentiable=True
+    )
     batch.close()
     lengths = episodes.lengths
+    # All of 24 episodes end within two steps with a probability of 0.51^24 = 1e-7 at most.
     assert len(set(lengths)) > 2, "episodes of different lengths are what makes this hard"
 
     order = np.argsort(-lengths, kind="stable")
