@@ -88,7 +88,7 @@ def test_a_run_killed_at_any_moment_resumes_to_the_same_weights(uninterrupted, t
     run = trainers.create(tmp_path / "run", agent.algorithm, frames=FRAMES, seed=agent.seed)
     with trainers.trainer(run) as process:
         generator = np.random.default_rng(trainers.fresh_seed())
-        beyond, delay = generator.integers(FRAMES // 2), generator.uniform(0, agent.checkpoint_seconds)
+        beyond, delay = generator.integers(FRAMES // 3), generator.uniform(0, agent.checkpoint_seconds)
         trainers.wait_for_checkpoint(process, run, beyond)
         print("killed", delay, "s after the first checkpoint beyond frame", beyond)
         time.sleep(delay)
