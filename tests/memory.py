@@ -33,7 +33,7 @@ def resident_bytes() -> int:
 
 def allocated_bytes() -> int:
     """What has been asked for and not given back, whatever pages it lies in; small objects count as the largest."""
-    sys._clear_type_cache()  # Of names of attributes: up to 4096, when they are new ones each time.
+    sys._clear_type_cache()  # It keeps up to 4096 names, and dm_control makes new ones at each reset.
     gc.collect()
     figures = _libc.mallinfo2()
     return figures.uordblks + figures.hblkhd + _LARGEST_BLOCK * sys.getallocatedblocks()
