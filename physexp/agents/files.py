@@ -1,5 +1,6 @@
 """Files of others' making: replaced whole, never written through a link, never one that makes its reader wait."""
 
+from collections.abc import Iterator
 import contextlib
 import errno
 import fcntl
@@ -85,6 +86,18 @@ def read_plain(path: Path, most: int) -> bytes:
             f"{path} is larger than {most / 1e6:g} MB, which no file of its kind is; put another in its place"
         )
     return content
+
+
+@contextlib.contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """A context that one process at a time is in; the others wait."""
+    opened = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        with contextlib.suppress(OSError):  # Of a file system without locks.
+            fcntl.flock(opened, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(opened)
 
 
 def refuse_link(folder: Path) -> None:

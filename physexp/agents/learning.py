@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import torch
 
-from physexp.agents import acting, losses, networks
+from physexp.agents import acting, checkpointing, losses, networks
 
 
 class AgentError(RuntimeError):
@@ -69,12 +69,21 @@ class Variables:
         """Takes up what `save` returned.
 
         Raises:
-          ValueError: if the tensors do not fit; nothing has changed then.
+          ValueError: if the tensors do not fit, are not finite, or count what cannot be; nothing has changed then.
         """
         own = self.tensors()
-        unfit = [name for name in own if name not in tensors or tensors[name].shape != own[name].shape]
-        if unfit or set(tensors) != set(own):
-            raise ValueError(f"the checkpoint does not fit the configuration: it differs in {unfit or 'its names'}")
+        try:
+            checkpointing.check(tensors, own)
+        except ValueError as error:
+            raise ValueError(f"the checkpoint {error}") from None
+        frames, updates, rounds = (tensors[name].reshape(-1).tolist() for name in ("frames", "updates", "rounds"))
+        if min(*frames, *updates, *rounds) < 0 or updates[0] > min(frames[0], sum(rounds)):
+            raise ValueError(
+                f"the checkpoint counts {updates[0]} updates of {frames[0]} frames in {sum(rounds)} rounds"
+            )
+        for name, value in tensors.items():
+            if name.endswith(("/step", "/exp_avg_sq")) and bool((value < 0).any()):
+                raise ValueError(f"the checkpoint has negative numbers in {name}, where none can be")
         for name, value in own.items():
             value.copy_(tensors[name])
 

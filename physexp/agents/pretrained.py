@@ -1,20 +1,24 @@
 """Trained agents that come with the package: weights in half precision, and a card that says where they come from."""
 
 from collections.abc import Mapping
+import contextlib
 import dataclasses
+import hashlib
 import json
+import math
+import os
 from pathlib import Path
 from typing import Any
 
 from dm_env import specs
 import numpy as np
-from safetensors import torch as safetensors
 import torch
 
-from physexp.agents import acting, checkpointing, networks
+from physexp.agents import acting, checkpointing, files, networks
 
 FOLDER = Path(__file__).with_name("pretrained_agents")
 _DEFAULT_DIFFICULTY = 5
+_WAITING = ".next.safetensors"  # Weights of a card that is about to be written, or has just been.
 
 
 @dataclasses.dataclass(frozen=True)
@@ -37,7 +41,15 @@ class Pretrained:
 
 def name(domain: str, task: str, difficulty: float | None) -> str:
     """The name of an agent's files."""
-    return f"{domain}-{task}" + ("" if difficulty is None else f"-difficulty{difficulty:g}")
+    if difficulty is None:
+        return f"{domain}-{task}"
+    short = f"{difficulty:g}"
+    return f"{domain}-{task}-difficulty{short if float(short) == difficulty else repr(difficulty)}"
+
+
+def names(folder: Path = FOLDER) -> list[str]:
+    """The names of the agents in a folder."""
+    return sorted(card.stem for card in folder.glob("*.json"))
 
 
 def load(domain: str, task: str, difficulty: float | None = None, folder: Path = FOLDER) -> Pretrained:
@@ -49,39 +61,123 @@ def load(domain: str, task: str, difficulty: float | None = None, folder: Path =
       folder: where the agents are.
 
     Raises:
-      ValueError: where there is no such agent; it lists those that there are.
+      OSError: if its files cannot be read.
+      ValueError: where there is no such agent, and it lists those that there are; or if its files are damaged.
     """
     base = name(domain, task, difficulty)
-    if difficulty is None and not (folder / f"{base}.json").exists():
+    if difficulty is None and base not in names(folder):
         base = name(domain, task, _DEFAULT_DIFFICULTY)
-    if not (folder / f"{base}.json").exists():
-        known = ", ".join(sorted(card.stem for card in folder.glob("*.json")))
-        raise ValueError(f"no trained agent is named {name(domain, task, difficulty)}; there are: {known}")
-    card = json.loads((folder / f"{base}.json").read_text())
-    observation_spec = {
-        key: specs.Array(tuple(shape), np.dtype(dtype), key)
-        for key, (shape, dtype) in card["network"]["observations"].items()
-    }
-    hyperparameters = card["network"]["hyperparameters"]
-    network = networks.RecurrentActorCritic(observation_spec, card["network"]["num_actions"], **hyperparameters)
-    network.load_state_dict(safetensors.load_file(folder / f"{base}.safetensors"))
+    try:
+        return load_named(base, folder)
+    except _UnknownError:
+        raise _UnknownError(name(domain, task, difficulty), folder) from None
+
+
+def load_named(base: str, folder: Path = FOLDER) -> Pretrained:
+    """Loads the trained agent whose files have this name; raises as `load`."""
+    if base not in names(folder):
+        raise _UnknownError(base, folder)
+    path = folder / f"{base}.json"
+    if folder == FOLDER:
+        path = path.resolve()  # Some installers put links in the place of a package's files.
+    card = checkpointing.read_json(path)
+    try:
+        _check(card, base)
+        with torch.device("meta"):  # Nothing is made that its weights do not fit.
+            like = _network(card["network"]).state_dict()
+    except (KeyError, TypeError, ValueError, AttributeError, RuntimeError, ArithmeticError) as error:
+        what = "lacks " + str(error) if isinstance(error, KeyError) else " ".join(str(error).split())[:200]
+        raise ValueError(f"{path} is not what was written: {what}; publish the agent again") from None
+    try:
+        weights = _read_weights(path, card, like)
+    except ValueError:
+        if checkpointing.read_json(path) == card:
+            raise
+        return load_named(base, folder)  # Another has just been written.
+    network = _network(card["network"])
+    network.load_state_dict(weights)
     return Pretrained(network.eval(), card)
 
 
+class _UnknownError(ValueError):
+    """There is no such agent."""
+
+    def __init__(self, base: str, folder: Path):
+        super().__init__(f"no trained agent is named {base}; there are: {', '.join(names(folder)) or 'none'}")
+
+
+def _check(card: dict[str, Any], base: str) -> None:
+    """Refuses a card that was changed since it was written, or belongs to another agent."""
+    checksum = card.get("card_sha256")
+    if checksum not in (None, checkpointing.json_digest({**card, "card_sha256": None})):
+        raise ValueError("its checksum differs")
+    if (found := name(card["domain"], card["task"], card["difficulty"])) != base:
+        raise ValueError(f"it is of {found}")
+
+
+def _network(facts: dict[str, Any]) -> networks.RecurrentActorCritic:
+    """The network that the facts on a card describe, with some weights."""
+    observation_spec = {
+        key: specs.Array(tuple(shape), np.dtype(dtype), key) for key, (shape, dtype) in facts["observations"].items()
+    }
+    units, scale = (facts["hyperparameters"][key] for key in ("lstm_units", "observation_scale"))
+    if not isinstance(scale, (int, float)) or not math.isfinite(scale):
+        raise ValueError(f"observation_scale is {scale!r}")
+    return networks.RecurrentActorCritic(
+        observation_spec, facts["num_actions"], lstm_units=units, observation_scale=scale
+    )
+
+
+def _read_weights(card_path: Path, card: dict[str, Any], like: dict[str, torch.Tensor]) -> dict[str, torch.Tensor]:
+    """The weights that a card is about; those that wait to be put in place, where whoever wrote them was killed."""
+    checksum = card.get("sha256")
+    path, waiting = card_path.with_suffix(".safetensors"), card_path.with_suffix(_WAITING)
+    if waiting.exists() and checksum is not None:
+        with contextlib.suppress(ValueError, FileNotFoundError):  # Of another card, or just put in place.
+            return checkpointing.read_agent(waiting, like, checksum)
+    return checkpointing.read_agent(path, like, checksum)
+
+
 def save(network: networks.RecurrentActorCritic, card: Mapping[str, Any], folder: Path = FOLDER) -> Path:
-    """Writes a trained agent; returns the path of its card.
+    """Writes a trained agent; returns the path of its card. Interrupted at any time, it leaves the old one or the new.
 
     Args:
       network: its network; floating-point weights are kept in half precision.
       card: all that is known of it, with `domain`, `task`, `difficulty` and `network` as `load` reads them.
       folder: where the agents are; made when needed.
+
+    Raises:
+      OSError: if it cannot be written.
+      ValueError: if weights are not finite in half precision; nothing is written then.
     """
+    weights = checkpointing.agent_bytes(network.state_dict())
+    content = sealed({**card, "sha256": hashlib.sha256(weights).hexdigest()})
     folder.mkdir(parents=True, exist_ok=True)
-    base = name(card["domain"], card["task"], card["difficulty"])
-    checkpointing.write_agent(folder / f"{base}.safetensors", network.state_dict())
-    path = folder / f"{base}.json"
-    checkpointing.write_atomically(path, (json.dumps(dict(card), indent=1) + "\n").encode())
+    path = folder / f"{name(card['domain'], card['task'], card['difficulty'])}.json"
+    waiting = path.with_suffix(_WAITING)
+    with files.locked(folder):
+        _put_in_place(path)  # What the last writer was killed over.
+        files.write_atomically(waiting, weights)
+        files.write_atomically(path, content)  # From here on, the agent is the new one.
+        _put_in_place(path)
     return path
+
+
+def _put_in_place(card_path: Path) -> None:
+    """Gives the weights that a card is about their name, where they wait for it."""
+    waiting = card_path.with_suffix(_WAITING)
+    with contextlib.suppress(
+        FileNotFoundError, ValueError
+    ):  # Without a card, or with a damaged one, they are nobody's.
+        wanted = checkpointing.read_json(card_path)["sha256"]
+        if hashlib.sha256(waiting.read_bytes()).hexdigest() == wanted:
+            os.replace(waiting, card_path.with_suffix(".safetensors"))
+
+
+def sealed(card: Mapping[str, Any]) -> bytes:
+    """A card as it is kept in a file, with a checksum of itself."""
+    plain = json.loads(json.dumps({**card, "card_sha256": None}))  # As it will be read: JSON has no tuples.
+    return (json.dumps({**plain, "card_sha256": checkpointing.json_digest(plain)}, indent=1) + "\n").encode()
 
 
 def halved(network: networks.RecurrentActorCritic) -> networks.RecurrentActorCritic:

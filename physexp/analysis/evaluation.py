@@ -93,35 +93,83 @@ def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
     """The network that a run has trained.
 
     Raises:
-      ValueError: if there is none yet.
+      ValueError: if there is none yet, or its files are damaged or do not fit; it names the file.
     """
     config = run.config
-    network = agent_lib.make_network(training.make_environment(config, 0, 1, 1), config.agent)
-    network.load_state_dict(run.variables())
+    environment = training.make_environment(config, 0, 1, 1)
+    with torch.device("meta"):  # Nothing is made that the variables do not fit.
+        like = agent_lib.make_network(environment, config.agent).state_dict()
+    variables = run.variables(like)
+    network = agent_lib.make_network(environment, config.agent)
+    environment.close()
+    network.load_state_dict(variables)
     return network.eval()
 
 
-def find_agent(target: str) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
+def find_agent(target: str, difficulty: float | None = None
+               ) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:  # fmt: skip
     """A trained agent's network, and what it plays.
 
     Args:
-      target: the folder of a run, or `domain/task` for the agent that comes with the package.
+      target: the folder of a run, or an agent that comes with the package: `domain/task`, or the name of its files.
+      difficulty: what the agent is to be trained at; by default that of the folder or name, or else the task's.
 
     Raises:
-      ValueError: if it is neither.
+      ValueError: if there is no such agent, or none of that difficulty; it lists those that come with the package.
     """
-    domain, _, task = target.partition("/")
-    if (domain, task) in suite.ALL_TASKS and not Path(target).exists():
-        agent = pretrained.load(domain, task)
-        return agent.network, config_of(agent)
+    if not Path(target).exists():
+        domain, _, task = target.partition("/")
+        if (domain, task) in suite.ALL_TASKS:
+            return _with_config(pretrained.load(domain, task, difficulty))
+        if target in pretrained.names():
+            agent = pretrained.load_named(target)
+            _check_difficulty(target, agent.card["difficulty"], difficulty)
+            return _with_config(agent)
+        raise ValueError(f"{target} holds no run (no config.json); give the folder of a run or a trained agent: "
+                         f"{', '.join(pretrained.names())}")  # fmt: skip
     run = run_lib.Run(Path(target))
+    _check_difficulty(target, run.config.difficulty, difficulty)
     return load_network(run), run.config
 
 
+def _check_difficulty(target: str, trained_at: float | None, wanted: float | None) -> None:
+    if wanted is not None and wanted != trained_at:
+        what = "has no difficulty" if trained_at is None else f"was trained at difficulty {trained_at:g}"
+        raise ValueError(f"{target} {what}, and difficulty is {wanted}; leave that out, or name another agent")
+
+
+def _with_config(agent: pretrained.Pretrained) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
+    config = config_of(agent)
+    if agent.card["network"] != network_facts(config):
+        raise ValueError(
+            f"the card of the agent of {config.task_name} has a network that cannot play it; publish it again"
+        )
+    return agent.network, config
+
+
+def network_facts(config: config_lib.TrainConfig) -> dict[str, Any]:
+    """What a network is made from, as it is on an agent's card: specs of the environment, and hyperparameters."""
+    environment = training.make_environment(config, 0, 1, 1)
+    observations = {
+        name: [list(spec.shape), np.dtype(spec.dtype).name] for name, spec in environment.observation_spec().items()
+    }
+    num_actions = environment.action_spec().num_values
+    environment.close()
+    return {"observations": observations, "num_actions": num_actions,
+            "hyperparameters": agent_lib.hyperparameters(config.agent)}  # fmt: skip
+
+
 def config_of(agent: pretrained.Pretrained) -> config_lib.TrainConfig:
-    """What an agent that comes with the package plays, and how it was trained."""
-    fields = {name: agent.card[name] for name in ("domain", "task", "difficulty", "agent")}
-    return config_lib.TrainConfig.from_json(fields)
+    """What an agent that comes with the package plays, and how it was trained.
+
+    Raises:
+      ValueError: if its card does not say so.
+    """
+    try:
+        return config_lib.TrainConfig.from_json({name: agent.card[name] for name in ("domain", "task", "difficulty",
+                                                                                     "agent")})  # fmt: skip
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"an agent's card is not what was written: {error!r}; publish the agent again") from None
 
 
 def evaluate(run: run_lib.Run, num_episodes: int, interaction: str = "learned", greedy: bool = False,

@@ -1,15 +1,11 @@
 """Publishing: turns a run's agent into one that comes with the package, with a card that says where it comes from."""
 
 import dataclasses
-import json
 from pathlib import Path
 
-import numpy as np
-
-from physexp.agents import agent as agent_lib
-from physexp.agents import pretrained
+from physexp.agents import checkpointing, pretrained
 from physexp.analysis import config as config_lib
-from physexp.analysis import evaluation, training
+from physexp.analysis import evaluation
 from physexp.analysis import run as run_lib
 
 
@@ -20,38 +16,51 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int) -> Path:
       run: a run with a checkpoint.
       folder: where the agent goes.
       num_episodes: how many episodes the evaluation plays.
+
+    Raises:
+      OSError: if it cannot be written.
+      ValueError: if the run's files are damaged or say too little; the line says what to do. Nothing is written then.
     """
-    config = run.config
-    network = pretrained.halved(evaluation.load_network(run))
-    created = json.loads((run.path / "config.json").read_text())
-    last = run.metrics()[-1]
+    config, created = run.config, run.facts
+    frames, seconds = _progress(run)
+    network = evaluation.load_network(run)
+    checkpointing.agent_bytes(network.state_dict())  # Refuses weights that cannot be kept before anything is played.
+    network = pretrained.halved(network)
     figures = {
         way: evaluation.play(network, config, num_episodes, greedy=way == "greedy").summary(config.agent.discount)
         for way in ("drawn", "greedy")
     }
-    environment = training.make_environment(config, 0, 1, 1)
-    specs = environment.observation_spec().items()
     card = {
         "domain": config.domain,
         "task": config.task,
         "difficulty": config.difficulty,
         "command": command(config),
         "commit": created.get("commit", "not recorded"),
-        "versions": created["versions"],
+        "versions": created.get("versions", "not recorded"),
         "renderer": created.get("renderer", "not recorded"),
         "seed": config.agent.seed,
-        "frames": int(last["frames"]),
-        "seconds": round(last["seconds"]),
+        "frames": frames,
+        "seconds": seconds,
         "evaluation": {"seed": evaluation.SEED, **figures},
         "agent": config.to_json()["agent"],
-        "network": {
-            "observations": {name: (spec.shape, np.dtype(spec.dtype).name) for name, spec in specs},
-            "num_actions": environment.action_spec().num_values,
-            "hyperparameters": agent_lib.hyperparameters(config.agent),
-        },
+        "network": evaluation.network_facts(config),
     }
-    environment.close()
     return pretrained.save(network.cpu(), card, folder)
+
+
+def _progress(run: run_lib.Run) -> tuple[int, int]:
+    """Frames trained on, and seconds that took."""
+    path = run.path / "metrics.csv"
+    try:
+        last = run.metrics()[-1]
+        frames, seconds = int(last["frames"]), round(last["seconds"])
+        if frames < 0 or seconds < 0:
+            raise ValueError("negative numbers")
+    except (IndexError, KeyError, TypeError, ValueError, OverflowError):
+        raise ValueError(
+            f"{path} does not say in its last row how long the agent was trained; resume the run or put the file back"
+        ) from None
+    return frames, seconds
 
 
 def command(config: config_lib.TrainConfig) -> str:

@@ -10,6 +10,7 @@ In it are::
     agent.safetensors the network alone, in half precision, once `keep_agent_only` has put it in their place
 """
 
+from collections.abc import Mapping
 import csv
 import fcntl
 import importlib.metadata
@@ -23,7 +24,6 @@ from typing import Any
 
 import pyarrow
 from pyarrow import parquet
-from safetensors import torch as safetensors
 import torch
 
 from physexp.agents import checkpointing, learning
@@ -139,22 +139,40 @@ class Run:
         """Where `keep_agent_only` puts the network's variables."""
         return self.path / "agent.safetensors"
 
-    def variables(self) -> dict[str, torch.Tensor]:
+    def variables(self, like: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:
         """The network's variables by name: those kept at the end, or those of the last checkpoint.
 
+        Args:
+          like: variables with the names, shapes and types that the network has; their values do not matter.
+
         Raises:
-          ValueError: if there are none yet.
+          ValueError: if there are none yet, or they do not fit.
         """
         if self.agent_path.exists():
-            return safetensors.load_file(self.agent_path)
-        found = self.checkpointer.latest()
+            return checkpointing.read_agent(self.agent_path, like)
+
+        def accept(tensors, facts):
+            try:
+                checkpointing.check(learning.network_variables(tensors), like)
+            except ValueError as error:
+                raise ValueError(f"the network {error}; put back the run's own, or remove it") from None
+
+        most = 4 * checkpointing.num_bytes(like.values())  # Adam keeps two statistics of each.
+        found = self.checkpointer.latest(accept=accept, most=most)
         if found is None:
             raise ValueError(f"{self.path} holds no checkpoint yet; let the training write one")
         return learning.network_variables(found[0])
 
     def keep_agent_only(self) -> None:
-        """Keeps the network, in half precision, in the place of checkpoints and episodes: this run will not go on."""
-        checkpointing.write_agent(self.agent_path, self.variables())
+        """Keeps the network, in half precision, in the place of checkpoints and episodes: this run will not go on.
+
+        Raises:
+          ValueError: if there is no checkpoint, or its weights are not finite in half precision.
+        """
+        found = self.checkpointer.latest()
+        if found is None:
+            raise ValueError(f"{self.path} holds no checkpoint yet; let the training write one")
+        checkpointing.write_agent(self.agent_path, learning.network_variables(found[0]))
         for folder in ("checkpoints", "episodes.parquet"):
             shutil.rmtree(self.path / folder, ignore_errors=True)
 

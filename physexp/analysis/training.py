@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 import functools
+import math
 import os
 import signal
 import threading
@@ -11,7 +12,7 @@ import numpy as np
 
 from physexp import suite
 from physexp.agents import agent as agent_lib
-from physexp.agents import learning
+from physexp.agents import checkpointing, learning
 from physexp.agents.a3c import agent as a3c
 from physexp.agents.a3c.config import A3CConfig
 from physexp.agents.ppo import agent as ppo
@@ -158,22 +159,37 @@ class _Recorder:
         """Puts the agent and the records back to the last checkpoint that is whole, or to the start.
 
         Raises:
-          ValueError: if none is whole, or it is of another task.
+          ValueError: if none is whole, or it is of another task or does not fit; it names the file.
         """
         self._start_over()
-        found = self._run.checkpointer.latest(self._tell)
+
+        def accept(tensors, facts):
+            self._check_facts(facts)
+            agent.restore(tensors)
+
+        most = checkpointing.num_bytes(agent.save().values())
+        found = self._run.checkpointer.latest(self._tell, accept, most)
         if found is None:
             self._run.rewind(-1)
             return
         tensors, facts = found
-        if facts["task"] != self._config.task_name:
-            raise ValueError(f"the checkpoint in {self.path} is of {facts['task']}, the run of "
-                             f"{self._config.task_name}; put back the run's own")  # fmt: skip
-        agent.restore(tensors)
         self._frames, self._updates = int(tensors["frames"]), int(tensors["updates"])
         self._episodes, self._seconds = facts["episodes"], facts["seconds"]
         self._frames_at_row = self._replayed = self._frames
         self._run.rewind(self._frames)
+
+    def _check_facts(self, facts: dict) -> None:
+        """Refuses the facts beside a checkpoint that is of another task, or no run's."""
+        task, episodes, seconds = (facts.get(name) for name in ("task", "episodes", "seconds"))
+        if task != self._config.task_name:
+            task = ascii(task)[:80] if not isinstance(task, str) else task[:80]
+            raise ValueError(
+                f"the checkpoint is of {task}, the run of {self._config.task_name}; put back the run's own"
+            )
+        if type(episodes) is not int or not 0 <= episodes < 2**63:
+            raise ValueError("the checkpoint's `episodes` is no count; put back the run's own")
+        if type(seconds) not in (int, float) or not 0 <= seconds < math.inf:
+            raise ValueError("the checkpoint's `seconds` is no duration; put back the run's own")
 
     def add(self, update: agent_lib.Update) -> None:
         """Records an update, or keeps it until the checkpoint before it has been written."""
