@@ -123,17 +123,21 @@ def find_agent(target: str, difficulty: float | None = None
             return _with_config(pretrained.load(domain, task, difficulty))
         if target in pretrained.names():
             agent = pretrained.load_named(target)
-            _check_difficulty(target, agent.card["difficulty"], difficulty)
+            _check_difficulty(target, config_of(agent), difficulty)
             return _with_config(agent)
         raise ValueError(f"{target} holds no run (no config.json); give the folder of a run or a trained agent: "
                          f"{', '.join(pretrained.names())}")  # fmt: skip
     run = run_lib.Run(Path(target))
-    _check_difficulty(target, run.config.difficulty, difficulty)
+    _check_difficulty(target, run.config, difficulty)
     return load_network(run), run.config
 
 
-def _check_difficulty(target: str, trained_at: float | None, wanted: float | None) -> None:
-    if wanted is not None and wanted != trained_at:
+def _check_difficulty(target: str, config: config_lib.TrainConfig, wanted: float | None) -> None:
+    if wanted is None:
+        return
+    options = suite.load_task(config.domain, config.task, config.task_kwargs).options
+    trained_at = getattr(options, "difficulty", None)  # None in the configuration is the task's own.
+    if wanted != trained_at:
         what = "has no difficulty" if trained_at is None else f"was trained at difficulty {trained_at:g}"
         raise ValueError(f"{target} {what}, and difficulty is {wanted}; leave that out, or name another agent")
 

@@ -1,16 +1,13 @@
 """Records of played episodes: tidy tables, one row an episode, in Parquet files."""
 
-import io
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pyarrow
-from pyarrow import parquet
 
-from physexp.agents import checkpointing
 from physexp.analysis import config as config_lib
-from physexp.analysis import evaluation
+from physexp.analysis import evaluation, tables
 from physexp.analysis import run as run_lib
 from physexp.suite import which_is_heavier
 
@@ -76,11 +73,9 @@ def table(played: evaluation.Episodes, config: config_lib.TrainConfig, interacti
 def write(path: Path, rows: pyarrow.Table) -> None:
     """Writes rows and the commit that made them; there is the whole file or none."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    content = io.BytesIO()
     stamped = rows.replace_schema_metadata({"commit": run_lib.commit()})
-    parquet.write_table(stamped, content, compression="zstd", compression_level=9, use_dictionary=_REPEATED,
-                        use_byte_stream_split=_VARIED)  # fmt: skip
-    checkpointing.write_atomically(path, content.getvalue())
+    tables.write(path, stamped, compression="zstd", compression_level=9, use_dictionary=_REPEATED,
+                 use_byte_stream_split=_VARIED)  # fmt: skip
 
 
 def read(paths: list[Path], columns: list[str] | None = None):
@@ -89,13 +84,17 @@ def read(paths: list[Path], columns: list[str] | None = None):
     Args:
       paths: files that `write` has written.
       columns: which columns; all by default.
+
+    Raises:
+      OSError: if a file cannot be opened.
+      ValueError: if a file is damaged; it names the file.
     """
     import pandas
 
     frames = []
     for path in paths:
-        rows = parquet.read_table(path, columns=columns)
-        commit = (rows.schema.metadata or {}).get(b"commit", b"unknown").decode()
+        rows = tables.read(path, SCHEMA, columns)
+        commit = (rows.schema.metadata or {}).get(b"commit", b"unknown").decode("ascii", "replace")
         frames.append(rows.to_pandas().assign(commit=commit))
     return pandas.concat(frames, ignore_index=True)
 

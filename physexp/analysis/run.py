@@ -23,11 +23,11 @@ import subprocess
 from typing import Any
 
 import pyarrow
-from pyarrow import parquet
 import torch
 
 from physexp.agents import checkpointing, learning
 from physexp.analysis import config as config_lib
+from physexp.analysis import tables
 
 FORMAT = 1
 
@@ -201,9 +201,7 @@ class Run:
         """Adds a part to `episodes.parquet`."""
         folder = self.path / "episodes.parquet"
         folder.mkdir(exist_ok=True)
-        content = io.BytesIO()
-        parquet.write_table(pyarrow.table(columns, EPISODES), content, compression="zstd")
-        checkpointing.write_atomically(folder / f"part-{frames:015d}.parquet", content.getvalue())
+        tables.write(folder / f"part-{frames:015d}.parquet", pyarrow.table(columns, EPISODES), compression="zstd")
 
     def rewind(self, frames: int) -> None:
         """Drops what was recorded after a checkpoint, so that a resumed run leaves no row twice."""
