@@ -6,6 +6,7 @@ import html
 import math
 from pathlib import Path
 
+from physexp.agents import files
 from physexp.analysis import claims as claims_lib
 from physexp.analysis import figures
 from physexp.analysis import run as run_lib
@@ -42,8 +43,8 @@ def write(results: base.Results, report: Callable[[str], None] = lambda line: No
         sections.append((experiment, experiment.claims(frame)))
         report(f"drew {experiment.name}")
     markdown = results.path / "report.md"
-    markdown.write_text(_markdown(sections, missing, results))
-    (results.path / "report.html").write_text(_page(sections, missing, results))
+    files.write_atomically(markdown, _markdown(sections, missing, results).encode())
+    files.write_atomically(results.path / "report.html", _page(sections, missing, results).encode())
     return markdown
 
 

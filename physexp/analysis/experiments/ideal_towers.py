@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 import json
+from typing import Any
 
 from physexp.agents import checkpointing
 from physexp.analysis.experiments import base, conditions
@@ -27,20 +28,36 @@ def read(results: base.Results) -> dict[str, list[dict]]:
     """By task, the summaries of `towers.curve`.
 
     Raises:
-      ValueError: if they have not been computed.
+      ValueError: if they have not been computed, or a file is damaged.
     """
     found = {}
     for condition in conditions.TOWERS:
         path = _path(results, condition.task)
         if not path.exists():
             raise ValueError(f"{path} is missing; `physexp reproduce ideal_gap` makes it")
-        found[condition.task] = json.loads(path.read_text())
+        found[condition.task] = rows = checkpointing.read_json(path)
+        if not isinstance(rows, list) or not rows or not all(map(_is_summary, rows)):
+            raise ValueError(f"{path} is not what was written; remove it, and `physexp reproduce ideal_gap` makes it")
     return found
+
+
+def _is_summary(row: Any) -> bool:
+    """Whether this is a summary as `towers.curve` gives them, with what figures and claims take from it."""
+    needed = ("resolution", "accuracy", "mean_interactions", "mean_seconds")
+    return isinstance(row, dict) and isinstance(row.get("objective"), str) and (
+        all(type(row.get(name)) in (int, float) for name in needed)
+        and all(row.get(name) is None or type(row[name]) in (int, float) for name in ("value", "bound"))
+    )  # fmt: skip
 
 
 def best(rows: list[dict], objective: str = "return") -> dict:
     """The summary for the observer who sees every bit."""
-    return next(row for row in rows if row["resolution"] == 0 and row["objective"] == objective)
+    for row in rows:
+        if row["resolution"] == 0 and row["objective"] == objective:
+            return row
+    raise ValueError(
+        f"results/ideal has no observer who sees every bit for {objective}; remove it and reproduce ideal_gap"
+    )
 
 
 def lengths_and_accuracies(results: base.Results) -> dict[str, tuple[float, float]]:
