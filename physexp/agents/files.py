@@ -80,7 +80,8 @@ def read_plain(path: Path, most: int) -> bytes:
       OSError, ValueError: as `open_plain`; ValueError also if the file is larger.
     """
     with open_plain(path, "rb") as file:
-        content = file.read(most + 1)
+        size = os.fstat(file.fileno()).st_size
+        content = file.read(min(size, most) + 1)  # No more: so much memory is set aside before anything is read.
     if len(content) > most:
         raise ValueError(
             f"{path} is larger than {most / 1e6:g} MB, which no file of its kind is; put another in its place"

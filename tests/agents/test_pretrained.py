@@ -1,15 +1,19 @@
 """The agents that come with the package."""
 
+import contextlib
+import hashlib
 import json
+import os
 import subprocess
 import sys
 
+from dm_env import specs
 import numpy as np
 import pytest
 import torch
 
 from physexp import agents, suite
-from physexp.agents import core, environment_loop, networks, pretrained
+from physexp.agents import checkpointing, core, environment_loop, networks, pretrained
 
 CARDS = sorted(pretrained.FOLDER.glob("*.json"))
 
@@ -80,6 +84,169 @@ def test_what_is_saved_is_what_is_loaded_to_half_precision(tmp_path):
     expected = pretrained.halved(network).state_dict()
     for name, value in loaded.network.state_dict().items():
         assert value.dtype == expected[name].dtype and torch.equal(value, expected[name]), name
+
+
+@pytest.fixture
+def small():
+    """A small network of a task, and the least that a card says."""
+    observations = {"features": specs.Array((3,), np.float32, "features")}
+    network = networks.RecurrentActorCritic(observations, 4, lstm_units=1, observation_scale=2.0)
+    card = {"domain": "towers", "task": "some", "difficulty": None,
+            "network": {"observations": {"features": ((3,), "float32")}, "num_actions": 4,
+                        "hyperparameters": {"lstm_units": 1, "observation_scale": 2.0}}}  # fmt: skip
+    return network, card
+
+
+def weights_of(network):
+    return {name: value.clone() for name, value in network.state_dict().items()}
+
+
+def is_same(network, weights):
+    return all(torch.equal(value, weights[name].half().float()) for name, value in network.state_dict().items())
+
+
+@pytest.mark.parametrize("path", CARDS, ids=lambda path: path.stem)
+def test_an_agent_that_comes_with_the_package_has_checksums(path):
+    card = card_of(path)
+    assert card["sha256"] == hashlib.sha256(path.with_suffix(".safetensors").read_bytes()).hexdigest()
+    assert pretrained.sealed({**card, "card_sha256": None}) == path.read_bytes()
+
+
+@pytest.mark.parametrize("stop_at", range(4))
+def test_an_agent_that_is_replaced_is_the_old_one_or_the_new_whenever_its_writer_stops(
+    stop_at, small, tmp_path, monkeypatch
+):
+    network, card = small
+    pretrained.save(network, {**card, "seed": 1}, tmp_path)
+    old = weights_of(network)
+    torch.nn.init.uniform_(network.policy.weight)
+    new, replace, done = weights_of(network), os.replace, []
+
+    class Killed(BaseException):
+        pass
+
+    def count(*args, **kwargs):  # Between any two of these calls, nothing else changes in the folder.
+        if len(done) == stop_at:
+            raise Killed
+        done.append(args)
+        return replace(*args, **kwargs)
+
+    monkeypatch.setattr(os, "replace", count)
+    try:
+        pretrained.save(network, {**card, "seed": 2}, tmp_path)
+    except Killed:
+        assert stop_at < 3
+    found = pretrained.load("towers", "some", folder=tmp_path)
+    assert (found.card["seed"], is_same(found.network, old), is_same(found.network, new)) in (
+        [(1, True, False)] if stop_at < 2 else [(2, False, True)]
+    )
+    # The next writer, stopped after its weights, leaves what was there.
+    done.clear()
+    torch.nn.init.uniform_(network.policy.weight)
+    with contextlib.suppress(Killed):
+        pretrained.save(network, {**card, "seed": 3}, tmp_path)
+    again = pretrained.load("towers", "some", folder=tmp_path)
+    if again.card["seed"] == found.card["seed"]:
+        assert is_same(again.network, weights_of(found.network))
+    else:
+        assert again.card["seed"] == 3 and is_same(again.network, weights_of(network))
+    monkeypatch.undo()
+    pretrained.save(network, {**card, "seed": 4}, tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["towers-some.json", "towers-some.safetensors"]
+
+
+def test_weights_of_another_card_are_refused(small, tmp_path):
+    network, card = small
+    pretrained.save(network, card, tmp_path)
+    torch.nn.init.uniform_(network.policy.weight)
+    checkpointing.write_agent(tmp_path / "towers-some.safetensors", network.state_dict())
+    with pytest.raises(ValueError, match=r"towers-some.safetensors is damaged: its checksum differs; put back"):
+        pretrained.load("towers", "some", folder=tmp_path)
+
+
+def test_weights_that_half_precision_does_not_hold_are_not_written(small, tmp_path):
+    network, card = small
+    network.value.weight.data[0, 0] = 1e5  # Finite, but beyond 65 504.
+    with pytest.raises(ValueError, match="not finite in half precision"):
+        pretrained.save(network, card, tmp_path / "agents")
+    assert not (tmp_path / "agents").exists()
+
+
+def test_every_bit_of_a_card_counts(small, tmp_path):
+    network, card = small
+    path = pretrained.save(network, card, tmp_path)
+    content, expected = path.read_bytes(), card_of(path)
+    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    print("seed", seed)
+    for bit in np.random.default_rng(seed).choice(8 * len(content), 1000, replace=False):
+        flipped = bytearray(content)
+        flipped[bit // 8] ^= 1 << bit % 8
+        path.write_bytes(flipped)
+        try:
+            found = pretrained.load("towers", "some", folder=tmp_path)
+        except ValueError as error:
+            assert str(tmp_path) in str(error) and "\n" not in str(error)
+        else:  # A name that nobody knows is as good as none.
+            assert {**found.card, "card_sha256": 0, "sha256": 0}.items() >= {
+                **{name: value for name, value in expected.items() if name in card}, "card_sha256": 0, "sha256": 0
+            }.items()  # fmt: skip
+            assert is_same(found.network, weights_of(network))
+
+
+BAD_CARDS = {
+    "no JSON": "{",
+    "deep JSON": "[" * 100_000,
+    "no object": "[]",
+    "no network": {"network": None},
+    "no hyperparameters": {"network": {"observations": {}, "num_actions": 4}},
+    "a number that is none": {"difficulty": "3"},
+    "another agent": {"task": "other"},
+    "no units": ("lstm_units", 0),
+    "half a unit": ("lstm_units", 0.5),
+    "units without end": ("lstm_units", 10**30),
+    "more units than the weights have": ("lstm_units", 65_536),
+    "units by another name": ("lstm_units", "many"),
+    "an infinite scale": ("observation_scale", 10**400),
+    "a scale that is none": ("observation_scale", [2.0]),
+    "no actions": ("num_actions", -1),
+    "actions without end": ("num_actions", 2**62),
+    "an observation without end": ("observations", {"features": ((2**40, 2**40), "float32")}),
+    "an observation of no type": ("observations", {"features": ((3,), "float33")}),
+    "an observation of no shape": ("observations", {"features": 3}),
+    "a picture that is none": ("observations", {"features": ((3,), "uint8")}),
+    "no observations": ("observations", {}),
+}
+
+
+@pytest.mark.parametrize("case", BAD_CARDS)
+def test_a_card_may_hold_anything_and_what_makes_no_sense_is_one_line(case, small, tmp_path):
+    network, card = small
+    path, change = pretrained.save(network, card, tmp_path), BAD_CARDS[case]
+    if isinstance(change, str):
+        path.write_text(change)
+    else:
+        if isinstance(change, tuple):
+            facts, (name, value) = card["network"], change
+            inner = facts["hyperparameters"]
+            change = {
+                "network": facts | ({"hyperparameters": inner | {name: value}} if name in inner else {name: value})
+            }
+        path.write_bytes(pretrained.sealed({**card_of(path), **change}))
+    with pytest.raises(ValueError, match=f"^{tmp_path}") as refused:
+        pretrained.load("towers", "some", folder=tmp_path)
+    assert "\n" not in str(refused.value) and len(str(refused.value)) < 400
+
+
+@pytest.mark.parametrize("suffix", [".json", ".safetensors"])
+def test_files_of_an_agent_that_are_no_files_are_refused_without_waiting(suffix, small, tmp_path):
+    network, card = small
+    path = pretrained.save(network, card, tmp_path).with_suffix(suffix)
+    for make, kind in ((os.mkfifo, "a pipe"), (os.mkdir, "a folder"), (lambda p: p.symlink_to(p), "a symbolic link")):
+        path.rename(tmp_path / "away") if path.is_file() else None
+        make(path)
+        with pytest.raises(ValueError, match=f"{path.name} is {kind}; put a regular file in its place"):
+            pretrained.load("towers", "some", folder=tmp_path)
+        path.rmdir() if kind == "a folder" else path.unlink()
 
 
 def test_importing_the_agents_package_imports_no_torch():

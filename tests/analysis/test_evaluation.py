@@ -1,6 +1,7 @@
 """Evaluation measures what it says: figures derived by hand, the paper's randomized interaction, and seeds."""
 
 import dataclasses
+import math
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ import torch
 from trainers import fresh_seed
 
 from physexp import suite
+from physexp.agents import pretrained
 from physexp.analysis import evaluation, statistics
 from physexp.analysis import run as run_lib
 
@@ -127,6 +129,42 @@ def test_every_episode_can_be_rebuilt_from_its_seed_number_and_actions(untrained
             timestep = environment.step(int(action))
         assert timestep.last() and timestep.reward == played.rewards[index]
         assert len(played.actions[index]) == played.lengths[index]
+
+
+@pytest.mark.parametrize("base", pretrained.names())
+def test_every_agent_is_found_by_name_and_by_difficulty(base):
+    network, config = evaluation.find_agent(base)
+    for name, difficulty in ((base, config.difficulty), (config.task_name, config.difficulty)):
+        other, other_config = evaluation.find_agent(name, difficulty)
+        assert other_config == config
+        assert all(torch.equal(value, network.state_dict()[key]) for key, value in other.state_dict().items())
+
+
+THERE = "which_is_heavier-features-difficulty10, which_is_heavier-features-difficulty3"
+
+
+@pytest.mark.parametrize(
+    ("target", "difficulty", "message"),
+    [
+        ("which_is_heavier/features", 4, f"no trained agent is named which_is_heavier-features-difficulty4; .*{THERE}"),
+        ("which_is_heavier/features", 3.0000001, "named which_is_heavier-features-difficulty3.0000001; there are: "),
+        ("which_is_heavier/features", math.nan, "named which_is_heavier-features-difficultynan; there are: "),
+        ("towers/fist_features", 3, "named towers-fist_features-difficulty3; there are: "),
+        ("towers-fist_features", 3, "towers-fist_features has no difficulty, and difficulty is 3"),
+        ("which_is_heavier-features-difficulty3", 5, "was trained at difficulty 3, and difficulty is 5"),
+        ("which_is_heavier-features-difficulty4", None, f"holds no run .* or a trained agent: .*{THERE}"),
+    ],
+)
+def test_an_agent_that_there_is_not_is_refused_with_a_list_of_those_there_are(target, difficulty, message):
+    with pytest.raises(ValueError, match=message) as refused:
+        evaluation.find_agent(target, difficulty)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_run_has_the_difficulty_it_was_trained_at(untrained):
+    assert evaluation.find_agent(str(untrained.path), 10)[1] == untrained.config
+    with pytest.raises(ValueError, match="was trained at difficulty 10, and difficulty is 5"):
+        evaluation.find_agent(str(untrained.path), 5)
 
 
 def test_whole_rounds_are_played_until_there_are_enough_steps(untrained):

@@ -2,9 +2,12 @@
 
 import dataclasses
 import json
+import math
 import shlex
+import shutil
 
 import pytest
+from safetensors import torch as safetensors
 import torch
 import trainers
 
@@ -77,6 +80,88 @@ def test_what_the_card_evaluates_is_what_is_loaded(published):
     agent = pretrained.load("which_is_heavier", "features", 10, folder=path.parent)
     again = evaluation.play(agent.network, run.config, 200).summary(run.config.agent.discount)
     assert json.loads(json.dumps(again)) == agent.card["evaluation"]["drawn"]
+
+
+def copy_of(run, path):
+    shutil.copytree(run.path, path)
+    return run_lib.Run(path)
+
+
+HEADER = ",".join(run_lib.METRICS) + "\n"
+
+
+@pytest.mark.parametrize("metrics", [None, "", HEADER, HEADER[:20], HEADER + "12,3", HEADER + "nan" + ",nan" * 20,
+                                     "frames,seconds\n-1,2\n", "noise\n\0\n"])  # fmt: skip
+def test_a_run_whose_metrics_say_too_little_is_refused_in_one_line(metrics, published, tmp_path):
+    run = copy_of(published[0], tmp_path / "run")
+    (run.path / "metrics.csv").unlink() if metrics is None else (run.path / "metrics.csv").write_text(metrics)
+    with pytest.raises(ValueError, match=f"^{run.path / 'metrics.csv'} ") as refused:
+        publishing.publish(run, tmp_path / "agents", num_episodes=1)
+    assert "\n" not in str(refused.value)
+    assert not (tmp_path / "agents").exists()
+
+
+def test_a_run_of_another_format_is_not_published(published, tmp_path):
+    run = copy_of(published[0], tmp_path / "run")
+    (run.path / "config.json").write_text(json.dumps({**run.facts, "format": 99}))
+    with pytest.raises(ValueError, match="has format 99; this version reads format 1"):
+        publishing.publish(run, tmp_path / "agents", num_episodes=1)
+
+
+@pytest.mark.parametrize("worst", [math.nan, math.inf])
+def test_weights_that_are_not_finite_are_refused_wherever_they_are_read(worst, published, tmp_path):
+    run = copy_of(published[0], tmp_path / "run")
+    tensors, facts = run.checkpointer.latest()
+    tensors["network/policy.bias"][0] = worst
+    path = run.checkpointer.save(tensors, facts)
+    for use in (
+        lambda: evaluation.find_agent(str(run.path)),
+        lambda: publishing.publish(run, tmp_path / "agents", num_episodes=1),
+        lambda: training.train(run),
+    ):
+        with pytest.raises(ValueError, match=f"^{path}: .*not finite in .*policy.bias") as refused:
+            use()
+        assert "\n" not in str(refused.value)
+    assert not (tmp_path / "agents").exists()
+
+
+@pytest.mark.parametrize("facts", [{}, {"episodes": -1}, {"episodes": 1.5}, {"episodes": True}, {"episodes": 2**63},
+                                   {"seconds": -1.0}, {"seconds": "1"}, {"seconds": 1e999}, {"task": ["\n"]}])  # fmt: skip
+def test_facts_that_make_no_sense_stop_a_run_from_being_resumed(facts, published, tmp_path):
+    run = copy_of(published[0], tmp_path / "run")
+    tensors, good = run.checkpointer.latest()
+    path = run.checkpointer.save(tensors, {**good, **facts} if facts else {})
+    metrics = (run.path / "metrics.csv").read_bytes()
+    with pytest.raises(ValueError, match=str(tmp_path)) as refused:
+        training.train(run)
+    assert path.name in str(refused.value) and "\n" not in str(refused.value)
+    assert (run.path / "metrics.csv").read_bytes() == metrics
+
+
+def test_an_agent_kept_alone_that_is_damaged_is_refused_by_its_file(published, tmp_path):
+    run = copy_of(published[0], tmp_path / "run")
+    run.keep_agent_only()
+    assert evaluation.find_agent(str(run.path))
+    content = run.agent_path.read_bytes()
+    for damaged in (content[:-1], b"", content[:-1] + bytes([content[-1] ^ 1])):
+        run.agent_path.write_bytes(damaged)
+        with pytest.raises(ValueError, match=f"^{run.agent_path} is damaged: .*; put back the agent's own$"):
+            evaluation.find_agent(str(run.path))
+    weights = evaluation.load_network(published[0]).half().state_dict()
+    weights["policy.bias"][1] = math.inf
+    run.agent_path.write_bytes(safetensors.save(weights))  # As files were before they had checksums.
+    with pytest.raises(ValueError, match=f"^{run.agent_path} holds numbers that are not finite in policy.bias"):
+        evaluation.find_agent(str(run.path))
+
+
+def test_a_configuration_of_a_larger_network_than_the_weights_have_is_refused_before_it_is_made(published, tmp_path):
+    run = copy_of(published[0], tmp_path / "run")
+    run.keep_agent_only()
+    fields = run.facts
+    fields["train"]["agent"]["lstm_units"] = 65_536  # Would take 70 GB.
+    (run.path / "config.json").write_text(json.dumps(fields))
+    with pytest.raises(ValueError, match=f"^{run.agent_path} does not fit the configuration"):
+        evaluation.find_agent(str(run.path))
 
 
 def test_a_run_names_its_commit_and_what_draws_its_images(tmp_path):
