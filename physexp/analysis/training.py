@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 import functools
-import math
 import os
 import signal
 import threading
@@ -188,7 +187,7 @@ class _Recorder:
             )
         if type(episodes) is not int or not 0 <= episodes < 2**63:
             raise ValueError("the checkpoint's `episodes` is no count; put back the run's own")
-        if type(seconds) not in (int, float) or not 0 <= seconds < math.inf:
+        if type(seconds) not in (int, float) or not 0 <= seconds < 2**63:
             raise ValueError("the checkpoint's `seconds` is no duration; put back the run's own")
 
     def add(self, update: agent_lib.Update) -> None:
