@@ -37,7 +37,15 @@ class Pretrained:
 
 def name(domain: str, task: str, difficulty: float | None) -> str:
     """The name of an agent's files."""
-    return f"{domain}-{task}" + ("" if difficulty is None else f"-difficulty{difficulty:g}")
+    if difficulty is None:
+        return f"{domain}-{task}"
+    short = f"{difficulty:g}"
+    return f"{domain}-{task}-difficulty{short if float(short) == difficulty else repr(difficulty)}"
+
+
+def names(folder: Path = FOLDER) -> list[str]:
+    """The names of the agents in a folder."""
+    return sorted(card.stem for card in folder.glob("*.json"))
 
 
 def load(domain: str, task: str, difficulty: float | None = None, folder: Path = FOLDER) -> Pretrained:
@@ -52,11 +60,11 @@ def load(domain: str, task: str, difficulty: float | None = None, folder: Path =
       ValueError: where there is no such agent; it lists those that there are.
     """
     base = name(domain, task, difficulty)
-    if difficulty is None and not (folder / f"{base}.json").exists():
+    there = names(folder)
+    if difficulty is None and base not in there:
         base = name(domain, task, _DEFAULT_DIFFICULTY)
-    if not (folder / f"{base}.json").exists():
-        known = ", ".join(sorted(card.stem for card in folder.glob("*.json")))
-        raise ValueError(f"no trained agent is named {name(domain, task, difficulty)}; there are: {known}")
+    if base not in there:
+        raise ValueError(f"no trained agent is named {name(domain, task, difficulty)}; there are: {', '.join(there)}")
     card = json.loads((folder / f"{base}.json").read_text())
     observation_spec = {
         key: specs.Array(tuple(shape), np.dtype(dtype), key)

@@ -101,21 +101,40 @@ def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
     return network.eval()
 
 
-def find_agent(target: str) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
+def find_agent(target: str, difficulty: float | None = None
+               ) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:  # fmt: skip
     """A trained agent's network, and what it plays.
 
     Args:
-      target: the folder of a run, or `domain/task` for the agent that comes with the package.
+      target: the folder of a run, or an agent that comes with the package: `domain/task`, or the name of its files.
+      difficulty: what the agent is to be trained at; by default that of the folder or name, or else the task's.
 
     Raises:
-      ValueError: if it is neither.
+      ValueError: if there is no such agent, or none of that difficulty; it lists those that come with the package.
     """
-    domain, _, task = target.partition("/")
-    if (domain, task) in suite.ALL_TASKS and not Path(target).exists():
-        agent = pretrained.load(domain, task)
-        return agent.network, config_of(agent)
+    if not Path(target).exists():
+        domain, _, task = target.partition("/")
+        if (domain, task) in suite.ALL_TASKS:
+            return _with_config(pretrained.load(domain, task, difficulty))
+        if target in pretrained.names():
+            agent = pretrained.load_named(target)
+            _check_difficulty(target, agent.card["difficulty"], difficulty)
+            return _with_config(agent)
+        raise ValueError(f"{target} holds no run (no config.json); give the folder of a run or a trained agent: "
+                         f"{', '.join(pretrained.names())}")  # fmt: skip
     run = run_lib.Run(Path(target))
+    _check_difficulty(target, run.config.difficulty, difficulty)
     return load_network(run), run.config
+
+
+def _check_difficulty(target: str, trained_at: float | None, wanted: float | None) -> None:
+    if wanted is not None and wanted != trained_at:
+        what = "has no difficulty" if trained_at is None else f"was trained at difficulty {trained_at:g}"
+        raise ValueError(f"{target} {what}, and difficulty is {wanted}; leave that out, or name another agent")
+
+
+def _with_config(agent: pretrained.Pretrained) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
+    return agent.network, config_of(agent)
 
 
 def config_of(agent: pretrained.Pretrained) -> config_lib.TrainConfig:
