@@ -1,8 +1,8 @@
 # Installs physexp into .venv, and runs what the project is for, and its tests, from there. Each target installs what it
 # needs, and no more.
 
-# The first of these that is 3.11 or newer and can make a virtual environment makes .venv.
-PYTHON ?= python3.11 python3
+# The first of these that is 3.11 or 3.12 and can make a virtual environment makes .venv.
+PYTHON ?= python3.11 python3.12 python3
 
 BIN = .venv/bin
 PYTEST = OMP_NUM_THREADS=1 $(BIN)/python -m pytest
@@ -56,8 +56,8 @@ clean: ## Remove .venv, builds and caches; runs stay.
 
 $(BIN)/python:
 	@for python in $(PYTHON); do \
-	    if $$python -c 'import ensurepip, sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then \
+	    if $$python -c 'import ensurepip, sys; sys.exit(not (3, 11) <= sys.version_info < (3, 13))' 2>/dev/null; then \
 	        echo "$$python -m venv .venv"; exec $$python -m venv .venv; \
 	    fi; \
 	done; \
-	echo "No usable Python 3.11 or newer among: $(PYTHON). On Debian: apt-get install python3-venv" >&2; exit 1
+	echo "No usable Python 3.11 or 3.12 among: $(PYTHON). On Debian: apt-get install python3-venv" >&2; exit 1

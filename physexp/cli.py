@@ -510,8 +510,8 @@ def _problem(event: tyro_errors.ParseErrorEvent, command: str, arguments: list[s
             options = [token for token in tokens if token.startswith("-")]
             if not options:
                 return f"{command} does not take {tokens[0]!r}"
-            close = difflib.get_close_matches(options[0].partition("=")[0], _options(command), n=2)
-            perhaps = f"; perhaps {' or '.join(close)}" if close else ""
+            close = difflib.get_close_matches(options[0].strip("-").partition("=")[0], _options(command), n=2)
+            perhaps = f"; perhaps {' or '.join(f'--{name}' for name in close)}" if close else ""
             return f"{options[0]} is not an option of {command}{perhaps}"
         case tyro_errors.MissingSubcommand():
             return f"give a command: {', '.join(_COMMANDS)}"
@@ -535,11 +535,11 @@ def _name(argument) -> str:
 
 
 def _options(command: str) -> list[str]:
-    """The options of a command."""
+    """The options of a command, without their dashes."""
     names = [field.name for field in dataclasses.fields(_COMMANDS[command])]
     if command == "train":
         names += {field.name: None for kind in config_lib.ALGORITHMS.values() for field in dataclasses.fields(kind)}
-    return [f"--{name.replace('_', '-')}" for name in names]
+    return [name.replace("_", "-") for name in names]
 
 
 def _value(flag: str, arguments: list[str]) -> str:

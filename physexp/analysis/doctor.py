@@ -15,7 +15,7 @@ OK, MISSING, BROKEN = "ok", "missing", "broken"
 """Verdicts: fine; something that some commands or some speed need; the environments themselves do not work."""
 
 _CORE = ("numpy", "scipy", "mujoco", "dm_control", "torch", "pyarrow", "rerun")
-_PYTHON = ((3, 11), (3, 13))  # The first and the last that are tested.
+_PYTHON = ((3, 11), (3, 12))  # The first and the last that are tested.
 _MEMORY = 2.0  # GiB: what two workers that train from pixels take, with room to spare.
 _DISK = 1.0  # GiB: a run from pixels with its replays takes a tenth of it.
 

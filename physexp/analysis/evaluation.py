@@ -166,7 +166,7 @@ def play(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig,
       num_threads: threads that simulate.
       device: where convolutions are computed, as in `A3CConfig`.
       num_steps: go on, in rounds of whole episodes, until there are so many environment steps.
-      report: called with the number of episodes played so far.
+      report: called after each round with how many of the episodes are played.
 
     Raises:
       ValueError: for an unknown interaction or a number of episodes below one.
@@ -190,7 +190,7 @@ def play(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig,
         rounds.append(Episodes.of_round(episodes, environment, number))
         episodes_left, steps_left = episodes_left - len(episodes.lengths), steps_left - episodes.num_frames
         if report is not None:
-            report(num_episodes - episodes_left)
+            report(num_episodes - max(0, episodes_left))
     environment.close()
     joined = Episodes.joined(rounds)
     return joined if num_steps else joined.first(num_episodes)
