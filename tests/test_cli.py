@@ -132,7 +132,7 @@ def test_tasks_lists_every_task_with_its_numbers_question_and_observations(run):
 
 def test_tasks_prints_each_question_and_a_line_for_each_task(run):
     lines = run("tasks").stdout.splitlines()
-    assert "towers: Of how many rigid bodies is the tower made?" in lines
+    assert "towers: How many rigid bodies is the tower made of?" in lines
     (fist,) = [line for line in lines if line.startswith("fist_features")]
     assert " ".join(fist.split()) == "fist_features 4 5 26 positions float32 [5, 3], fist_position float32 [3]"
 

@@ -123,7 +123,7 @@ class QuestionTask(composer.Task):
 
     # What a subclass defines.
 
-    question = ""
+    question = "Which answer is right?"
     """What is asked, in words."""
 
     num_structures = 1
