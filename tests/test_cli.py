@@ -328,6 +328,7 @@ def test_evaluate_finds_the_agents_of_each_difficulty(run):
     assert returns[0] + 0.02 < returns[1]
     assert_refused(run("evaluate", "which_is_heavier/features", "--difficulty", 4), "4")
     assert_refused(run("evaluate", "towers/fist_features", "--difficulty", 3), "difficulty")
+    assert_refused(run("replay", "which_is_heavier/features", "--difficulty", 4), "4")
 
 
 def test_a_bar_moves_on_a_terminal_and_nothing_is_shown_elsewhere(tmp_path, monkeypatch):

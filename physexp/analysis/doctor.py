@@ -16,8 +16,8 @@ OK, MISSING, BROKEN = "ok", "missing", "broken"
 
 _CORE = ("numpy", "scipy", "mujoco", "dm_control", "torch", "pyarrow", "rerun")
 _PYTHON = ((3, 11), (3, 12))  # The first and the last that are tested.
-_MEMORY = 2.0  # GiB: what two workers that train from pixels take, with room to spare.
-_DISK = 1.0  # GiB: a run from pixels with its replays takes a tenth of it.
+_MEMORY = 2.0  # GiB: two workers that train the towers from pixels take 1.2.
+_DISK = 1.0  # GiB: a run from pixels takes some hundredths of it, its replays more.
 
 
 def examine() -> dict:
