@@ -1,6 +1,11 @@
-"""The command line as a user runs it."""
+"""The command line as a user runs it.
 
+Most of it runs in this process, through the entry point: a process of its own would import torch and MuJoCo anew.
+"""
+
+import dataclasses
 import json
+import os
 from pathlib import Path
 import resource
 import subprocess
@@ -8,14 +13,43 @@ import sys
 
 import pytest
 
-from physexp import suite
+import physexp as package
+from physexp import cli, extras, suite
+from physexp.analysis import doctor, evaluation, progress
 
 PHYSEXP = Path(sys.executable).with_name("physexp")
 
 
-def physexp(*arguments, cwd=None):
-    """Runs the command; returns the finished process."""
-    return subprocess.run([PHYSEXP, *map(str, arguments)], capture_output=True, text=True, timeout=120, cwd=cwd)
+def physexp(*arguments):
+    """Runs the command in a process of its own; returns it, finished."""
+    return subprocess.run([PHYSEXP, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+
+
+@dataclasses.dataclass
+class Done:
+    """What a command has left."""
+
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+@pytest.fixture
+def run(monkeypatch, capsys, tmp_path):
+    """A function that runs the command with some arguments, in this process and an empty folder."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*arguments):
+        monkeypatch.setattr(sys, "argv", ["physexp", *map(str, arguments)])
+        capsys.readouterr()
+        try:
+            cli.main()
+            status = 0
+        except SystemExit as error:
+            status = error.code or 0
+        return Done(status, *capsys.readouterr())
+
+    return run
 
 
 def assert_refused(done, *words):
@@ -38,7 +72,7 @@ def test_help_answers_in_under_half_a_second(arguments):
 
     # Processor time, the best of five: it waits for nothing, so on an idle machine this is what the clock shows; the
     # clock itself would measure what else is running, here the other tests.
-    assert min(seconds() for _ in range(5)) < 0.5
+    assert any(seconds() < 0.5 for _ in range(5))
 
 
 def test_help_lists_the_commands_and_train_help_the_configuration():
@@ -62,22 +96,95 @@ def test_help_imports_nothing_heavy():
     assert done.stdout.splitlines()[-1] == "[]"
 
 
-def test_tasks_lists_every_task_with_its_numbers():
-    rows = json.loads(physexp("tasks", "--json").stdout)
+@pytest.mark.parametrize("command", ["train", "evaluate", "replay", "play", "ideal"])
+def test_help_says_that_a_larger_difficulty_is_easier(run, command):
+    assert "the larger the easier" in " ".join(run(command, "--help").stdout.replace("│", "").split())
+
+
+@pytest.mark.parametrize(
+    ("command", "names"),
+    [("train", "DOMAIN TASK"), ("play", "DOMAIN TASK"), ("evaluate", "AGENT"), ("reproduce", "EXPERIMENT")],
+)
+def test_help_names_the_values_that_a_command_takes(run, command, names):
+    usage = run(command, "--help").stdout.splitlines()[0]
+    assert f" {names}" in usage and "STR" not in usage
+
+
+def test_the_version_is_the_packages(run):
+    assert run("--version") == Done(0, f"physexp {package.__version__}\n", "")
+
+
+def test_tasks_lists_every_task_with_its_numbers_question_and_observations(run):
+    rows = json.loads(run("tasks", "--json").stdout)
     assert [(row["domain"], row["task"]) for row in rows] == [tuple(names) for names in suite.ALL_TASKS]
-    numbers = {(row["domain"], row["task"]): (row["interactions"], row["labels"], row["step_limit"]) for row in rows}
-    # DESIGN.md: 4 pokes and 4 labels, 100 steps; 20 (direct) or 4 (fist) actions and 5 labels, 2.6 s of 0.1 s steps.
+    by_name = {(row["domain"], row["task"]): row for row in rows}
+    numbers = {name: (row["interactions"], row["labels"], row["step_limit"]) for name, row in by_name.items()}
+    # The README: 4 pokes and 4 labels, 100 steps; 20 (direct) or 4 (fist) actions and 5 labels, 2.6 s of 0.1 s steps.
     assert numbers["which_is_heavier", "features"] == (4, 4, 100)
     assert numbers["towers", "direct_features"] == (20, 5, 26)
     assert numbers["towers", "fist_features"] == (4, 5, 26)
+    for (domain, task), row in by_name.items():
+        spec = suite.load(domain, task).observation_spec()
+        assert row["observations"] == {name: {"shape": list(array.shape), "dtype": str(array.dtype)}
+                                       for name, array in spec.items()}  # fmt: skip
+        assert row["question"].endswith("?")
 
 
-def test_doctor_names_versions_renderer_threads_and_gpu():
-    done = physexp("doctor", "--json")
+def test_tasks_prints_each_question_and_a_line_for_each_task(run):
+    lines = run("tasks").stdout.splitlines()
+    assert "towers: How many rigid bodies is the tower made of?" in lines
+    (fist,) = [line for line in lines if line.startswith("fist_features")]
+    assert " ".join(fist.split()) == "fist_features 4 5 26 positions float32 [5, 3], fist_position float32 [3]"
+
+
+def test_a_table_in_a_pipe_has_a_line_for_each_row_however_long(capsys):
+    rows = [{"name": "a", "text": "x" * 500}, {"name": "[b]", "text": "two words"}]
+    cli._show_rows(rows, as_json=False)
+    assert capsys.readouterr().out == f"name  text\na     {'x' * 500}\n[b]   two words\n"
+
+
+def test_doctor_names_versions_renderer_threads_and_gpu(run):
+    done = run("doctor", "--json")
     assert done.returncode == 0, done.stderr
     facts = json.loads(done.stdout)
-    for name in ("python", "mujoco", "torch", "processors", "gpu", "gl_backend", "gl_renderer"):
+    for name in ("python", "physexp", "mujoco", "dm-control", "torch", "numpy", "machine", "processors",
+                 "torch_threads", "omp_num_threads", "gpu", "gl_backend", "gl_renderer"):  # fmt: skip
         assert facts[name], name
+    for check in facts["checks"]:
+        assert bool(check["advice"]) == (check["verdict"] != doctor.OK), check
+
+
+def verdicts(run):
+    """The exit status of `doctor`, and its checks by name."""
+    done = run("doctor", "--json")
+    return done.returncode, {check["check"]: check for check in json.loads(done.stdout)["checks"]}
+
+
+def test_doctor_says_which_extra_is_missing_and_how_to_install_it(run, monkeypatch):
+    monkeypatch.setitem(sys.modules, "tensorboard", None)  # Cannot be imported, nor found.
+    status, checks = verdicts(run)
+    assert status == 0
+    assert checks["extra tensorboard"] == {"check": "extra tensorboard", "verdict": "missing",
+                                           "found": "without tensorboard",
+                                           "advice": "pip install 'physexp[tensorboard]'"}  # fmt: skip
+    assert checks["extra figures"]["verdict"] == "ok"
+
+
+def test_doctor_looks_for_a_display_and_counts_threads(run, monkeypatch):
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    found = {}
+    for display, threads in (("", "1"), (":7", "100000")):
+        monkeypatch.setenv("DISPLAY", display)
+        monkeypatch.setenv("OMP_NUM_THREADS", threads)
+        checks = verdicts(run)[1]
+        found[display] = [checks[name]["verdict"] for name in ("display", "OMP_NUM_THREADS")]
+    assert found == {"": ["missing", "ok"], ":7": ["ok", "missing"]}
+
+
+def test_doctor_ends_with_status_1_only_if_the_core_is_broken(run, monkeypatch):
+    monkeypatch.setitem(sys.modules, "rerun", None)
+    status, checks = verdicts(run)
+    assert status == 1 and checks["import rerun"]["verdict"] == "broken"
 
 
 @pytest.mark.parametrize(
@@ -86,55 +193,114 @@ def test_doctor_names_versions_renderer_threads_and_gpu():
         (["train", "which_is_heaviest", "features"], ["which_is_heaviest", "which_is_heavier", "towers"]),
         (["train", "towers", "feet"], ["feet", "fist_features", "direct_features"]),
         (["train", "which_is_heavier", "features", "--difficulty", "0.5"], ["0.5", "difficulty"]),
-        (["train", "towers", "fist_features", "--difficulty", "3"], ["difficulty"]),
+        (["train", "towers", "fist_features", "--difficulty", "3"], ["--difficulty is not an option of towers"]),
         (["train", "towers", "fist_features", "--control-timestep", "0.0123"], ["0.0123"]),
+        (["play", "towers", "fist_features", "--difficulty", "3"], ["--difficulty is not an option of towers"]),
+        (["ideal", "towers", "--difficulty", "3"], ["--difficulty is not an option of ideal towers"]),
+        (["ideal", "towers", "--blocks", "3"], ["--blocks is not an option of ideal towers"]),
+        (["ideal", "which_is_heavier", "--task", "features"], ["--task is not an option of ideal which_is_heavier"]),
+        (["ideal", "which_is_heavier", "--resolution", "0"], ["--resolution is not an option"]),
+        (["ideal", "towers", "--task", "feet"], ["task is 'feet'", "fist_features", "direct_features"]),
         (["evaluate", "no/such/run"], ["no/such/run", "holds no run"]),
         (["train", "which_is_heavier", "features", "--resume", "--run-dir", "no/such/run"], ["holds no run"]),
     ],
 )
-def test_what_cannot_be_done_is_refused_in_one_line(arguments, words, tmp_path):
-    assert_refused(physexp(*arguments, cwd=tmp_path), *words)
-    assert not (tmp_path / "runs").exists(), "a refused run leaves no folder"
+def test_what_cannot_be_done_is_refused_in_one_line(run, arguments, words):
+    assert_refused(run(*arguments), *words)
+    assert not os.listdir(), "a refused run leaves no folder"
 
 
-@pytest.mark.parametrize(("option", "value"), [("--discount", "2"), ("--num-workers", "0"), ("--learning-rate", "nan")])
-def test_a_bad_value_of_the_agents_is_refused_without_a_traceback(option, value, tmp_path):
-    done = physexp("train", "which_is_heavier", "features", option, value, cwd=tmp_path)
-    assert done.returncode == 2
-    assert "Traceback" not in done.stderr
-    assert value in done.stderr + done.stdout
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        ([], f"give a command: {', '.join(cli._COMMANDS)}; see physexp --help"),
+        (["fly"], f"'fly' is no command; choose from {', '.join(cli._COMMANDS)}; see physexp --help"),
+        (["train"], "train needs DOMAIN TASK; see physexp train --help"),
+        (["train", "towers"], "train needs TASK; see physexp train --help"),
+        (["evaluate", "a", "b"], "evaluate does not take 'b'; see physexp evaluate --help"),
+        (["evaluate", "a", "--sed=3"],
+         "--sed=3 is not an option of evaluate; perhaps --seed; see physexp evaluate --help"),
+        (["train", "towers", "fist_features", "--clop", "1", "--agent", "ppo"],
+         "--clop is not an option of train; perhaps --clip; see physexp train --help"),
+        (["train", "towers", "fist_features", "--ZZ", "1"], "--ZZ is not an option of train; see physexp train --help"),
+        (["evaluate", "a", "--episodes", "many"], "--episodes is 'many'; give INT; see physexp evaluate --help"),
+        (["ideal", "towers", "--discount=low"], "--discount is 'low'; give FLOAT; see physexp ideal --help"),
+        (["train", "towers", "fist_features", "--max_staleness", "x"],
+         "--max-staleness is 'x'; give INT; see physexp train --help"),
+        (["evaluate", "a", "--seed"], "--seed needs a value: INT; see physexp evaluate --help"),
+        (["evaluate", "a", "--interaction", "x"],
+         "--interaction is 'x'; choose from learned, random; see physexp evaluate --help"),
+        (["train", "towers", "fist_features", "--discount", "2"],
+         "discount is 2.0; give a number in (0, 1]; see physexp train --help"),
+        (["train", "towers", "fist_features", "--num-workers", "0"],
+         "num_workers is 0; give an integer >= 1 and <= 10000; see physexp train --help"),
+        (["train", "towers", "fist_features", "--learning-rate", "nan"],
+         "learning_rate is nan; give a finite number > 0; see physexp train --help"),
+    ],
+)  # fmt: skip
+def test_a_mistyped_command_line_is_one_line_that_says_what_was_given_and_what_is_allowed(run, arguments, line):
+    done = run(*arguments)
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"physexp: {line}\n")
 
 
-def test_an_unknown_option_is_refused_by_name(tmp_path):
-    done = physexp("train", "towers", "fist_features", "--speed", "3", cwd=tmp_path)
-    assert done.returncode == 2 and "--speed" in done.stderr and "Traceback" not in done.stderr
+@pytest.mark.parametrize(
+    ("arguments", "without", "line"),
+    [
+        (["reproduce", "learning_heavier"], ["pandas"], "pandas is not installed; pip install 'physexp[analysis]'"),
+        (["reproduce", "all", "--cluster", "local"], ["ray"], "ray is not installed; pip install 'physexp[ray]'"),
+        (["report"], ["matplotlib"], "matplotlib is not installed; pip install 'physexp[figures]'"),
+        (["demo"], ["matplotlib"], "matplotlib is not installed; pip install 'physexp[figures]'"),
+        (["bench"], ["gymnasium", "ray"], "gymnasium and ray are not installed; pip install 'physexp[gymnasium,ray]'"),
+        (["bench", "peers"], ["stable_baselines3", "sb3_contrib"],
+         "stable_baselines3 and sb3_contrib are not installed; pip install 'physexp[sb3]'"),
+        (["bench", "learning"], ["pandas"], "pandas is not installed; pip install 'physexp[analysis]'"),
+    ],
+)  # fmt: skip
+def test_a_missing_extra_is_named_before_any_work(run, monkeypatch, arguments, without, line):
+    for module in without:
+        monkeypatch.setitem(sys.modules, module, None)  # Cannot be imported, nor found.
+    done = run(*arguments)
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", f"physexp: {line}\n")
+    assert not os.listdir()
 
 
-def test_a_folder_that_holds_a_run_is_not_overwritten(untrained):
+def test_the_adapters_name_the_extra_that_they_need(monkeypatch):
+    for adapter, library, extra in (
+        ("gymnasium", "gymnasium", "gymnasium"),
+        ("stable_baselines", "stable_baselines3", "sb3"),
+    ):
+        with monkeypatch.context() as context:
+            context.delitem(sys.modules, f"physexp.suite.{adapter}", raising=False)
+            context.setitem(sys.modules, library, None)
+            with pytest.raises(extras.MissingExtraError, match=rf"pip install 'physexp\[{extra}\]'"):
+                __import__(f"physexp.suite.{adapter}")
+
+
+def test_a_folder_that_holds_a_run_is_not_overwritten(run, untrained):
     before = (untrained.path / "config.json").read_bytes()
-    done = physexp("train", "which_is_heavier", "features", "--run-dir", untrained.path)
+    done = run("train", "which_is_heavier", "features", "--run-dir", untrained.path)
     assert_refused(done, str(untrained.path), "--resume")
     assert (untrained.path / "config.json").read_bytes() == before
 
 
-def test_a_run_is_not_resumed_as_another_task(untrained):
-    done = physexp("train", "towers", "fist_features", "--run-dir", untrained.path, "--resume")
+def test_a_run_is_not_resumed_as_another_task(run, untrained):
+    done = run("train", "towers", "fist_features", "--run-dir", untrained.path, "--resume")
     assert_refused(done, "which_is_heavier/features")
 
 
-def test_a_second_trainer_in_the_same_folder_is_refused(untrained):
+def test_a_second_trainer_in_the_same_folder_is_refused(run, untrained):
     untrained.lock()  # As a trainer does: this process is the first one.
     try:
-        done = physexp("train", "which_is_heavier", "features", "--run-dir", untrained.path, "--resume")
+        done = run("train", "which_is_heavier", "features", "--run-dir", untrained.path, "--resume")
         assert_refused(done, str(untrained.path), "another process is training")
     finally:
         untrained.unlock()
 
 
-def test_evaluate_prints_exactly_its_figures_as_json(untrained):
+def test_evaluate_prints_exactly_its_figures_as_json(run, untrained):
     outputs = []
     for extra in ([], [], ["--interaction", "random"], ["--greedy"]):
-        done = physexp("evaluate", untrained.path, "--episodes", 40, "--json", *extra)
+        done = run("evaluate", untrained.path, "--episodes", 40, "--json", *extra)
         assert done.returncode == 0, done.stderr
         figures = json.loads(done.stdout)
         assert set(figures) == {"episodes", "success_rate", "success_interval", "mean_return", "mean_interactions",
@@ -147,12 +313,41 @@ def test_evaluate_prints_exactly_its_figures_as_json(untrained):
     assert outputs[0] != outputs[2], "randomized interaction is something else"
 
 
-def test_evaluate_without_json_prints_the_same_names(untrained):
-    lines = physexp("evaluate", untrained.path, "--episodes", 20).stdout.splitlines()
+def test_evaluate_without_json_prints_the_same_names(run, untrained):
+    lines = run("evaluate", untrained.path, "--episodes", 20).stdout.splitlines()
     assert [line.split()[0] for line in lines] == [
         "episodes", "success_rate", "success_interval", "mean_return", "mean_interactions", "median_interactions",
         "timeouts",
     ]  # fmt: skip
+
+
+def test_evaluate_finds_the_agents_of_each_difficulty(run):
+    returns = [json.loads(run("evaluate", "which_is_heavier/features", "--difficulty", difficulty, "--episodes", 200,
+                              "--json").stdout)["mean_return"] for difficulty in (3, 10)]  # fmt: skip
+    # The cards of the two: 0.80 and 0.87; the means of 200 returns of standard deviation 0.3 are off by 0.02.
+    assert returns[0] + 0.02 < returns[1]
+    assert_refused(run("evaluate", "which_is_heavier/features", "--difficulty", 4), "4")
+    assert_refused(run("evaluate", "towers/fist_features", "--difficulty", 3), "difficulty")
+    assert_refused(run("replay", "which_is_heavier/features", "--difficulty", 4), "4")
+
+
+def test_a_bar_moves_on_a_terminal_and_nothing_is_shown_elsewhere(tmp_path, monkeypatch):
+    monkeypatch.setenv("TERM", "xterm")
+    leader, follower = os.openpty()
+    with open(follower, "w") as terminal, progress.bar("episodes", 300, terminal) as show:
+        show(256)
+    shown = os.read(leader, 10_000).decode()
+    os.close(leader)
+    assert "episodes" in shown and "256/300" in shown
+    with open(tmp_path / "log", "w") as file, progress.bar("episodes", 300, file) as show:
+        show(256)
+    assert (tmp_path / "log").read_text() == ""
+
+
+def test_an_evaluation_tells_how_many_episodes_are_played(untrained):
+    told = []
+    evaluation.play(evaluation.load_network(untrained), untrained.config, 300, report=told.append)
+    assert told == [256, 300]  # A round is 256 episodes.
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["tasks"]])

@@ -1,7 +1,9 @@
-"""What a user gets who installs a wheel instead of a checkout."""
+"""What a user gets who installs a wheel, or from a repository's address, instead of a checkout."""
 
+import ast
 import importlib.metadata
 from pathlib import Path
+import re
 import shutil
 import subprocess
 import sys
@@ -11,6 +13,9 @@ import zipfile
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 import pytest
+
+import physexp
+from physexp import extras
 
 ROOT = Path(__file__).parents[1]
 
@@ -121,3 +126,96 @@ def test_every_requirement_has_a_pin_that_it_allows(distribution):
     for requirement in requirements:
         if requirement.name != "physexp":  # An extra that includes another.
             assert pins[canonicalize_name(requirement.name)] in requirement.specifier
+
+
+def test_an_installation_from_a_repositorys_address_is_the_wheels(source, wheel, tmp_path):
+    repository = Path(shutil.copytree(source, tmp_path / "repository"))
+    git = ["git", "-C", repository, "-c", "user.name=A", "-c", "user.email=a@localhost"]
+    for command in (["init", "--quiet"], ["add", "."], ["commit", "--quiet", "--message", "All"]):
+        subprocess.run([*git, *command], check=True)
+    folder = tmp_path / "installed"
+    run_pip("install", "--no-deps", "--no-build-isolation", "--target", folder, f"git+file://{repository}")
+    names = {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
+    in_wheel = {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name}
+    assert in_wheel <= names
+
+
+def closure(distribution, extra=""):
+    """The names of what is installed with physexp and an extra, directly or by way of something else."""
+    found, todo = set(), [Requirement(f"physexp[{extra}]" if extra else "physexp")]
+    while todo:
+        wanted = todo.pop()
+        name = canonicalize_name(wanted.name)
+        for chosen in wanted.extras or {""}:
+            if (name, chosen) in found:
+                continue
+            found.add((name, chosen))
+            if name == "physexp":
+                lines = distribution.requires
+            else:
+                try:
+                    lines = importlib.metadata.requires(name) or []
+                except importlib.metadata.PackageNotFoundError:  # Wanted on some other system only.
+                    lines = []
+            needed = map(Requirement, lines)
+            todo += [line for line in needed if line.marker is None or line.marker.evaluate({"extra": chosen})]
+            if chosen:
+                todo.append(Requirement(name))
+    return {name for name, _ in found}
+
+
+def imported():
+    """The names of all top-level modules that the package imports, wherever it does."""
+    for path in (ROOT / "physexp").rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.Import):
+                yield from (alias.name.partition(".")[0] for alias in node.names)
+            elif isinstance(node, ast.ImportFrom):
+                yield node.module.partition(".")[0]
+
+
+def test_every_library_comes_with_the_core_or_is_in_the_table_of_extras(distribution):
+    core, owners = closure(distribution), importlib.metadata.packages_distributions()
+    elsewhere = {
+        module
+        for module in set(imported()) - set(sys.stdlib_module_names) - {"physexp"}
+        if core.isdisjoint(map(canonicalize_name, owners[module]))
+    }
+    # torch imports TensorBoard for us.
+    assert elsewhere <= set(extras.EXTRAS) and set(extras.EXTRAS) - elsewhere <= {"tensorboard"}
+
+
+@pytest.mark.parametrize(("module", "extra"), extras.EXTRAS.items())
+def test_an_extra_brings_what_it_is_said_to_bring(distribution, module, extra):
+    assert extra in distribution.metadata.get_all("Provides-Extra")
+    assert canonicalize_name(module) in closure(distribution, extra)
+    assert canonicalize_name(module) in closure(distribution, "all")
+    assert canonicalize_name(module) not in closure(distribution)
+
+
+def test_older_names_of_extras_bring_what_they_did(distribution):
+    assert {"matplotlib", "pandas"} <= closure(distribution, "analysis")
+    assert {"gymnasium", "stable-baselines3", "sb3-contrib"} <= closure(distribution, "bench")
+    assert "ray" in closure(distribution, "distributed")
+
+
+@pytest.mark.parametrize(
+    ("target", "without"),
+    [
+        ("demo", {"pandas", "ray", "mypy", "sphinx", "stable-baselines3", "tensorboard", "gymnasium", "pytest"}),
+        ("docs", {"ray", "mypy", "pytest", "tensorboard"}),
+        ("test", {"sphinx", "furo", "myst-nb"}),
+    ],
+)
+def test_make_installs_what_a_target_needs_and_no_more(distribution, target, without):
+    commands = subprocess.run(["make", "--dry-run", "--always-make", target], cwd=ROOT, capture_output=True, text=True,
+                              check=True).stdout  # fmt: skip
+    (extra,) = set(re.findall(r"-e '\.\[(\w+)\]'", commands))
+    assert closure(distribution, extra).isdisjoint(without)
+    if target in ("demo", "test"):
+        assert commands.splitlines()[-1].startswith("echo 'To run physexp: .venv/bin/physexp")
+
+
+def test_the_citation_and_the_changelog_are_of_this_version():
+    assert re.search(rf"^version: {re.escape(physexp.__version__)}$", (ROOT / "CITATION.cff").read_text(), re.MULTILINE)
+    assert re.search(rf"^## \[{re.escape(physexp.__version__)}\]", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)

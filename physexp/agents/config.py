@@ -1,4 +1,4 @@
-"""What every learner may be told. Imports nothing heavy, since the command line is made from it."""
+"""The hyperparameters that all agents share. Imports nothing heavy, since the command line is made from it."""
 
 from collections.abc import Mapping
 import dataclasses
@@ -12,27 +12,26 @@ LARGEST = 2**63 - 1
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class AgentConfig:
-    """What learners of recurrent actor-critics have in common; a value that makes no sense raises ValueError.
+    """Hyperparameters of a recurrent actor-critic; a value out of range raises ValueError.
 
     Attributes:
-      discount: the agent's gamma: the cost of information (paper, Section 3).
+      discount: the agent's discount factor gamma, which is the cost of information (paper, Section 3).
       frames: environment steps to train for.
-      seed: seed of everything random: weights, environments, actions.
-      learning_rate: step size of Adam, decaying linearly to zero over `frames`.
-      entropy_cost: weight of the entropy bonus at the start.
-      final_entropy_cost: the same at the end; the decay is exponential over `frames`.
-      relative_entropy: have the bonus hold the policy near `action_prior`; False is the paper's, near the uniform one.
-      trace: how far along an episode advantages look for what an action brought (lambda of generalized advantage
-        estimation); 1 is the paper's, which looks to the end.
+      seed: random seed of weights, environments and actions.
+      learning_rate: Adam's initial learning rate; it decays linearly to zero over training.
+      entropy_cost: initial weight of the entropy bonus.
+      final_entropy_cost: final weight of the entropy bonus; the decay is exponential.
+      relative_entropy: regularize the policy towards the action prior (KL divergence) instead of towards the uniform
+        policy, as in the paper.
+      trace: lambda of generalized advantage estimation; 1, as in the paper, is Monte Carlo returns minus the baseline.
       baseline_cost: weight of the value loss.
-      max_gradient_norm: gradients are scaled down to this norm.
+      max_gradient_norm: gradients are clipped to this norm.
       lstm_units: hidden units of the LSTM (paper: 100).
-      observation_scale: factor on features, which are in metres, or on pixels in [0, 1]. What matters in them, a
-        centimetre or a tenth of a metre, should be of the order of one.
-      action_prior: logits that the policy starts from, one for each action, or none for a uniform start; the paper's is
-        uniform.
-      relative_pixels: show the network how pixels differ from those at an episode's start; False is the paper's.
-      device: where convolutions are computed: `cpu`, `cuda`, or `auto` for the GPU where there is one.
+      observation_scale: factor on features (m) or on pixels in [0, 1]; choose it so that what matters in them is of the
+        order of one.
+      action_prior: initial logits of the policy, one for each action; none for a uniform policy, as in the paper.
+      relative_pixels: subtract the image at the start of episodes from every image; False is the paper's.
+      device: where convolutions are computed: cpu, cuda, or auto for the GPU where there is one.
       checkpoint_seconds: time between checkpoints, s.
     """
 

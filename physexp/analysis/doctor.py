@@ -1,15 +1,40 @@
-"""What this machine offers: versions, the GL backend, threads, a GPU."""
+"""What this machine offers, and what to do about what it lacks."""
 
+from collections.abc import Iterator
+import importlib
+import importlib.metadata
 import os
 import platform
+import shutil
+
+from packaging import requirements
+
+from physexp import extras
+
+OK, MISSING, BROKEN = "ok", "missing", "broken"
+"""Verdicts: fine; something that some commands or some speed need; the environments themselves do not work."""
+
+_CORE = ("numpy", "scipy", "mujoco", "dm_control", "torch", "pyarrow", "rerun")
+_PYTHON = ((3, 11), (3, 12))  # The first and the last that are tested.
+_MEMORY = 2.0  # GiB: two workers that train the towers from pixels take 1.2.
+_DISK = 1.0  # GiB: a run from pixels takes some hundredths of it, its replays more.
 
 
 def examine() -> dict:
-    """Facts about this machine by name.
+    """Facts about this machine by name, and `checks`, a list of verdicts with what to do.
 
-    The GL renderer is found out by making a context with the backend in use; where none can be made, the entry says
-    what is missing.
+    A check has `check`, its name; `verdict`, one of `OK`, `MISSING` and `BROKEN`; `found`; and `advice`, which is empty
+    where all is well. If the core is broken, there are no facts but those that need none of it.
     """
+    checks = list(_core())
+    facts = {"python": platform.python_version(), "machine": f"{platform.system()} {platform.machine()}"}
+    if not any(check["verdict"] == BROKEN for check in checks):
+        facts |= _facts()
+        checks += _hardware(facts)
+    return {**facts, "checks": checks + list(_extras())}
+
+
+def _facts() -> dict:
     import torch
 
     from physexp.analysis import run
@@ -17,7 +42,6 @@ def examine() -> dict:
 
     return {
         **run.versions(),
-        "machine": f"{platform.system()} {platform.machine()}",
         "processors": len(os.sched_getaffinity(0)),
         "torch_threads": torch.get_num_threads(),
         "omp_num_threads": os.environ.get("OMP_NUM_THREADS", "not set"),
@@ -25,3 +49,116 @@ def examine() -> dict:
         "gl_backend": rendering.choose_backend(),
         "gl_renderer": rendering.renderer_name(),
     }
+
+
+def _check(name: str, found: object, verdict: str = OK, advice: str = "") -> dict:
+    return {"check": name, "verdict": verdict, "found": str(found), "advice": advice}
+
+
+def _core() -> Iterator[dict]:
+    """Whether Python and the libraries are of versions that fit, can be imported, and play an episode."""
+    first, last = (".".join(map(str, version)) for version in _PYTHON)
+    fits = _PYTHON[0] <= tuple(map(int, platform.python_version_tuple()[:2])) <= _PYTHON[1]
+    yield _check("python", platform.python_version(), *(() if fits else (MISSING, f"tested with {first} to {last}")))
+    yield from _versions(extra="")
+    for module in _CORE:
+        try:
+            importlib.import_module(module)
+        except Exception as error:  # Whatever a library that is broken raises is what the user wants to read.
+            yield _check(
+                f"import {module}", _in_a_line(error), BROKEN, "install physexp anew, into an environment of its own"
+            )
+            return
+    try:
+        from physexp import suite
+
+        for names in suite.ALL_TASKS:
+            if names[1].endswith("features"):
+                environment = suite.load(*names, task_kwargs={"random": 0})
+                environment.reset()
+                environment.step(0)
+                environment.close()
+    except Exception as error:
+        yield _check("environments", _in_a_line(error), BROKEN, "install physexp anew, with the versions above")
+    else:
+        yield _check("environments", "every task plays from features")
+
+
+def _versions(extra: str) -> Iterator[dict]:
+    """Whether the libraries that are installed, of the core or of an extra, are of versions that fit."""
+    for line in importlib.metadata.requires("physexp") or ():
+        wanted = requirements.Requirement(line)
+        belongs = (
+            wanted.marker is None
+            if not extra
+            else wanted.marker is not None and wanted.marker.evaluate({"extra": extra})
+        )
+        if not belongs or wanted.name == "physexp":
+            continue
+        try:
+            found = importlib.metadata.version(wanted.name)
+        except importlib.metadata.PackageNotFoundError:
+            if not extra:
+                yield _check(wanted.name, "not installed", BROKEN, f"pip install '{wanted.name}{wanted.specifier}'")
+            continue
+        if wanted.specifier.contains(found, prereleases=True):
+            yield _check(wanted.name, found)
+        else:
+            yield _check(wanted.name, found, MISSING, f"pip install '{wanted.name}{wanted.specifier}'")
+
+
+def _hardware(facts: dict) -> Iterator[dict]:
+    from physexp.suite import rendering
+
+    backend, renderer = facts["gl_backend"], facts["gl_renderer"]
+    if renderer.startswith("none"):
+        yield _check("OpenGL", renderer, MISSING,
+                     f"features need none; for pixels, install {rendering.DEBIAN_PACKAGES}")  # fmt: skip
+    elif rendering.is_software(renderer) and rendering.gpu_is_present():
+        yield _check("OpenGL", f"{backend}: {renderer}", MISSING,
+                     "pixels are drawn by the processor: install the GPU's EGL driver")  # fmt: skip
+    else:
+        yield _check("OpenGL", f"{backend}: {renderer}")
+    if facts["gpu"] == "none" and rendering.gpu_is_present():
+        yield _check("GPU", "torch sees none", MISSING, "there is one: install its driver and a CUDA build of torch")
+    else:
+        yield _check("GPU", facts["gpu"] if facts["gpu"] != "none" else "none; no task needs one")
+    yield _at_least("processors", facts["processors"], 2, "", "training is slower; give --num-workers 1")
+    memory = os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") / 2**30
+    yield _at_least("free memory", memory, _MEMORY, " GiB", "close other programs, or train with --num-workers 1")
+    disk = shutil.disk_usage(".").free / 2**30
+    yield _at_least("free disk space here", disk, _DISK, " GiB", "make room, or train elsewhere with --run-dir")
+    threads = facts["omp_num_threads"]
+    too_many = threads.isdecimal() and int(threads) > facts["processors"]
+    yield _check("OMP_NUM_THREADS", threads, *((MISSING, "more than processors: unset it") if too_many else ()))
+    if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"):
+        yield _check("display", os.environ.get("WAYLAND_DISPLAY") or os.environ["DISPLAY"])
+    else:
+        yield _check(
+            "display", "none", MISSING, "only --view needs one; copy replays to a machine that has one, or --web"
+        )
+
+
+def _at_least(name: str, value: float, least: float, unit: str, advice: str) -> dict:
+    found = f"{value:.3g}{unit}"
+    return (
+        _check(name, found) if value >= least else _check(name, found, MISSING, f"less than {least:g}{unit}: {advice}")
+    )
+
+
+def _extras() -> Iterator[dict]:
+    """Which extras are installed, in versions that fit."""
+    for extra in dict.fromkeys(extras.EXTRAS.values()):
+        modules = [module for module, bringer in extras.EXTRAS.items() if bringer == extra]
+        install = f"pip install 'physexp[{extra}]'"
+        if missing := extras.find_missing(modules):
+            yield _check(f"extra {extra}", f"without {', '.join(missing)}", MISSING, install)
+            continue
+        versions = list(_versions(extra))
+        found = ", ".join(f"{check['check']} {check['found']}" for check in versions) or "installed"
+        fits = all(check["verdict"] == OK for check in versions)
+        yield _check(f"extra {extra}", found, *(() if fits else (MISSING, install)))
+
+
+def _in_a_line(error: Exception) -> str:
+    return f"{type(error).__name__}: {' '.join(str(error).split())}"

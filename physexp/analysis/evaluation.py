@@ -1,6 +1,6 @@
 """Evaluation: plays episodes with a trained agent and measures how well it answers."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 import dataclasses
 import functools
 from pathlib import Path
@@ -184,7 +184,8 @@ def evaluate(run: run_lib.Run, num_episodes: int, interaction: str = "learned", 
 
 def play(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig, num_episodes: int,
          interaction: str = "learned", greedy: bool = False, seed: int = SEED, num_threads: int = 2,
-         device: str = "auto", num_steps: int = 0) -> Episodes:  # fmt: skip
+         device: str = "auto", num_steps: int = 0,
+         report: Callable[[int], None] | None = None) -> Episodes:  # fmt: skip
     """Plays episodes with a network.
 
     Args:
@@ -198,6 +199,7 @@ def play(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig,
       num_threads: threads that simulate.
       device: where convolutions are computed, as in `A3CConfig`.
       num_steps: go on, in rounds of whole episodes, until there are so many environment steps.
+      report: called after each round with how many of the episodes are played.
 
     Raises:
       ValueError: for an unknown interaction or a number of episodes below one.
@@ -220,6 +222,8 @@ def play(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig,
         episodes = acting.play_round(network, environment, number, generator, greedy, interference)
         rounds.append(Episodes.of_round(episodes, environment, number))
         episodes_left, steps_left = episodes_left - len(episodes.lengths), steps_left - episodes.num_frames
+        if report is not None:
+            report(num_episodes - max(0, episodes_left))
     environment.close()
     joined = Episodes.joined(rounds)
     return joined if num_steps else joined.first(num_episodes)

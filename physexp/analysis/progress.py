@@ -1,5 +1,7 @@
 """Shows how training goes: a live table on a terminal, plain lines elsewhere."""
 
+from collections.abc import Callable, Iterator
+import contextlib
 import sys
 import time
 from typing import Any
@@ -57,6 +59,22 @@ class Progress:
             self._printed = time.monotonic()
             print("  ".join(f"{name.replace('_', ' ')} {value}" for name, value in cells.items()), file=self._file,
                   flush=True)  # fmt: skip
+
+
+@contextlib.contextmanager
+def bar(name: str, total: int, file=None) -> Iterator[Callable[[int], None]]:
+    """A context with a function to be called with how many of `total` are done: it moves a bar on a terminal.
+
+    Elsewhere than on a terminal nothing is shown. By default `file` is standard error.
+    """
+    from rich import console, progress
+
+    columns = (progress.TextColumn("{task.description}"), progress.BarColumn(), progress.MofNCompleteColumn(),
+               progress.TimeRemainingColumn())  # fmt: skip
+    terminal = console.Console(file=file or sys.stderr)
+    with progress.Progress(*columns, console=terminal, transient=True, disable=not terminal.is_terminal) as shown:
+        task = shown.add_task(name, total=total)
+        yield lambda done: shown.update(task, completed=done)
 
 
 def duration(seconds: float) -> str:

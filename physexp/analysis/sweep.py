@@ -7,6 +7,7 @@ import multiprocessing
 import os
 from pathlib import Path
 import tempfile
+import time
 
 from physexp.agents import checkpointing
 from physexp.analysis import config as config_lib
@@ -16,6 +17,7 @@ from physexp.analysis.experiments import base
 from physexp.suite import task
 
 _POLL_SECONDS = 5.0
+_REPORT_SECONDS = 60.0
 
 
 @dataclasses.dataclass(frozen=True)
@@ -75,7 +77,8 @@ def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report
     report(f"{len(wanted) - len(todo)} of {len(wanted)} agents are done")
     if not todo:
         return
-    meter = _Meter(wanted, results, num_processes)
+    meter = Meter(wanted, results, num_processes)
+    reported = time.monotonic()
     context = multiprocessing.get_context("spawn")
     failures = []
     with futures.ProcessPoolExecutor(num_processes, mp_context=context, max_tasks_per_child=1) as pool:
@@ -93,7 +96,9 @@ def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report
                         (results.path / name).parent.mkdir(parents=True, exist_ok=True)
                         checkpointing.write_atomically(results.path / name, content)
                     report(f"done: {job.config.name}")
-                report(meter.line(len(pending)))
+                if pending and (done or time.monotonic() - reported > _REPORT_SECONDS):
+                    report(meter.line(len(pending)))
+                    reported = time.monotonic()
         except KeyboardInterrupt:
             pool.shutdown(cancel_futures=True)
             raise
@@ -163,13 +168,14 @@ def _play(this: run_lib.Run, trial: base.Trial):
     return records.table(played, config, trial.interaction, timestep or task.Options.control_timestep)
 
 
-class _Meter:
+class Meter:
     """Tells how far a sweep is and how long it will take, from the speed of its own runs."""
 
     def __init__(self, wanted: Sequence[Job], results: base.Results, num_processes: int):
         self._wanted, self._results, self._num_processes = wanted, results, num_processes
 
     def line(self, num_pending: int) -> str:
+        """How many agents and frames there are to go, and for how long, as far as that is known."""
         done = total = left = 0.0
         speeds: dict[tuple[str, ...], list[tuple[float, float]]] = {}
         remaining: dict[tuple[str, ...], float] = {}
@@ -177,13 +183,15 @@ class _Meter:
             kind: tuple[str, ...] = (job.config.domain, job.config.task, job.config.agent.algorithm)
             rows = self._results.run(job.config).metrics()
             frames = min(rows[-1]["frames"], job.config.agent.frames) if rows else 0
-            if rows:
+            if frames:
                 speeds.setdefault(kind, []).append((rows[-1]["seconds"], rows[-1]["frames"]))
             remaining[kind] = remaining.get(kind, 0) + job.config.agent.frames - frames
             done, total = done + frames, total + job.config.agent.frames
+        agents = "1 agent" if num_pending == 1 else f"{num_pending} agents"
+        line = f"{agents} to go, {done / 1e6:.2f} of {total / 1e6:.2f} million frames"
+        if not speeds:
+            return line
         for kind, frames in remaining.items():
             known = speeds.get(kind) or [pair for pairs in speeds.values() for pair in pairs]
-            if known:
-                left += frames * sum(seconds for seconds, _ in known) / sum(count for _, count in known)
-        duration = progress.duration(left / self._num_processes)
-        return f"{num_pending} agents to go, {done / 1e6:.2f} of {total / 1e6:.2f} million frames, time left {duration}"
+            left += frames * sum(seconds for seconds, _ in known) / sum(count for _, count in known)
+        return f"{line}, time left {progress.duration(left / self._num_processes)}"

@@ -154,6 +154,18 @@ def test_an_agent_that_cannot_be_trained_is_named_and_the_others_are_trained(tmp
     assert any(line.startswith(f"FAILED {jobs[0].config.name}") for line in lines)
 
 
+def test_the_time_that_is_left_is_told_once_it_is_known(tmp_path):
+    results = base.Results(tmp_path)
+    jobs = sweep.jobs([EXPERIMENTS["population"]], ["features"], lambda kind: 1, 4000)[:2]
+    meter = sweep.Meter(jobs, results, 1)
+    assert meter.line(2) == "2 agents to go, 0.00 of 0.01 million frames"
+    run = results.run(jobs[0].config)
+    run.create(jobs[0].config)
+    run.append_metrics({**dict.fromkeys(run_lib.METRICS, 0.0), "frames": 1000, "seconds": 30.0})
+    # The 7000 frames that are left take 30 s for each thousand.
+    assert meter.line(1) == "1 agent to go, 0.00 of 0.01 million frames, time left 0:03:30"
+
+
 def test_experiments_that_need_the_same_agent_train_it_once():
     everything = sweep.jobs(list(EXPERIMENTS.values()), conditions.OBSERVATIONS, lambda kind: 2)
     names = [job.config.name for job in everything]

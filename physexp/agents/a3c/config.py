@@ -9,12 +9,12 @@ from physexp.agents import config
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class A3CConfig(config.AgentConfig):
-    """What A3C may be told; a value that makes no sense raises ValueError.
+    """Hyperparameters of A3C; a value out of range raises ValueError.
 
     Attributes:
-      num_workers: processes that act and learn asynchronously on shared parameters.
-      envs_per_worker: episodes that a worker plays side by side for one update; 1 is the paper's learner.
-      max_staleness: updates of others after which a gradient is too old to be applied.
+      num_workers: worker processes, which act and learn asynchronously on shared parameters.
+      envs_per_worker: environments of each worker; an update is made from one episode in each. 1 in the paper.
+      max_staleness: a gradient is dropped if more updates than this were made since its parameters were read.
     """
 
     algorithm: ClassVar[str] = "a3c"

@@ -9,14 +9,14 @@ from physexp.agents import config
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class PPOConfig(config.AgentConfig):
-    """What PPO may be told; a value that makes no sense raises ValueError.
+    """Hyperparameters of PPO; a value out of range raises ValueError.
 
     Attributes:
-      num_environments: episodes that are played side by side between updates.
-      num_threads: threads that simulate, and that compute convolutions.
-      num_epochs: how often an update goes through the episodes.
-      num_minibatches: parts, of whole episodes, that it goes through them in.
-      clip: how far the probability of an action may move in an update, as a factor of 1 + clip or 1 - clip.
+      num_environments: environments; an update is made from one episode in each.
+      num_threads: threads for simulation and for convolutions.
+      num_epochs: passes over the episodes in each update.
+      num_minibatches: minibatches of whole episodes in each pass.
+      clip: the probability ratio is clipped to [1 - clip, 1 + clip].
     """
 
     algorithm: ClassVar[str] = "ppo"

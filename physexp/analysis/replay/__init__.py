@@ -14,7 +14,7 @@ __all__ = ["Episode", "EpisodeRecorder", "replay", "view"]
 
 def replay(targets: Sequence[str], count: int, output: Path, interaction: str = "learned",
            select: selection.Selection = "any", seed: int = evaluation.SEED,
-           report: Callable[[str], None] = lambda line: None) -> Path:  # fmt: skip
+           report: Callable[[str], None] = lambda line: None, difficulty: float | None = None) -> Path:  # fmt: skip
     """Plays episodes with trained agents and writes them for the viewer.
 
     Args:
@@ -23,6 +23,7 @@ def replay(targets: Sequence[str], count: int, output: Path, interaction: str = 
       output: the file.
       interaction, select, seed: see `selection.select`.
       report: called with lines that tell how it goes.
+      difficulty: of the agents that come with the package, see `evaluation.find_agent`.
 
     Returns:
       The path of the file.
@@ -30,7 +31,7 @@ def replay(targets: Sequence[str], count: int, output: Path, interaction: str = 
     Raises:
       ValueError: if a target is no agent, or agents that are to be compared play different tasks.
     """
-    agents = [evaluation.find_agent(target) for target in targets]
+    agents = [evaluation.find_agent(target, difficulty) for target in targets]
     network, config = agents[0]
     for _, other in agents[1:]:
         if _what(other) != _what(config):
