@@ -8,8 +8,8 @@ from physexp.suite import rendering
 rendering.choose_backend()
 
 from physexp.suite import batch as _batch  # noqa: E402
+from physexp.suite import checks, towers, which_is_heavier  # noqa: E402
 from physexp.suite import environment as _environment  # noqa: E402
-from physexp.suite import towers, which_is_heavier  # noqa: E402
 from physexp.suite.batch import BatchEnvironment  # noqa: E402
 from physexp.suite.environment import Environment  # noqa: E402
 from physexp.suite.seeding import environment_seed  # noqa: E402
@@ -34,7 +34,7 @@ def load(domain_name, task_name, task_kwargs=None, environment_kwargs=None, visu
       task_name: one of `TASKS_BY_DOMAIN[domain_name]`.
       task_kwargs: `random` (a seed or a RandomState), `control_timestep` (s), `time_limit` (s), and for
         `which_is_heavier` also `difficulty` (the paper's beta).
-      environment_kwargs: `raise_exception_on_physics_error`.
+      environment_kwargs: `raise_exception_on_physics_error`, and `flat_observation`: one vector, `observations`.
       visualize_reward: colour the floor by the outcome at the end of an episode.
 
     Raises:
@@ -69,10 +69,10 @@ def load_task(domain_name, task_name, task_kwargs=None):
       ValueError: for an unknown name or a bad keyword argument.
     """
     if not isinstance(domain_name, str) or domain_name not in _DOMAINS:
-        raise ValueError(f"domain_name is {domain_name!r}; known domains: {', '.join(_DOMAINS)}")
+        raise ValueError(f"domain_name is {checks.shown(domain_name)}; known domains: {', '.join(_DOMAINS)}")
     domain = _DOMAINS[domain_name]
     if not isinstance(task_name, str) or task_name not in domain.SUITE:
-        raise ValueError(f"task_name is {task_name!r}; tasks of {domain_name}: {', '.join(domain.SUITE)}")
+        raise ValueError(f"task_name is {checks.shown(task_name)}; tasks of {domain_name}: {', '.join(domain.SUITE)}")
     return domain.SUITE[task_name](_call(domain.Options, "task_kwargs", task_kwargs))
 
 
@@ -82,12 +82,17 @@ def _call(function, name, kwargs, *args):
     allowed = [parameter.name for parameter in list(inspect.signature(function).parameters.values())[len(args) :]]
     unknown = set(kwargs) - set(allowed)
     if unknown:
-        raise ValueError(f"{name} has {', '.join(sorted(map(str, unknown)))}; allowed: {', '.join(allowed)}")
+        raise ValueError(f"{name} has {', '.join(sorted(map(_spelled, unknown)))}; allowed: {', '.join(allowed)}")
     return function(*args, **kwargs)
+
+
+def _spelled(key) -> str:
+    """A name as it was given, in a message: in quotes only if it is none."""
+    return key if isinstance(key, str) and key.isidentifier() else checks.shown(key)
 
 
 def _checked(name, kwargs) -> dict:
     """Keyword arguments as a dictionary; raises ValueError for anything else."""
     if kwargs is not None and not isinstance(kwargs, Mapping):
-        raise ValueError(f"{name} is {kwargs!r}; give a dictionary")
+        raise ValueError(f"{name} is {checks.shown(kwargs)}; give a dictionary")
     return dict(kwargs or {})

@@ -8,10 +8,12 @@ import mujoco
 from mujoco.batch import Batch
 import numpy as np
 
-from physexp.suite import seeding
+from physexp.suite import checks, guard, rendering, seeding
 from physexp.suite import task as task_lib
 
 _LOG = logging.getLogger(__name__)
+MOST_ENVIRONMENTS = 65_536
+
 _FIRST, _MID, _LAST = (int(kind) for kind in dm_env.StepType)
 
 
@@ -37,14 +39,12 @@ class BatchEnvironment:
         Raises:
           ValueError: if one of the numbers is another.
         """
-        for name, value, most in (("num_environments", num_environments, 65_536), ("num_threads", num_threads, 1_024)):
-            if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or not 1 <= value <= most:
-                raise ValueError(f"{name} is {value!r}; give an integer >= 1 and <= {most}")
-        self.num_environments = int(num_environments)
+        self._guard = guard.Guard("batch")
+        self.num_environments = checks.integer("num_environments", num_environments, 1, MOST_ENVIRONMENTS)
+        self._num_threads = checks.integer("num_threads", num_threads, 1, 1_024)
         self.num_divergences = 0
         self._closed = False
         self._task = task
-        self._num_threads = int(num_threads)
         self._controls = task.controls
         self._everyone = np.arange(self.num_environments)
         self.reseed(task.options.random)
@@ -55,14 +55,16 @@ class BatchEnvironment:
         self._hidden: np.ndarray | None = None
         self._groups: dict[int, _Group] = {}
         self._observations = task.blank_observations(self.num_environments)
+        self._renderer: rendering.Renderer | None = None  # Of images for people.
 
     def reseed(self, random) -> None:
         """Takes another seed: every environment starts its first episode next; `random` as in `task_kwargs`."""
-        self._task.reseed(random)
-        seed = self._task.options.random
-        self._seeds = np.array([seeding.environment_seed(seed, i) for i in range(self.num_environments)])
-        self._next_episodes = np.zeros(self.num_environments, np.int64)
-        self._needs_reset = np.ones(self.num_environments, bool)
+        with self._guard:
+            self._task.reseed(random)
+            seed = self._task.options.random
+            self._seeds = np.array([seeding.environment_seed(seed, i) for i in range(self.num_environments)])
+            self._next_episodes = np.zeros(self.num_environments, np.int64)
+            self._needs_reset = np.ones(self.num_environments, bool)
 
     # Specs are those of the single environment.
 
@@ -70,9 +72,7 @@ class BatchEnvironment:
         return self._task.action_spec()
 
     def observation_spec(self) -> dict[str, dm_env.specs.Array]:
-        return {
-            name: dm_env.specs.Array(value.shape[1:], value.dtype, name) for name, value in self._observations.items()
-        }
+        return self._task.observation_spec()
 
     def reward_spec(self) -> dm_env.specs.Array:
         return dm_env.specs.Array((), float, "reward")
@@ -116,12 +116,17 @@ class BatchEnvironment:
 
         Returns:
           As `step`.
+
+        Raises:
+          ValueError: for indices that there are not.
+          RuntimeError: if the batch is closed, or another thread is using it.
         """
-        chosen = self._choose(environments)
-        if episode is not None:
-            self._next_episodes[chosen] = _checked_episode(episode)
-        self._reset(chosen)
-        return self._time_step(chosen, np.full(len(chosen), _FIRST), np.zeros(len(chosen)), np.ones(len(chosen)))
+        with self._guard:
+            chosen = self._choose(environments)
+            if episode is not None:
+                self._next_episodes[chosen] = checks.integer("episode", episode, 0, seeding.LAST_EPISODE)
+            self._reset(chosen)
+            return self._time_step(chosen, np.full(len(chosen), _FIRST), np.zeros(len(chosen)), np.ones(len(chosen)))
 
     def step(self, actions: np.ndarray, environments: np.ndarray | None = None) -> dm_env.TimeStep:
         """Takes one action in each environment; one whose episode is over starts a new one instead.
@@ -136,7 +141,12 @@ class BatchEnvironment:
 
         Raises:
           ValueError: if an action is not one of the action spec's; nothing has moved then.
+          RuntimeError: if the batch is closed, or another thread is using it.
         """
+        with self._guard:
+            return self._step(actions, environments)
+
+    def _step(self, actions, environments) -> dm_env.TimeStep:
         chosen = self._choose(environments)
         actions = self._task.rules.check_type(actions, (len(chosen),))
         starting = self._needs_reset[chosen]
@@ -157,25 +167,58 @@ class BatchEnvironment:
         all_rewards[~starting] = rewards
         return self._time_step(chosen, step_types, all_rewards, np.where(step_types == _LAST, 0.0, 1.0))
 
+    def render(self, size: int = 480) -> np.ndarray:
+        """Returns images for people of all environments, uint8 [B, size, size, 3].
+
+        Raises:
+          RuntimeError: if there is no episode to show, the batch is closed, another thread is using it, or no GL
+            backend works.
+        """
+        with self._guard:
+            chosen = self._choose(None)
+            if self._hidden is None:
+                raise RuntimeError("no episode has been started; call reset() first")
+            images = np.zeros((len(chosen), size, size, 3), np.uint8)
+            for group, members in self._by_structure(chosen):
+                rows = chosen[members]
+                if self._renderer is None or self._renderer.size != size:
+                    self._close_renderer()
+                    self._renderer = rendering.Renderer(group.kit.model, size=size)
+                self._renderer.render(*group.poses(rows), rows, images)
+            return images
+
     def close(self) -> None:
-        """Frees the simulations. Closing twice does nothing."""
-        self._groups = {}
-        self._task.close()
-        self._closed = True
+        """Frees the simulations. Closing twice does nothing.
+
+        Raises:
+          RuntimeError: if another thread is using the batch.
+        """
+        with self._guard:
+            self._groups = {}
+            self._close_renderer()
+            self._task.close()
+            self._closed = True
+
+    def _close_renderer(self) -> None:
+        if self._renderer is not None:
+            self._renderer.close()
+            self._renderer = None
 
     def _choose(self, environments) -> np.ndarray:
         if self._closed:
             raise RuntimeError("the batch is closed; load another")
         if environments is None:
             return self._everyone
-        chosen = np.asarray(environments)
-        if chosen.ndim == 1 and np.issubdtype(chosen.dtype, np.integer):
+        try:
+            chosen = np.asarray(environments)
+        except ValueError:  # Lists of different lengths.
+            chosen = np.zeros(())
+        if chosen.ndim == 1 and chosen.dtype.kind in "iu":
             inside = not chosen.size or (chosen.min() >= 0 and chosen.max() < self.num_environments)
             if inside and (np.diff(chosen.astype(np.int64)) > 0).all():
                 return chosen.astype(np.int64)
-        raise ValueError(
-            f"environments is {environments!r}; give increasing indices from 0 to {self.num_environments - 1}"
-        )
+        last = self.num_environments - 1
+        raise ValueError(f"environments is {checks.shown(environments)}; give increasing indices from 0 to {last}")
 
     def _group(self, structure: int) -> "_Group":
         if structure not in self._groups:
@@ -232,12 +275,6 @@ class BatchEnvironment:
         return dm_env.TimeStep(step_types, rewards, discounts, observation)
 
 
-def _checked_episode(episode) -> int:
-    if not isinstance(episode, (int, np.integer)) or isinstance(episode, bool) or not 0 <= episode < 2**63:
-        raise ValueError(f"episode is {episode!r}; give the index of an episode, an integer >= 0")
-    return int(episode)
-
-
 class _Group:
     """The simulations of one structure: row `i` serves environment `i` whenever it has this structure."""
 
@@ -273,6 +310,20 @@ class _Group:
     def moved(self, rows) -> np.ndarray:
         """Whether held parts have moved: bool [number of rows]."""
         return self.kit.moved(self._qpos[rows], task_lib.TOUCH_TOLERANCE)
+
+    def poses(self, rows) -> tuple[np.ndarray, np.ndarray]:
+        """Where the geoms are, as the simulations stand: positions, m, and rotations, [number of rows, ngeom, 3 and 9].
+
+        They follow from the coordinates alone: what a row keeps of them is older after a reset.
+        """
+        data = mujoco.MjData(self.kit.model)
+        shape = (len(rows), self.kit.model.ngeom)
+        positions, rotations = np.zeros((*shape, 3)), np.zeros((*shape, 9))
+        for i, row in enumerate(rows):
+            data.qpos[:] = self._qpos[row]
+            mujoco.mj_kinematics(self.kit.model, data)
+            positions[i], rotations[i] = data.geom_xpos, data.geom_xmat
+        return positions, rotations
 
     def state(self, rows) -> dict[str, np.ndarray]:
         """The fields that the sense looks at, float64 [number of rows, ...]."""

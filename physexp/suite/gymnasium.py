@@ -7,29 +7,56 @@ Importing this module registers every task, so that Gymnasium finds them by name
                        vectorization_mode="vector_entry_point")
 """
 
+import math
 from typing import Any
 
+import dm_env
+
 from physexp import extras, suite
+from physexp.suite import batch as batch_lib
+from physexp.suite import checks, seeding
 
 extras.require("gymnasium")
 
 import gymnasium  # noqa: E402
-from gymnasium import spaces  # noqa: E402
+from gymnasium import error, spaces  # noqa: E402
 from gymnasium.vector import utils as vector_utils  # noqa: E402
 from gymnasium.vector import vector_env  # noqa: E402
 import numpy as np  # noqa: E402
 
-_RENDER_SIZE = 480  # Pixels, for people.
+_LARGEST_IMAGE, _LARGEST_GRID = 480, 1920  # Pixels, for people: of one environment, and of many side by side.
 
 
 def observation_space(spec) -> spaces.Dict:
-    """Images are bounded by their type, features by nothing."""
+    """Images are bounded by their type, features by what the task knows of them."""
     boxes: dict[str, spaces.Space] = {}
     for name, array in spec.items():
-        is_image = array.dtype == np.uint8
-        low, high = (0, 255) if is_image else (-np.inf, np.inf)
+        if isinstance(array, dm_env.specs.BoundedArray):
+            low, high = (np.broadcast_to(side, array.shape) for side in (array.minimum, array.maximum))
+        else:
+            low, high = (0, 255) if array.dtype == np.uint8 else (-np.inf, np.inf)
         boxes[name] = spaces.Box(low, high, array.shape, array.dtype)
     return spaces.Dict(boxes)
+
+
+def check_render_mode(render_mode: str | None) -> None:
+    """Raises ValueError for a way to render that there is not."""
+    if render_mode not in (None, "rgb_array"):
+        raise ValueError(f"render_mode is {checks.shown(render_mode)}; choose None or 'rgb_array'")
+
+
+def check_num_envs(num_envs: int) -> int:
+    """Returns the number of environments; raises ValueError for one that there cannot be."""
+    return checks.integer("num_envs", num_envs, 1, batch_lib.MOST_ENVIRONMENTS)
+
+
+def images(batch: suite.BatchEnvironment) -> tuple[np.ndarray, ...]:
+    """One image for each environment, uint8 [size, size, 3]; they grow smaller as they grow more.
+
+    Side by side they fit into a square of 1920 pixels: up to 16 environments are drawn with 480 pixels, 64 with 240.
+    """
+    a_side = math.ceil(math.sqrt(batch.num_environments))
+    return tuple(batch.render(min(_LARGEST_IMAGE, _LARGEST_GRID // a_side)))
 
 
 class Environment(gymnasium.Env):
@@ -50,12 +77,12 @@ class Environment(gymnasium.Env):
         Raises:
           ValueError: for an unknown name, a bad keyword argument or an unknown render mode.
         """
-        if render_mode not in (None, "rgb_array"):
-            raise ValueError(f"render_mode is {render_mode!r}; choose None or 'rgb_array'")
+        check_render_mode(render_mode)
         self._environment = suite.load(domain, task, task_kwargs=task_kwargs)
         self._seeded = "random" in task_kwargs
+        self._playing = False
         self.render_mode = render_mode
-        self.metadata = {**self.metadata, "render_fps": round(1 / self._environment.control_timestep())}
+        self.metadata = {**self.metadata, "render_fps": frames_per_second(self._environment.task)}
         self.observation_space = observation_space(self._environment.observation_spec())
         self.action_space = spaces.Discrete(self._environment.action_spec().num_values)
 
@@ -65,27 +92,39 @@ class Environment(gymnasium.Env):
         return self._environment
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None):
-        """Starts the next episode, or with a seed the first one of that seed."""
+        """Starts the next episode, or with a seed the first one of that seed.
+
+        Raises:
+          ValueError: for a seed that is no integer in [0, 2**63).
+        """
+        if seed is not None:
+            seed = checks.integer("seed", seed, 0, seeding.LARGEST_SEED)
         super().reset(seed=seed)
         if seed is not None or not self._seeded:
             self._environment.task.reseed(int(self.np_random.integers(2**32)) if seed is None else seed)
             self._seeded = True
         timestep = self._environment.reset()
+        self._playing = True
         return dict(timestep.observation), {}
 
     def step(self, action):
-        """Takes an action; after the last one of an episode, `info["correct_answer"]` is the right label."""
+        """Takes an action; after the last one of an episode, `info["correct_answer"]` is the right label.
+
+        Raises:
+          ValueError: if the action is not one of the action space's; the episode stays as it was.
+          gymnasium.error.ResetNeeded: if no episode has begun, or it is over.
+        """
+        check_started(self._playing)
         diverged = self._environment.task.num_divergences
-        timestep = self._environment.step(np.int32(action))
+        timestep = self._environment.step(action)
+        self._playing = not timestep.last()
         lost = self._environment.task.num_divergences > diverged
         info = {"correct_answer": self._environment.task.correct_answer} if timestep.last() else {}
         return dict(timestep.observation), float(timestep.reward), timestep.last() and not lost, lost, info
 
     def render(self):
-        """An image of the scene for people, uint8 [480, 480, 3]; None without a render mode."""
-        if self.render_mode is None:
-            return None
-        return self._environment.physics.render(_RENDER_SIZE, _RENDER_SIZE, camera_id="observer")
+        """Returns an image of the scene for people, uint8 [480, 480, 3]; None without a render mode."""
+        return None if self.render_mode is None else self._environment.render()
 
     def close(self) -> None:
         self._environment.close()
@@ -98,21 +137,29 @@ class VectorEnvironment(vector_env.VectorEnv):
     (`AutoresetMode.NEXT_STEP`).
     """
 
-    def __init__(self, domain: str, task: str, num_envs: int = 1, num_threads: int = 1, **task_kwargs: Any):
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "autoreset_mode": vector_env.AutoresetMode.NEXT_STEP}
+
+    def __init__(self, domain: str, task: str, num_envs: int = 1, num_threads: int = 1,
+                 render_mode: str | None = None, **task_kwargs: Any):  # fmt: skip
         """Loads a batch.
 
         Args:
           domain, task, task_kwargs: as for `suite.load`.
           num_envs: how many.
           num_threads: threads that simulate.
+          render_mode: `rgb_array`, or None.
 
         Raises:
           ValueError: for an unknown name or a bad argument.
         """
+        check_render_mode(render_mode)
+        num_envs = check_num_envs(num_envs)
         self._batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
         self._seeded = "random" in task_kwargs
+        self._started = False
         self.num_envs = num_envs
-        self.metadata = {"autoreset_mode": vector_env.AutoresetMode.NEXT_STEP}
+        self.render_mode = render_mode
+        self.metadata = {**self.metadata, "render_fps": frames_per_second(self._batch.task)}
         self.single_observation_space = observation_space(self._batch.observation_spec())
         self.single_action_space = spaces.Discrete(self._batch.action_spec().num_values)
         self.observation_space = vector_utils.batch_space(self.single_observation_space, num_envs)
@@ -127,19 +174,27 @@ class VectorEnvironment(vector_env.VectorEnv):
         """Starts the next episode everywhere; with a seed, the first of each: `environment_seed(seed, i)`.
 
         Raises:
-          ValueError: for a list of seeds; the batch derives them from one.
+          ValueError: for a list of seeds: the batch derives them from one, an integer in [0, 2**63).
         """
-        if seed is not None and not isinstance(seed, (int, np.integer)):
-            raise ValueError(f"seed is {seed!r}; give one integer, from which those of all environments follow")
+        if seed is not None:
+            seed = checks.integer("seed", seed, 0, seeding.LARGEST_SEED)
         super().reset(seed=seed)
         if seed is not None or not self._seeded:
-            self._batch.reseed(int(self.np_random.integers(2**32)) if seed is None else int(seed))
+            self._batch.reseed(int(self.np_random.integers(2**32)) if seed is None else seed)
             self._seeded = True
-        return dict(self._batch.reset().observation), {}
+        timestep = self._batch.reset()
+        self._started = True
+        return dict(timestep.observation), {}
 
     def step(self, actions):
-        """Takes actions, int [num_envs]; `info["correct_answer"]` is filled in where an episode has ended."""
-        timestep = self._batch.step(np.asarray(actions))
+        """Takes actions, int [num_envs]; `info["correct_answer"]` is filled in where an episode has ended.
+
+        Raises:
+          ValueError: if an action is not one of the action space's; nothing has moved then.
+          gymnasium.error.ResetNeeded: if `reset` has never been called.
+        """
+        check_started(self._started)
+        timestep = self._batch.step(actions)
         ended = timestep.last()
         lost = ended & (timestep.reward == 0)  # Only a diverged simulation ends without a verdict.
         info = {}
@@ -147,8 +202,26 @@ class VectorEnvironment(vector_env.VectorEnv):
             info = {"correct_answer": np.where(ended, self._batch.correct_answers, 0), "_correct_answer": ended}
         return dict(timestep.observation), timestep.reward, ended & ~lost, lost, info
 
+    def render(self):
+        """Returns one image for each environment, for people (see `images`); None without a render mode.
+
+        Wrappers that record or show a vector environment lay them out side by side.
+        """
+        return None if self.render_mode is None else images(self._batch)
+
     def close_extras(self, **kwargs: Any) -> None:
         self._batch.close()
+
+
+def frames_per_second(task) -> int:
+    """How many images make a second of an episode."""
+    return max(1, round(1 / task.control_timestep))
+
+
+def check_started(started: bool) -> None:
+    """Raises `gymnasium.error.ResetNeeded` where there is no episode to step in."""
+    if not started:
+        raise error.ResetNeeded("there is no episode to step in; call reset() first")
 
 
 def environment_id(domain: str, task: str) -> str:

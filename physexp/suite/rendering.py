@@ -67,6 +67,7 @@ class Renderer:
     The context is current only while it is used: any thread may draw, one at a time.
 
     Attributes:
+      size: edge of an image, pixels.
       context: its GL context.
       scene, buffers: what MuJoCo draws, and with what.
     """
@@ -84,6 +85,7 @@ class Renderer:
         """
         import mujoco  # Here, so that the module that chooses the backend comes before mujoco.
 
+        self.size = size
         self.context = _make_context(size)
         drawn = _with_buffer(model, size)
         with current(self.context):

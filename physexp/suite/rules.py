@@ -8,6 +8,8 @@ import dataclasses
 
 import numpy as np
 
+from physexp.suite import checks
+
 RIGHT, WRONG = 1.0, -1.0
 
 
@@ -35,10 +37,15 @@ class Rules:
         Raises:
           ValueError: if it does not.
         """
-        array = np.asarray(actions)
-        if array.shape != shape or not np.issubdtype(array.dtype, np.integer):
+        try:
+            array = np.asarray(actions)
+        except ValueError:  # Lists of different lengths.
+            array, kind = None, "no array"
+        else:
+            kind = f"shape {array.shape}, {array.dtype}"
+        if array is None or array.shape != shape or array.dtype.kind not in "iu":
             raise ValueError(
-                f"action is {actions!r} (shape {array.shape}, {array.dtype}); "
+                f"action is {checks.shown(actions)} ({kind}); "
                 f"give integers of shape {shape} from 0 to {self.num_actions - 1}"
             )
         return array

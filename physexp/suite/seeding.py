@@ -6,6 +6,11 @@ rebuilt without playing those before it, and a batch draws all its resets in one
 
 import numpy as np
 
+from physexp.suite import checks
+
+LARGEST_SEED = 2**63 - 1
+LAST_EPISODE = 2**62 - 1  # Nobody plays on from there to where 64 bits end.
+
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
 
@@ -18,7 +23,13 @@ def _mix(x: np.ndarray) -> np.ndarray:
 
 
 def environment_seed(seed: int, index: int) -> int:
-    """Seed of environment `index` in a batch seeded with `seed`: an integer in [0, 2**32)."""
+    """Returns the seed of environment `index` in a batch seeded with `seed`: an integer in [0, 2**32).
+
+    Raises:
+      ValueError: if one of them is no integer in [0, 2**63).
+    """
+    seed = checks.integer("seed", seed, 0, LARGEST_SEED)
+    index = checks.integer("index", index, 0, LARGEST_SEED)
     key = _mix(np.array([seed], np.uint64))
     return int(_mix(key ^ np.array([index], np.uint64))[0] >> np.uint64(32))
 
@@ -55,6 +66,6 @@ def seed_from(random) -> int:
         random = np.random.RandomState()
     if isinstance(random, np.random.RandomState):
         return int(random.randint(2**32, dtype=np.uint64))
-    if isinstance(random, (int, np.integer)) and not isinstance(random, bool) and 0 <= random < 2**63:
+    if checks.is_integer(random) and 0 <= random <= LARGEST_SEED:
         return int(random)
-    raise ValueError(f"random is {random!r}; give an integer in [0, 2**63), a numpy RandomState, or None")
+    raise ValueError(f"random is {checks.shown(random)}; give an integer in [0, 2**63), a numpy RandomState, or None")

@@ -1,5 +1,6 @@
 """A batch of environments for Stable-Baselines3 (and sb3-contrib), whose vector environments reset at once."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from physexp import extras, suite
@@ -20,25 +21,33 @@ class VecEnv(base_vec_env.VecEnv):
     running out of time is a wrong answer.
     """
 
-    def __init__(self, domain: str, task: str, num_envs: int, num_threads: int = 1, **task_kwargs: Any):
-        """Loads a batch; arguments as for `suite.load_batch`.
+    def __init__(self, domain: str, task: str, num_envs: int, num_threads: int = 1,
+                 render_mode: str | None = None, **task_kwargs: Any):  # fmt: skip
+        """Loads a batch; arguments as for `suite.load_batch`, and `render_mode`: `rgb_array`, or None.
 
         Raises:
           ValueError: for an unknown name or a bad argument.
         """
+        gymnasium_lib.check_render_mode(render_mode)
+        num_envs = gymnasium_lib.check_num_envs(num_envs)
         self._batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
-        self.render_mode = None
+        self._started = False
+        self.render_mode = render_mode
         super().__init__(num_envs, gymnasium_lib.observation_space(self._batch.observation_spec()),
                          spaces.Discrete(self._batch.action_spec().num_values))  # fmt: skip
+        self.metadata["render_fps"] = gymnasium_lib.frames_per_second(self._batch.task)
 
     def reset(self):
         if self._seeds[0] is not None:  # `seed` has been called: it takes effect with the next reset.
             self._batch.reseed(self._seeds[0])
         self._reset_seeds()
         self._reset_options()
-        return dict(self._batch.reset().observation)
+        observation = dict(self._batch.reset().observation)
+        self._started = True
+        return observation
 
     def step_async(self, actions: np.ndarray) -> None:
+        gymnasium_lib.check_started(self._started)
         self._actions = actions
 
     def step_wait(self):
@@ -57,6 +66,10 @@ class VecEnv(base_vec_env.VecEnv):
                 observation[name] = value.copy()
                 observation[name][rows] = first[name]
         return observation, timestep.reward.astype(np.float32), ended, infos
+
+    def get_images(self) -> Sequence[np.ndarray | None]:
+        """Returns one image for each environment, as under Gymnasium; `render` lays them out side by side."""
+        return [None] * self.num_envs if self.render_mode is None else gymnasium_lib.images(self._batch)
 
     def close(self) -> None:
         self._batch.close()

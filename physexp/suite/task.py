@@ -1,7 +1,7 @@
 """The base of every task: a question about something that cannot be seen (paper, Section 3)."""
 
 import abc
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 import dataclasses
 import functools
 import math
@@ -13,7 +13,7 @@ from dm_env import specs
 import numpy as np
 
 from physexp.suite import apparatus as apparatus_lib
-from physexp.suite import rules, seeding
+from physexp.suite import checks, rules, seeding
 from physexp.suite import senses as senses_lib
 
 # Held parts look exactly as at the start until they have moved by more than this. Contacts at rest settle by less than
@@ -49,9 +49,10 @@ class Options:
     def __post_init__(self):
         object.__setattr__(self, "random", seeding.seed_from(self.random))
         for name in ("control_timestep", "time_limit"):
-            check_number(name, getattr(self, name), 0, "s", strictly=True)
-            if getattr(self, name) > _LONGEST:
-                raise ValueError(f"{name} is {getattr(self, name)!r}; give at most {_LONGEST:g} s")
+            seconds = checks.number(name, getattr(self, name), 0, "s", strictly=True)
+            if seconds > _LONGEST:
+                raise ValueError(f"{name} is {checks.shown(getattr(self, name))}; give at most {_LONGEST:g} s")
+            object.__setattr__(self, name, seconds)
         if self.substeps < 1 or abs(self.substeps * self.physics_timestep - self.control_timestep) > 1e-9:
             raise ValueError(
                 f"control_timestep is {self.control_timestep} s; "
@@ -69,11 +70,16 @@ class Options:
         return max(1, math.ceil(self.time_limit / self.control_timestep - 1e-6))
 
 
-def check_number(name: str, value, minimum: float, unit: str, strictly: bool = False) -> None:
-    """Raises ValueError unless `value` is a finite number of at least (strictly: above) `minimum`."""
-    is_number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
-    if not (is_number and minimum <= value < math.inf) or (strictly and value == minimum):
-        raise ValueError(f"{name} is {value!r}; give a finite number {'>' if strictly else '>='} {minimum} ({unit})")
+class _Observable(observable.Generic):
+    """An observable that knows what it shows before it is asked."""
+
+    def __init__(self, raw_observation_callable, spec: specs.Array):
+        super().__init__(raw_observation_callable)
+        self._spec = spec
+
+    @property
+    def array_spec(self):
+        return self._spec
 
 
 class QuestionTask(composer.Task):
@@ -85,7 +91,6 @@ class QuestionTask(composer.Task):
     Attributes:
       rules: how actions are read and judged.
       controls: what each interaction action sends to the actuators, float64 [num_interactions, nu].
-      next_episode: index of the episode that the next reset starts; set it to rebuild any episode.
       num_divergences: episodes that ended because the simulation diverged.
       sense: how the state is shown.
       apparatus: the compiled model in use; the environment sets it.
@@ -107,7 +112,7 @@ class QuestionTask(composer.Task):
         self.options = options
         self.set_timesteps(options.substeps * options.physics_timestep, options.physics_timestep)
         self.rules = rules.Rules(num_interactions, num_labels, options.step_limit)
-        self.next_episode = 0
+        self._next_episode = 0
         self.num_divergences = 0
         self.structure = 0
         self._hidden: np.ndarray | None = None
@@ -117,7 +122,10 @@ class QuestionTask(composer.Task):
         self._diverged = False
         self.sense = sense
         self._seen = self.blank_observations(1)
-        self._observables = {name: observable.Generic(functools.partial(self._recall, name)) for name in self._seen}
+        self._observables = {
+            name: _Observable(functools.partial(self._recall, name), spec)
+            for name, spec in self.observation_spec().items()
+        }
         for reading in self._observables.values():
             reading.enabled = True
 
@@ -153,6 +161,11 @@ class QuestionTask(composer.Task):
     @abc.abstractmethod
     def label_names(self) -> Sequence[str]:
         """The answers, in words."""
+
+    @property
+    def bounds(self) -> Mapping[str, tuple[Any, Any]]:
+        """For each feature, the least and the greatest values that it ever has; a feature left out has no bounds."""
+        return {}
 
     @property
     def held_joints(self) -> Sequence:
@@ -223,12 +236,21 @@ class QuestionTask(composer.Task):
     def reseed(self, random) -> None:
         """Takes another seed: the next reset starts its first episode; `random` as in `Options`."""
         self.options = dataclasses.replace(self.options, random=random)
-        self.next_episode = 0
+        self._next_episode = 0
+
+    @property
+    def next_episode(self) -> int:
+        """Index of the episode that the next reset starts, in [0, 2**62); set it to rebuild any episode."""
+        return self._next_episode
+
+    @next_episode.setter
+    def next_episode(self, episode: int) -> None:
+        self._next_episode = checks.integer("next_episode", episode, 0, seeding.LAST_EPISODE)
 
     @property
     def episode(self) -> int:
         """Index of the current episode, -1 before the first."""
-        return self.next_episode - 1
+        return self._next_episode - 1
 
     @property
     def answered(self) -> bool:
@@ -237,6 +259,16 @@ class QuestionTask(composer.Task):
 
     def action_spec(self, physics=None) -> specs.DiscreteArray:
         return specs.DiscreteArray(self.rules.num_actions, dtype=np.int32, name="action")
+
+    def observation_spec(self) -> dict[str, specs.Array]:
+        """What one environment observes."""
+        described = {}
+        for name, blank in self.blank_observations(1).items():
+            array = specs.Array(blank.shape[1:], blank.dtype, name)
+            if name in self.bounds:
+                array = specs.BoundedArray(array.shape, array.dtype, *self.bounds[name], name)
+            described[name] = array
+        return described
 
     # The composer task.
 
@@ -294,9 +326,9 @@ class QuestionTask(composer.Task):
         return self._seen[name][0].copy()
 
     def initialize_episode_mjcf(self, random_state):
-        hidden = self.draw(np.array([self.options.random]), np.array([self.next_episode]))
+        hidden = self.draw(np.array([self.options.random]), np.array([self._next_episode]))
         self._hidden, self._answers = hidden, self.answers(hidden)
-        self.next_episode += 1
+        self._next_episode += 1
         self.structure = int(self.structures(hidden)[0])
         self.arrange(self.structure)
 

@@ -82,6 +82,12 @@ class Towers(task.QuestionTask):
         return {"positions": (self.tower.position_sensors, (tower.NUM_BLOCKS, 3)), **self._actuator.sensors}
 
     @property
+    def bounds(self):
+        """The room: a centre comes no nearer to its walls than by the part of an edge that contacts give way."""
+        corner = np.array([WALL_DISTANCE, WALL_DISTANCE, CEILING])
+        return {name: (corner * [-1, -1, 0], corner) for name in self.sensors}
+
+    @property
     def held_joints(self):
         return self.tower.joints
 

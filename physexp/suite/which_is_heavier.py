@@ -5,7 +5,7 @@ import dataclasses
 from dm_control.utils import containers
 import numpy as np
 
-from physexp.suite import arena, block, seeding, senses, task
+from physexp.suite import arena, block, checks, seeding, senses, task
 
 SUITE = containers.TaggedTasks()
 
@@ -22,7 +22,11 @@ LIGHTEST, HEAVIEST = 0.2, 1.0  # kg
 STIFFNESS = 6.25  # N/m
 DAMPING = 5.0  # N s/m
 POKE_FORCE = 20.0  # N
-CEILING = 0.4  # m, highest displacement from rest
+FLOOR, CEILING = -0.01, 0.4  # m, displacements from rest at which the rail ends
+
+# m: a block rises by at most force / damping in a second. So it passes the rail's end by one physics step at that speed
+# before it feels it, and by less than another one before it is stopped.
+HIGHEST = CEILING + 2 * POKE_FORCE / DAMPING * PHYSICS_TIMESTEP
 
 _ROOM = dict(mat_size=[0.36, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.28], fovy=14.5)
 _MAX_DRAWS = 16
@@ -43,7 +47,7 @@ class Options(task.Options):
 
     def __post_init__(self):
         super().__post_init__()
-        task.check_number("difficulty", self.difficulty, 1, "the paper's beta")
+        object.__setattr__(self, "difficulty", checks.number("difficulty", self.difficulty, 1, "the paper's beta"))
 
 
 class WhichIsHeavier(task.QuestionTask):
@@ -63,7 +67,7 @@ class WhichIsHeavier(task.QuestionTask):
             frame = room.attach(cube)
             frame.pos = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, block.HALF_SIZE]
             self._joints.append(frame.add("joint", name="rail", type="slide", axis=[0, 0, 1], stiffness=STIFFNESS,
-                                          damping=DAMPING, limited=True, range=[-0.01, CEILING]))  # fmt: skip
+                                          damping=DAMPING, limited=True, range=[FLOOR, CEILING]))  # fmt: skip
             motors.add("motor", name=f"poke_{k}", joint=self._joints[-1])
             self.blocks.append(cube)
         self._height_sensors = [
@@ -91,6 +95,10 @@ class WhichIsHeavier(task.QuestionTask):
     @property
     def sensors(self):
         return {"heights": (self._height_sensors, (NUM_BLOCKS,))}
+
+    @property
+    def bounds(self):
+        return {"heights": (FLOOR, HIGHEST)}
 
     def draw(self, seeds, episodes):
         """Masses on the paper's scale, float64 [N, 4] in [0, 1]; to kilograms: `kilograms`."""

@@ -1,0 +1,31 @@
+"""One simulation is for one thread at a time: two at once corrupt it, or end the process."""
+
+import threading
+
+
+class Guard:
+    """What surrounds every use of a simulation: `with guard: ...`, also within each other.
+
+    It never waits. Whoever holds a guard can be neither pickled nor copied deeply, no more than the simulation.
+    """
+
+    def __init__(self, name: str):
+        """Makes a guard; `name` is what it guards, in messages."""
+        self._name = name
+        self._lock = threading.RLock()
+
+    def __enter__(self):
+        if not self._lock.acquire(blocking=False):
+            raise RuntimeError(
+                f"another thread is using this {self._name}; "
+                "load one for each thread, or let load_batch(..., num_threads=) step many"
+            )
+
+    def __exit__(self, *error):
+        self._lock.release()
+
+    def __reduce__(self):
+        raise TypeError(
+            f"an open {self._name} can be neither copied nor pickled; "
+            "load another with the same random, and start the same episode in it"
+        )
