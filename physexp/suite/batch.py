@@ -251,7 +251,7 @@ class _Group:
 
     @functools.cached_property
     def first_observation(self) -> dict[str, np.ndarray]:
-        """What there is to see at the start of every episode."""
+        """The observation at the start of every episode."""
         first = self._task.blank_observations(1)
         rest = {field: self.kit.rest[field][None] for field in self._task.sense.fields}
         self._task.look(self.kit, rest, np.zeros(1, bool), np.zeros(1, np.intp), first)

@@ -262,7 +262,7 @@ class QuestionTask(composer.Task):
         return self.sense.blank(self.sensors, size)
 
     def look(self, kit: apparatus_lib.Apparatus, state, touched, rows, observations) -> None:
-        """Writes what there is to see of some simulations.
+        """Writes the observations of some simulations.
 
         Args:
           kit: what is simulated.

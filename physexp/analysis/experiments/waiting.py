@@ -69,7 +69,7 @@ def draw(frame):
         _draw_times(below, frame[frame.condition == name])
         below.set_xlabel("control step, s")
     panels[0, 0].set_ylabel("share of right answers")
-    panels[1, 0].set(ylabel="median time\nto the answer, s", ylim=(0, None))
+    panels[1, 0].set(ylabel="median time to answer, s", ylim=(0, None))
     return figure
 
 
