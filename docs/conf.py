@@ -4,17 +4,30 @@ import importlib.metadata
 from pathlib import Path
 import sys
 
-sys.path.insert(0, str(Path(__file__).parent / "examples"))
+HERE = Path(__file__).parent
+sys.path[:0] = [str(HERE), str(HERE / "examples")]
 
 project = "physexp"
 author = "the physexp authors"
 release = importlib.metadata.version("physexp")
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.viewcode"]
+extensions = [
+    "command_help",
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+    "sphinx_copybutton",
+]
 exclude_patterns = ["_build", "**.ipynb_checkpoints"]
 html_theme = "furo"
+html_show_copyright = False
 html_title = f"physexp {release}"
+html_static_path = ["static"]
+html_css_files = ["page.css"]
+copybutton_exclude = ".linenos, .gp, .go"
 
+default_role = "py:obj"  # What stands in single backticks in a docstring is code, and a link where it has a page.
 myst_heading_anchors = 3
 suppress_warnings = ["misc.highlighting_failure"]
 

@@ -1,9 +1,11 @@
 """The documentation's worked examples do what it says they do."""
 
+import ast
 from pathlib import Path
 import re
 import sys
 
+import blocks
 import numpy as np
 import pytest
 
@@ -35,6 +37,43 @@ def test_what_a_page_says_of_the_tree_is_there(page):
     for name in re.findall(r"`((?:physexp|docs|tests|benchmarks|results)/[\w./]*)`", page.read_text()):
         if not re.search("[A-Z]{4}", name):  # TRIAL and NAME stand for names.
             assert (DOCS.parent / name).exists(), f"{page.name} speaks of {name}"
+
+
+PYTHON = [(page.name, block) for page in sorted(DOCS.glob("*.md")) for block in blocks.of(page)
+          if block.language == "python"]  # fmt: skip
+
+
+@pytest.mark.parametrize("page, block", PYTHON, ids=[f"{name}-{number}" for number, (name, _) in enumerate(PYTHON)])
+def test_the_python_of_a_page_runs_and_prints_what_the_page_shows(page, block, monkeypatch):
+    monkeypatch.chdir(blocks.ROOT)  # Where results/ is.
+    printed = blocks.run(block)
+    assert printed == block.shown or not block.shown
+
+
+def commented(tree):
+    """Names and docstrings of properties, and of attributes of modules and classes."""
+    for node in ast.walk(tree):
+        match node:
+            case ast.FunctionDef(decorator_list=decorators) if any("property" in ast.unparse(d) for d in decorators):
+                yield node.name, ast.get_docstring(node) or ""
+            case ast.Module(body=body) | ast.ClassDef(body=body):
+                for one, after in zip(body, body[1:], strict=False):
+                    match one, after:
+                        case ast.Assign() | ast.AnnAssign(), ast.Expr(value=ast.Constant(value=str(text))):
+                            yield ast.unparse(one), text
+
+
+def test_no_docstring_of_a_value_begins_with_words_and_a_colon_which_sphinx_takes_for_its_type():
+    for path in (blocks.ROOT / "physexp").rglob("*.py"):
+        for name, text in commented(ast.parse(path.read_text())):
+            first = re.sub("`.*?`", "", (text.splitlines() or [""])[0])
+            assert ": " not in first, f"{path.name}, {name}: {text}"
+
+
+def test_every_link_of_a_page_to_a_file_has_a_file():
+    for page in DOCS.glob("*.md"):
+        for link in re.findall(r"\]\(([^)#\s]+?)(?:#[^)]*)?\)", page.read_text()):
+            assert "://" in link or (DOCS / link).exists(), f"{page.name} links to {link}"
 
 
 def test_every_page_can_be_reached_from_the_index():

@@ -11,7 +11,7 @@ import torch
 from physexp.agents import core, networks
 
 # Replaces actions on their way to the environment: actions int [N] and a generator to replaced actions int [N].
-Interference = Callable[[np.ndarray, np.random.Generator], np.ndarray]
+ActionOverride = Callable[[np.ndarray, np.random.Generator], np.ndarray]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -119,7 +119,7 @@ def sample(logits: torch.Tensor, generator: np.random.Generator) -> np.ndarray:
 
 @torch.no_grad()
 def play_round(network: networks.RecurrentActorCritic, environment, episode: int, generator: np.random.Generator,
-               greedy: bool = False, interference: Interference | None = None, differentiable: bool = False,
+               greedy: bool = False, action_override: ActionOverride | None = None, differentiable: bool = False,
                transcribe: bool = False) -> Round:  # fmt: skip
     """Plays one whole episode in each environment of a batch.
 
@@ -129,7 +129,7 @@ def play_round(network: networks.RecurrentActorCritic, environment, episode: int
       episode: index of the episode that every environment starts.
       generator: source of the actions.
       greedy: take the likeliest action instead of drawing one.
-      interference: changes the chosen actions on their way to the environment.
+      action_override: changes the chosen actions on their way to the environment.
       differentiable: keep what it takes to differentiate the inputs. A round is learned from with the parameters that
         it is played with, so what is seen passes the torso only once.
       transcribe: keep what it takes to learn from the round with other parameters, too.
@@ -145,8 +145,8 @@ def play_round(network: networks.RecurrentActorCritic, environment, episode: int
             inputs = network.encode(as_tensors(observation))
         logits, values, state = network.step(inputs, state)
         actions = logits.cpu().numpy().argmax(axis=1) if greedy else sample(logits, generator)
-        if interference is not None:
-            actions = interference(actions, generator)
+        if action_override is not None:
+            actions = action_override(actions, generator)
         timestep = environment.step(actions, active)
         steps.append((active, actions, timestep.reward))
         if differentiable:

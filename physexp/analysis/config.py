@@ -67,7 +67,7 @@ A3C = {
 
 
 def _ppo(preset: a3c.A3CConfig, **changes) -> ppo.PPOConfig:
-    """What PPO is told: what A3C is told of the task, and what is its own."""
+    """Returns PPO's preset: the hyperparameters of the task's A3C that both have, with changes."""
     shared = {field.name: getattr(preset, field.name) for field in dataclasses.fields(agent_config.AgentConfig)}
     return ppo.PPOConfig(**{**shared, **changes})
 
@@ -94,7 +94,7 @@ PPO = {
         )
     },
 }
-"""The same of PPO."""
+"""The default configuration of each task's PPO."""
 
 _PRESETS: Mapping[str, Mapping[tuple[str, str], agent_config.AgentConfig]] = {"a3c": A3C, "ppo": PPO}
 

@@ -213,13 +213,13 @@ def play(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig,
     environment = training.make_environment(config, seed, _BATCH if num_steps else min(num_episodes, _BATCH),
                                             num_threads)  # fmt: skip
     num_interactions = environment.task.num_interactions
-    interference = functools.partial(randomize, num_interactions) if interaction == "random" else None
+    action_override = functools.partial(randomize, num_interactions) if interaction == "random" else None
     rounds: list[Episodes] = []
     episodes_left, steps_left = num_episodes, num_steps
     while episodes_left > 0 or steps_left > 0:
         number = len(rounds)
         generator = np.random.default_rng([seed, number])
-        episodes = acting.play_round(network, environment, number, generator, greedy, interference)
+        episodes = acting.play_round(network, environment, number, generator, greedy, action_override)
         rounds.append(Episodes.of_round(episodes, environment, number))
         episodes_left, steps_left = episodes_left - len(episodes.lengths), steps_left - episodes.num_frames
         if report is not None:

@@ -10,7 +10,7 @@ from physexp.agents import files
 from physexp.analysis import claims as claims_lib
 from physexp.analysis import figures
 from physexp.analysis import run as run_lib
-from physexp.analysis.experiments import EXPERIMENTS, base
+from physexp.analysis.experiments import EXPERIMENTS, base, conditions
 
 _INTRODUCTION = (
     "What *Learning to Perform Physics Experiments via Deep Reinforcement Learning* (Denil et al., ICLR 2017) reports, "
@@ -65,15 +65,30 @@ def _tally(sections) -> str:
     return ", ".join(f"{verdicts.count(kind)} {kind}" for kind in kinds)
 
 
-def _rows(found: list[claims_lib.Claim]):
-    for claim in found:
-        estimate = claim.estimate
-        interval = f"{_number(estimate.low)} to {_number(estimate.high)}"
-        yield (claim.text, claim.section, claim.condition, claim.statistic, _number(estimate.value), interval,
-               claim.wanted, claim.verdict)  # fmt: skip
-
-
 _HEADER = ("claim", "section", "condition", "statistic", "estimate", "95 % interval", "wanted", "verdict")
+
+
+def _row(claim: claims_lib.Claim) -> tuple[str, ...]:
+    """Returns a claim under `_HEADER`."""
+    estimate = claim.estimate
+    interval = f"{_number(estimate.low)} to {_number(estimate.high)}"
+    return (claim.text, claim.section, conditions.spelled_out(claim.condition), claim.statistic,
+            _number(estimate.value), interval, claim.wanted, claim.verdict)  # fmt: skip
+
+
+_OPEN_HEADER = ("verdict", "claim", "condition", "95 % interval", "wanted", "experiment")
+
+
+def _open(sections) -> list[tuple[tuple[str, ...], base.Experiment]]:
+    """Returns rows under `_OPEN_HEADER` of what does not hold, failures first; the experiment stands apart."""
+    claims = [(claim, experiment) for experiment, found in sections for claim in found]
+    rows = []
+    for verdict in (claims_lib.FAILS, claims_lib.UNDECIDED):
+        for claim, experiment in claims:
+            if claim.verdict == verdict:
+                text, _, condition, _, _, interval, wanted, _ = _row(claim)
+                rows.append(((verdict, text, condition, interval, wanted), experiment))
+    return rows
 
 
 def _number(value: float) -> str:
@@ -86,33 +101,60 @@ def _reasons(found: list[claims_lib.Claim]) -> list[str]:
     return list(dict.fromkeys(f'Why "{claim.text}" fails: {claim.reason}' for claim in failing))
 
 
+_OPEN_TITLE = "What does not hold"
+
+
+def _anchor(experiment: base.Experiment) -> str:
+    return experiment.name.replace("_", "-")
+
+
+def _table(header: tuple[str, ...]) -> list[str]:
+    return ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
+
+
 def _markdown(sections, missing, results) -> str:
     lines = ["# Results", "", _INTRODUCTION, "", *_provenance(results), "", f"Verdicts: {_tally(sections)}.", ""]
+    if _open(sections):
+        lines += [f"## {_OPEN_TITLE}", "", *_table(_OPEN_HEADER)]
+        lines += [f"| **{verdict}** | " + " | ".join(row) + f" | [{experiment.name}](#{_anchor(experiment)}) |"
+                  for (verdict, *row), experiment in _open(sections)]  # fmt: skip
+        lines += [""]
     for experiment, found in sections:
-        lines += [f"## {experiment.title} ({experiment.section})", "",
+        lines += [f'<a id="{_anchor(experiment)}"></a>', "", f"## {experiment.title} ({experiment.section})", "",
                   f"![{experiment.title}](figures/{experiment.name}.png)", "", experiment.caption, "",
-                  "| " + " | ".join(_HEADER) + " |", "|" + "---|" * len(_HEADER)]  # fmt: skip
-        lines += ["| " + " | ".join(row[:-1]) + f" | **{row[-1]}** |" for row in _rows(found)]
+                  *_table(_HEADER)]  # fmt: skip
+        lines += ["| " + " | ".join(row[:-1]) + f" | **{row[-1]}** |" for row in map(_row, found)]
         lines += [""] + [text for reason in _reasons(found) for text in (reason, "")]
     lines += [text for line in missing for text in (f"Left out: {line}", "")]
     return "\n".join(lines).rstrip() + "\n"
 
 
+def _head(header: tuple[str, ...]) -> str:
+    return "<tr>" + "".join(f"<th>{name}</th>" for name in header) + "</tr>"
+
+
 def _page(sections, missing, results) -> str:
     parts = [f"<p>{html.escape(text).replace('*', '')}</p>" for text in
              (_INTRODUCTION, *_provenance(results), f"Verdicts: {_tally(sections)}.")]  # fmt: skip
+    if _open(sections):
+        body = "".join(
+            f'<tr><td class="{verdict}">{verdict}</td>' + "".join(f"<td>{html.escape(cell)}</td>" for cell in row)
+            + f'<td><a href="#{_anchor(experiment)}">{experiment.name}</a></td></tr>'
+            for (verdict, *row), experiment in _open(sections)
+        )  # fmt: skip
+        parts.append(f"<h2>{_OPEN_TITLE}</h2><table>{_head(_OPEN_HEADER)}{body}</table>")
     for experiment, found in sections:
         image = base64.b64encode((results.path / "figures" / f"{experiment.name}.svg").read_bytes()).decode()
-        head = "".join(f"<th>{name}</th>" for name in _HEADER)
         body = "".join(
             "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row[:-1])
             + f'<td class="{row[-1]}">{row[-1]}</td></tr>'
-            for row in _rows(found)
+            for row in map(_row, found)
         )  # fmt: skip
         parts.append(
-            f"<h2>{html.escape(experiment.title)} <small>{html.escape(experiment.section)}</small></h2>"
+            f'<h2 id="{_anchor(experiment)}">{html.escape(experiment.title)} '
+            f"<small>{html.escape(experiment.section)}</small></h2>"
             f'<img alt="{html.escape(experiment.title)}" src="data:image/svg+xml;base64,{image}">'
-            f"<p>{html.escape(experiment.caption)}</p><table><tr>{head}</tr>{body}</table>"
+            f"<p>{html.escape(experiment.caption)}</p><table>{_head(_HEADER)}{body}</table>"
             + "".join(f"<p>{html.escape(reason)}</p>" for reason in _reasons(found))
         )
     parts += [f"<p>Left out: {html.escape(line)}</p>" for line in missing]

@@ -87,7 +87,11 @@ class Run:
 
     @property
     def facts(self) -> dict[str, Any]:
-        """What `create` wrote down: the configuration, versions, commit and renderer; raises as `config`."""
+        """Returns the configuration, versions, commit and renderer that `create` wrote.
+
+        Raises:
+          ValueError: as `config`.
+        """
         try:
             fields = json.loads((self.path / "config.json").read_text())
         except FileNotFoundError:

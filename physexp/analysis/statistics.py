@@ -10,7 +10,6 @@ import math
 import numpy as np
 
 _LEVEL = 0.95
-_NORMAL_975 = 1.959963984540054  # The 97.5 % quantile of the normal distribution.
 
 
 @dataclasses.dataclass(frozen=True)
@@ -34,10 +33,10 @@ def wilson_interval(successes: int, trials: int) -> tuple[float, float]:
       successes: how often it happened.
       trials: how often it could have, >= 1.
     """
-    share, z2 = successes / trials, _NORMAL_975**2
-    center = (share + z2 / (2 * trials)) / (1 + z2 / trials)
-    half = _NORMAL_975 / (1 + z2 / trials) * math.sqrt(share * (1 - share) / trials + z2 / (4 * trials**2))
-    return max(0.0, center - half), min(1.0, center + half)
+    from scipy import stats
+
+    interval = stats.binomtest(successes, trials).proportion_ci(_LEVEL, method="wilson")
+    return float(interval.low), float(interval.high)
 
 
 def proportion(outcomes: Sequence[bool] | np.ndarray) -> Estimate:
@@ -53,8 +52,11 @@ def mean(values: Sequence[float] | np.ndarray) -> Estimate:
     average = float(np.mean(values)) if len(values) else math.nan
     if len(values) < 2:
         return Estimate(average, -math.inf, math.inf)
-    half = stats.t.ppf((1 + _LEVEL) / 2, len(values) - 1) * float(np.std(values, ddof=1)) / math.sqrt(len(values))
-    return Estimate(average, average - half, average + half)
+    error = float(np.std(values, ddof=1)) / math.sqrt(len(values))
+    if not error:
+        return Estimate(average, average, average)
+    low, high = stats.t.interval(_LEVEL, len(values) - 1, loc=average, scale=error)
+    return Estimate(average, float(low), float(high))
 
 
 def mean_share(shares: Sequence[float] | np.ndarray) -> Estimate:
@@ -90,12 +92,13 @@ def ratio_of_means(numerators: Sequence[float] | np.ndarray, denominators: Seque
     value = float(logs[0].mean() - logs[1].mean())
     if min(map(len, logs)) < 2:
         return Estimate(math.exp(value), 0.0, math.inf)
-    squares = [float(group.var(ddof=1)) / len(group) for group in logs]
-    if not sum(squares):
-        return Estimate(*[math.exp(value)] * 3)
-    freedom = sum(squares) ** 2 / sum(part**2 / (len(group) - 1) for part, group in zip(squares, logs, strict=True))
-    half = float(stats.t.ppf((1 + _LEVEL) / 2, freedom)) * math.sqrt(sum(squares))
-    return Estimate(math.exp(value), math.exp(value - half), math.exp(value + half))
+    if not np.ptp(logs[1]):  # Without a spread of one group, Welch's interval is Student's of the other.
+        interval = mean(logs[0] - logs[1][0])
+    elif not np.ptp(logs[0]):
+        interval = mean(logs[0][0] - logs[1])
+    else:
+        interval = stats.ttest_ind(*logs, equal_var=False).confidence_interval(_LEVEL)
+    return Estimate(math.exp(value), math.exp(interval.low), math.exp(interval.high))
 
 
 def ratio_of_pairs(numerators: Sequence[float] | np.ndarray, denominators: Sequence[float] | np.ndarray) -> Estimate:
@@ -130,6 +133,8 @@ def slope(x: np.ndarray, y: np.ndarray) -> Estimate:
     The interval allows for a spread of y that changes with x (White's standard error, HC1); it is infinite for fewer
     than three pairs and where all x are the same.
     """
+    from scipy import stats
+
     centered = x - x.mean()
     square = float(centered @ centered)
     if square == 0:
@@ -139,4 +144,7 @@ def slope(x: np.ndarray, y: np.ndarray) -> Estimate:
         return Estimate(value, -math.inf, math.inf)
     residuals = y - y.mean() - value * centered
     error = math.sqrt(float((centered**2) @ (residuals**2)) * len(x) / (len(x) - 2)) / square
-    return Estimate(value, value - _NORMAL_975 * error, value + _NORMAL_975 * error)
+    if not error:
+        return Estimate(value, value, value)
+    low, high = stats.norm.interval(_LEVEL, loc=value, scale=error)
+    return Estimate(value, float(low), float(high))

@@ -92,14 +92,14 @@ class BatchEnvironment:
 
     @property
     def hidden(self) -> np.ndarray:
-        """The hidden properties of the current episodes, [B, ...]: for analysis, never part of an observation."""
+        """Returns the hidden properties of the current episodes, [B, ...], which are never part of an observation."""
         if self._hidden is None:
             raise RuntimeError("no episode has been started; call reset() first")
         return self._hidden.copy()
 
     @property
     def seeds(self) -> np.ndarray:
-        """Seeds of the environments, int64 [B]: those that `load` takes."""
+        """Returns the seeds of the environments, int64 [B]; `load` with one of them makes that environment alone."""
         return self._seeds.copy()
 
     @property
@@ -288,7 +288,7 @@ class _Group:
 
     @functools.cached_property
     def first_observation(self) -> dict[str, np.ndarray]:
-        """What there is to see at the start of every episode."""
+        """The observation at the start of every episode."""
         first = self._task.blank_observations(1)
         rest = {field: self.kit.rest[field][None] for field in self._task.sense.fields}
         self._task.look(self.kit, rest, np.zeros(1, bool), np.zeros(1, np.intp), first)

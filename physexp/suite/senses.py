@@ -34,7 +34,7 @@ class Sense(abc.ABC):
     @abc.abstractmethod
     def look(self, apparatus: apparatus_lib.Apparatus, state: Mapping[str, np.ndarray], rows: np.ndarray,
              observations: Mapping[str, np.ndarray]) -> None:  # fmt: skip
-        """Writes what there is to see.
+        """Writes the observations.
 
         Args:
           apparatus: what is looked at.

@@ -150,7 +150,7 @@ class QuestionTask(composer.Task):
     @property
     @abc.abstractmethod
     def effects(self) -> Sequence[tuple[str, tuple[float, float, float]]]:
-        """What each interaction action does, to be shown: the thing it acts on, and a force (N) or velocity (m/s)."""
+        """Returns what each interaction action acts on, and the force (N) or velocity (m/s) to draw there."""
 
     @property
     @abc.abstractmethod
@@ -223,7 +223,7 @@ class QuestionTask(composer.Task):
 
     @property
     def hidden(self) -> np.ndarray:
-        """The hidden property of the current episode: for analysis, never part of an observation."""
+        """Returns the hidden property of the current episode, which is never part of an observation."""
         if self._hidden is None:
             raise RuntimeError("no episode has been started; call reset() first")
         return self._hidden[0]
@@ -297,7 +297,7 @@ class QuestionTask(composer.Task):
         return self.sense.blank(self.sensors, size)
 
     def look(self, kit: apparatus_lib.Apparatus, state, touched, rows, observations) -> None:
-        """Writes what there is to see of some simulations.
+        """Writes the observations of some simulations.
 
         Args:
           kit: what is simulated.

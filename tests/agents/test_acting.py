@@ -50,7 +50,7 @@ def test_acting_logits_and_values_equal_those_of_training(domain, task):
         return np.where(drawn < 0, actions, drawn)
 
     episodes = acting.play_round(
-        network, batch, 0, np.random.default_rng(seed), interference=vary_lengths, differentiable=True
+        network, batch, 0, np.random.default_rng(seed), action_override=vary_lengths, differentiable=True
     )
     batch.close()
     lengths = episodes.lengths
@@ -272,12 +272,12 @@ def test_actors_of_one_seed_draw_the_same_actions_and_of_two_seeds_others():
     assert draws(5) != draws(6)
 
 
-def test_interference_changes_what_the_environment_gets_and_what_is_recorded():
+def test_an_action_override_changes_what_the_environment_gets_and_what_is_recorded():
     batch = suite.load_batch("which_is_heavier", "features", 8, {"random": fresh_seed()})
     network = make_network(batch, 0)
     # Whatever the policy wants, label 2 (action 6) is what is said: every episode is one action long.
     episodes = acting.play_round(
-        network, batch, 0, np.random.default_rng(0), interference=lambda actions, generator: np.full_like(actions, 6)
+        network, batch, 0, np.random.default_rng(0), action_override=lambda actions, generator: np.full_like(actions, 6)
     )
     batch.close()
     assert episodes.lengths.tolist() == [1] * 8

@@ -14,7 +14,7 @@ import pytest
 from trainers import fresh_seed
 
 from physexp.analysis import figures
-from physexp.analysis.experiments import EXPERIMENTS
+from physexp.analysis.experiments import EXPERIMENTS, conditions
 
 matplotlib.use("Agg")
 from matplotlib import colors, image, pyplot  # noqa: E402
@@ -68,6 +68,12 @@ def texts(svg):
     return ["".join(element.itertext()).strip() for element in root.iter(f"{_SVG}text")]
 
 
+def shown_names(frame):
+    """The names of conditions as axes have them, on one line or two."""
+    names = {conditions.tick(name) for name in frame.get("condition", [])}
+    return names | {name.replace(", ", "\n") for name in names}
+
+
 def lightness(color):
     """CIE L* of a colour, from 0 for black to 100 for white."""
     values = np.array(colors.to_rgb(color))
@@ -83,7 +89,7 @@ def test_every_axis_is_named_or_shares_the_one_that_is(draw, name):
     named_x, named_y = ([one for one, labels in zip(drawn.axes, drawn.labels, strict=True) if labels[index]]
                         for index in (0, 1))  # fmt: skip
     for one, ticks in zip(drawn.axes, drawn.ticks, strict=True):
-        categories = set(ticks) & set(made(name).get("condition", []))  # Names instead of numbers.
+        categories = set(ticks) & shown_names(made(name))  # Names instead of numbers.
         assert categories or one in named_x or any(one.get_shared_x_axes().joined(one, other) for other in named_x)
         assert one in named_y or any(one.get_shared_y_axes().joined(one, other) for other in named_y)
 
@@ -136,9 +142,38 @@ PARTS = [
 def test_one_agent_of_one_condition_is_enough_to_draw(name, condition, tmp_path):
     frame = made(name, 1)
     frame = frame[frame.condition == condition]
-    svg, _ = figures.save(EXPERIMENTS[name].figure(frame), tmp_path, name)
-    others = set(made(name).condition) - {condition}
-    assert not others & set(texts(svg))
+    figure = EXPERIMENTS[name].figure(frame)
+    ticks = {tick.get_text() for axes in figure.axes for tick in axes.get_xticklabels()}
+    assert not ticks & shown_names(made(name)) - shown_names(frame)
+    svg, _ = figures.save(figure, tmp_path, name)
+    assert texts(svg)
+
+
+def test_conditions_are_spelled_out_since_f_is_both_the_fist_and_features():
+    assert conditions.spelled_out("F-F") == "fist, features"
+    assert conditions.spelled_out("D-P, each agent") == "direct, pixels, each agent"
+    assert conditions.spelled_out("10-F against 5-F") == "difficulty 10, features against difficulty 5, features"
+    assert conditions.spelled_out("beta 3 against 5") == "beta 3 against 5"
+
+
+@pytest.mark.parametrize("name", EXPERIMENTS)
+def test_no_figure_abbreviates_a_condition(draw, name):
+    drawn = draw(name)
+    words = {*texts(drawn.svg), *(tick for ticks in drawn.ticks for tick in ticks)}
+    assert not [text for text in words if re.search(r"\b(\d+|[DF])-[FP]\b", text)]
+
+
+def test_no_axes_share_their_place(draw):
+    """Two scales over one place, left and right, are read wrong."""
+    for name in EXPERIMENTS:
+        places = [tuple(axes.get_position().bounds) for axes in draw(name).axes]
+        assert len(set(places)) == len(places), name
+
+
+@pytest.mark.parametrize("name", EXPERIMENTS)
+def test_the_picture_is_sharp_on_a_dense_screen_and_small(draw, name):
+    drawn = draw(name)
+    assert image.imread(drawn.png).shape[0] > 400 and drawn.png.stat().st_size < 120_000
 
 
 def test_colors_differ_in_grey_from_each_other_and_from_the_paper():

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -108,6 +109,18 @@ def test_the_report_has_every_figure_there_is_data_for_and_says_what_is_left_out
     for name in ("waiting", "random_towers", "individual"):
         assert f"Left out: {name}" in markdown
     assert run_lib.commit()[:10] in markdown
+
+
+def test_the_report_begins_with_the_failures_and_then_what_is_undecided(rehearsed):
+    results, _ = rehearsed
+    markdown, page = report.write(results).read_text(), (results.path / "report.html").read_text()
+    start, end = markdown.index("## What does not hold"), markdown.index("![")
+    first = re.findall(r"^\| \*\*(\w+)\*\* \|", markdown[start:end], re.MULTILINE)
+    later = re.findall(r"\*\*(fails|undecided)\*\*", markdown[end:])
+    assert first == sorted(later) != [], "after so few frames some claims are open"
+    assert page.index("What does not hold") < page.index("<img")
+    for name in set(re.findall(r"\]\(#([\w-]+)\)", markdown)):
+        assert f'<a id="{name}">' in markdown and f'<h2 id="{name}">' in page
 
 
 def test_a_report_of_nothing_says_what_to_do(tmp_path):

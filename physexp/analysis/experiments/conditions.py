@@ -1,5 +1,7 @@
 """What agents are trained on: every condition of the paper, each with a budget that flattens its curve."""
 
+import re
+
 from physexp.analysis import config as config_lib
 
 DIFFICULTIES = (3.0, 5.0, 10.0)
@@ -55,3 +57,21 @@ def label(domain: str, task: str, difficulty: float | None) -> str:
     """The paper's name of a condition: 10-F is difficulty 10 from features, D-P is direct actuation from pixels."""
     kind = task.rsplit("_", 1)[-1][0].upper()
     return f"{difficulty:g}-{kind}" if domain == "which_is_heavier" else f"{task[0].upper()}-{kind}"
+
+
+_WORDS = {"F": "features", "P": "pixels"}
+
+
+def spelled_out(text: str) -> str:
+    """Returns a text with the paper's names of conditions in words, since its F is both the fist and features.
+
+    `10-F` becomes `difficulty 10, features`, and `F-F` becomes `fist, features`.
+    """
+    text = re.sub(r"\b([\d.]+)-([FP])\b", lambda found: f"difficulty {found[1]}, {_WORDS[found[2]]}", text)
+    actuators = {name[0].upper(): name for name in ACTUATORS}
+    return re.sub(r"\b([DF])-([FP])\b", lambda found: f"{actuators[found[1]]}, {_WORDS[found[2]]}", text)
+
+
+def tick(name: str) -> str:
+    """Returns a condition in words that are short enough for an axis."""
+    return spelled_out(name).replace("difficulty", r"$\beta$ =")

@@ -86,7 +86,7 @@ def find_claims(frame) -> list[claims.Claim]:
 
 def draw(frame):
     """Returns as shares of the ideal's, what is lost by kind, and how fine the towers' observer must see."""
-    figure, (left, middle, right) = figures.new(columns=3, width=2.9, height=2.7)
+    figure, (left, middle, right) = figures.new(columns=3, width=2.9, height=3.1)
     names = list(frame.condition.unique())
     places = np.arange(len(names))
     for place, name in zip(places, names, strict=True):
@@ -94,7 +94,7 @@ def draw(frame):
         left.plot([place] * len(agents), agents.agent_return / agents.ideal_return, "o", color=figures.COLORS[1],
                   markersize=2.5, alpha=0.6)  # fmt: skip
     figures.reference(left, 1.0, "ideal", at=0.35)
-    left.set_xticks(places, names, rotation=60)
+    left.set_xticks(places, [conditions.tick(name) for name in names], rotation=90)
     left.set(ylabel="discounted return, share of the ideal's")
     _draw_costs(middle, frame)
     _draw_resolutions(right, frame.attrs["towers"])
@@ -107,14 +107,15 @@ def _draw_costs(axes, frame) -> None:
         axes.set_axis_off()
         return
     means = heavier.groupby("condition", sort=False)[list(regret.KINDS)].mean()
+    ticks = [conditions.tick(name) for name in means.index]
     base_of_bar = np.zeros(len(means))
     for number, (kind, words) in enumerate(regret.KINDS.items()):
         if (means[kind] > 1e-4).any():
-            axes.bar(means.index, means[kind], bottom=base_of_bar, color=figures.COLORS[1:][number], label=words,
+            axes.bar(ticks, means[kind], bottom=base_of_bar, color=figures.COLORS[1:][number], label=words,
                      hatch=[None, "///", "...", "xx", "++"][number], edgecolor="white", linewidth=0.3)  # fmt: skip
         base_of_bar = base_of_bar + means[kind].to_numpy()
     axes.set(ylabel="return lost against the ideal")
-    axes.tick_params(axis="x", rotation=60)
+    axes.tick_params(axis="x", rotation=90)
     axes.legend(fontsize=5.5, loc="upper left", bbox_to_anchor=(0, 1.18))
     axes.set_ylim(0, 1.35 * base_of_bar.max())
 

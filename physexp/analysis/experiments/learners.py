@@ -60,7 +60,7 @@ def draw(frame):
         chance = 1 / (4 if task[0].isdigit() else 5)
         for axes, along in zip(row, learning.AXES, strict=True):
             learning.draw_panel(axes, curves[along], _curve_names(task), list(_NAMES.values()), chance, along)
-        row[0].set(title=task, ylabel="share of right answers")
+        row[0].set(title=conditions.spelled_out(task), ylabel="share of right answers")
         row[0].legend(loc="lower right", bbox_to_anchor=(1, 0.3))
     return figure
 

@@ -10,7 +10,7 @@ _POINTS = 120
 _WINDOW = 2000  # Episodes over which success is averaged, whatever the speed of the machine they were played on.
 
 AXES = {"frames": (1e6, "environment steps, millions"), "seconds": (60.0, "minutes of training")}
-"""What success may be drawn along: the column, its unit, and what the axis is called."""
+"""What success may be drawn along, by column, with its unit and the name of the axis."""
 
 
 def moving_success(run, along: str = "frames") -> tuple[np.ndarray, np.ndarray]:

@@ -42,8 +42,7 @@ EXPERIMENT = base.Experiment(
     title="Randomized interaction, Which is Heavier",
     section="5.3, Figure 4",
     caption="Interactions and accuracy of agents that choose their pokes, and of the same agents when their pokes are "
-    "drawn at random; conditions are difficulty and observation (10-F: difficulty 10, features). Dots: single agents. "
-    "Dotted lines: the ideal experimenter.",
+    "drawn at random. Dots: single agents. Dotted lines: the ideal experimenter.",
     conditions=conditions.HEAVIER,
     trials=(base.LEARNED, base.RANDOM),
     load=lambda results: results.episodes([base.LEARNED, base.RANDOM], conditions.HEAVIER, randomized.COLUMNS),

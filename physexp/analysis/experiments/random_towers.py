@@ -31,8 +31,8 @@ EXPERIMENT = base.Experiment(
     title="Randomized interaction, Towers",
     section="6.3, Figure 7",
     caption="Interactions and accuracy of agents that choose their interactions, and of the same agents when these are "
-    "drawn at random (D-P: direct actuation, pixels; F-F: fist, features). Timeouts left out. Dots: single agents. "
-    "Dotted lines: the ideal experimenter, who sees every bit.",
+    "drawn at random. Timeouts left out. Dots: single agents. Dotted lines: the ideal experimenter, which sees "
+    "every bit.",
     conditions=conditions.TOWERS,
     trials=(base.LEARNED, base.RANDOM),
     prepare=ideal_towers.prepare,

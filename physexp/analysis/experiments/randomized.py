@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from physexp.analysis import claims, figures, statistics
+from physexp.analysis.experiments import conditions
 
 COLUMNS = ["label", "reward", "interactions", "time"]
 
@@ -51,7 +52,7 @@ def draw(frame, names: Sequence[str], chance: float, ideal: dict[str, tuple[floa
     """Lengths at the left, accuracies at the right; `ideal` has both for each condition."""
     agents = per_agent(frame)
     names = [name for name in names if name in set(agents.condition)]
-    figure, panels = figures.new(columns=2, width=3.2, height=2.4)
+    figure, panels = figures.new(columns=2, width=3.4, height=2.4)
     places = np.arange(len(names))
     for axes, column, index in zip(panels, ("length", "accuracy"), (0, 1), strict=True):
         for offset, interaction, color, hatch in ((-0.2, "learned", figures.COLORS[1], None),
@@ -66,7 +67,7 @@ def draw(frame, names: Sequence[str], chance: float, ideal: dict[str, tuple[floa
         for place, name in zip(places, names, strict=True):
             axes.plot([place - 0.42, place + 0.42], [ideal[name][index]] * 2, color="black", linewidth=1.2,
                       linestyle=figures.DASHES[2], label="ideal" if place == 0 else None)  # fmt: skip
-        axes.set_xticks(places, names)
+        axes.set_xticks(places, [conditions.tick(name).replace(", ", "\n") for name in names], fontsize=6.5)
     panels[0].set(ylabel="interactions before the answer")
     panels[1].set(ylabel="share of right answers", ylim=(0, 1.05))
     figures.reference(panels[1], chance, "chance")

@@ -11,6 +11,7 @@ TRIALS = tuple(
     base.Trial(name=f"timestep{timestep:g}", num_steps=10_000, control_timestep=timestep)
     for timestep in CONTROL_TIMESTEPS
 )
+_CHANCE = 0.2
 _FINEST, _TRAINED = CONTROL_TIMESTEPS[0], CONTROL_TIMESTEPS[-1]
 
 
@@ -53,31 +54,35 @@ def find_claims(frame) -> list[claims.Claim]:
 
 
 def draw(frame):
-    """Accuracy and median time against the control step, of one agent of each condition."""
+    """Above, accuracy against the control step; below, the median time to the answer, of one agent."""
     agents = per_agent(frame)
     names = list(agents.condition.unique())
-    figure, panels = figures.new(columns=len(names), width=3.0, height=2.4, squeeze=False)
-    for axes, name in zip(panels[0], names, strict=True):
-        rows = frame[(frame.condition == name)].assign(step=frame.control_timestep.round(3))
+    figure, panels = figures.new(columns=len(names), rows=2, width=3.0, height=1.9, sharex=True, sharey="row",
+                                 squeeze=False)  # fmt: skip
+    for (above, below), name in zip(panels.T, names, strict=True):
         accuracy = agents[agents.condition == name].groupby("control_timestep").accuracy
-        axes.plot(accuracy.median().index, accuracy.median(), color=figures.COLORS[1], marker="o", markersize=3)
-        axes.fill_between(accuracy.median().index, accuracy.min(), accuracy.max(), color=figures.COLORS[1], alpha=0.15,
-                          linewidth=0)  # fmt: skip
-        axes.set(xlabel="control step, s", ylim=(0, 1.05), title=f"fist, {'features' if name == 'F-F' else 'pixels'}")
-        axes.set_ylabel("share of right answers", color=figures.COLORS[1])
-        right = axes.twinx()
-        right.spines["right"].set_visible(True)
-        one = rows[rows.training_seed == rows.training_seed.min()]
-        steps = np.sort(one.step.unique())
-        medians = [statistics.median(one.time[one.step == step]) for step in steps]
-        middle = np.array([estimate.value for estimate in medians])
-        error = [[e.value - e.low for e in medians], [e.high - e.value for e in medians]]
-        right.errorbar(steps, middle, error, color=figures.COLORS[2], marker="s", markersize=3,
-                       linestyle=figures.DASHES[1], capsize=1.5)  # fmt: skip
-        right.fill_between(steps, middle - steps, middle + steps, color=figures.COLORS[2], alpha=0.15, linewidth=0)
-        right.set(ylim=(0, None))
-        right.set_ylabel("median time to the answer, s", color=figures.COLORS[2])
+        above.plot(accuracy.median(), color=figures.COLORS[1], marker="o", markersize=3)
+        above.fill_between(accuracy.median().index, accuracy.min(), accuracy.max(), color=figures.COLORS[1], alpha=0.15,
+                           linewidth=0)  # fmt: skip
+        figures.reference(above, _CHANCE, "chance")
+        above.set(title=conditions.spelled_out(name), ylim=(0, 1.05))
+        _draw_times(below, frame[frame.condition == name])
+        below.set_xlabel("control step, s")
+    panels[0, 0].set_ylabel("share of right answers")
+    panels[1, 0].set(ylabel="median time to answer, s", ylim=(0, None))
     return figure
+
+
+def _draw_times(axes, rows) -> None:
+    rows = rows.assign(step=rows.control_timestep.round(3))
+    one = rows[rows.training_seed == rows.training_seed.min()]
+    steps = np.sort(one.step.unique())
+    medians = [statistics.median(one.time[one.step == step]) for step in steps]
+    middle = np.array([estimate.value for estimate in medians])
+    error = [[e.value - e.low for e in medians], [e.high - e.value for e in medians]]
+    axes.errorbar(steps, middle, error, color=figures.COLORS[2], marker="s", markersize=3,
+                  linestyle=figures.DASHES[1], capsize=1.5)  # fmt: skip
+    axes.fill_between(steps, middle - steps, middle + steps, color=figures.COLORS[2], alpha=0.15, linewidth=0)
 
 
 EXPERIMENT = base.Experiment(
@@ -85,8 +90,8 @@ EXPERIMENT = base.Experiment(
     title="Waiting for information",
     section="6.3, Figure 5 (right)",
     caption="Fist agents, trained with a control step of 0.1 s, tested with smaller ones for at least 10,000 steps "
-    "each. Circles: median accuracy of the agents, shaded from the worst to the best. Squares: median time to the "
-    "answer of one agent (the first seed), with 95 % intervals; shaded: one control step to either side.",
+    "each. Above: median accuracy of the agents, shaded from the worst to the best. Below: median time to the answer "
+    "of one agent (the first seed), with 95 % intervals; shaded: one control step to either side.",
     conditions=CONDITIONS,
     trials=TRIALS,
     load=lambda results: results.episodes(TRIALS, CONDITIONS, ["reward", "interactions", "time"]),

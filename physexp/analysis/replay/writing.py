@@ -32,7 +32,7 @@ from physexp.analysis.replay import recording
 from physexp.suite import block, tower, which_is_heavier
 
 PROGRAM = Path(rerun_cli.__file__).with_name("rerun")
-"""Rerun's own program: its viewer, and its tools for files."""
+"""Rerun's own program, with its viewer and its tools for files."""
 
 _ARROW_LENGTH = 0.25  # m
 _ARROW_COLOR = (220, 40, 120)

@@ -1,0 +1,54 @@
+"""The directive `command-line`: what `physexp --help` prints, for every command, when the pages are built."""
+
+import contextlib
+import io
+import os
+import re
+from unittest import mock
+
+from docutils import nodes
+from sphinx.util.docutils import SphinxDirective
+
+from physexp import cli
+
+WIDTH = 88  # Columns; more would not fit on a page.
+_VARIANTS = {"train": [[], ["--agent", "ppo"]]}
+"""Commands whose options depend on their arguments."""
+
+
+def help_of(*arguments: str) -> str:
+    """Returns what `physexp ARGUMENTS --help` prints."""
+    printed = io.StringIO()
+    with (
+        mock.patch("sys.argv", ["physexp", *arguments, "--help"]),
+        mock.patch.dict(os.environ, {"COLUMNS": str(WIDTH), "NO_COLOR": "1"}),
+        contextlib.redirect_stdout(printed),
+        contextlib.suppress(SystemExit),
+    ):
+        cli.main()
+    return printed.getvalue()
+
+
+def commands() -> list[str]:
+    """Returns the names of all commands."""
+    return re.search(r"\{([\w,\s]+)\}", help_of())[1].replace("\n", "").replace(" ", "").split(",")
+
+
+class CommandLine(SphinxDirective):
+    """A section for each command with its help."""
+
+    def run(self) -> list[nodes.Node]:
+        sections = []
+        for command in commands():
+            section = nodes.section(ids=[f"physexp-{command}"])
+            section += nodes.title(text=f"physexp {command}")
+            for arguments in _VARIANTS.get(command, [[]]):
+                text = help_of(command, *arguments)
+                section += nodes.literal_block(text, text, language="text")
+            sections.append(section)
+        return sections
+
+
+def setup(app) -> dict:
+    app.add_directive("command-line", CommandLine)
+    return {"parallel_read_safe": True}
