@@ -78,8 +78,9 @@ def obey(wait: Callable[[], object]) -> None:
     signal.signal(signal.SIGUSR1, lambda number, frame: _raise(number))
 
     def pass_on() -> None:
-        wait()
-        os.kill(os.getpid(), signal.SIGUSR1)
+        with contextlib.suppress(EOFError, OSError):  # The parent is gone, without having asked.
+            wait()
+            os.kill(os.getpid(), signal.SIGUSR1)
 
     threading.Thread(target=pass_on, daemon=True).start()
 
