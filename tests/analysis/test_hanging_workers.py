@@ -1,12 +1,16 @@
 """A worker that is stopped, wherever it is stopped, is told of, and hangs nobody for ever."""
 
 import contextlib
+import dataclasses
+import functools
+import math
 import os
 from pathlib import Path
 import re
 import signal
 import threading
 import time
+import types
 
 import pytest
 import trainers
@@ -14,14 +18,13 @@ import trainers
 from physexp.agents.a3c import agent as a3c
 from physexp.analysis import training
 
-NEVER = 10**6
 
-
-def make_agent(tmp_path, num_workers, report, **patience):
-    run = trainers.create(tmp_path / "run", frames=10**9, num_workers=num_workers, envs_per_worker=2)
-    agent = training.make_agent(run.config)
-    limits = a3c.Patience(**{"silent": NEVER, "locked": NEVER, "told": NEVER, "stop": NEVER} | patience)
-    return a3c.A3C(agent._make_environment, run.config.agent, report, limits)
+def make_agent(tmp_path, num_workers, report):
+    """An agent, and its patience, that lasts for ever until a test changes it."""
+    config = trainers.create(tmp_path / "run", frames=10**9, num_workers=num_workers, envs_per_worker=2).config
+    patience = types.SimpleNamespace(**dict.fromkeys(dataclasses.asdict(a3c.Patience()), math.inf))
+    environments = functools.partial(training.make_environment, config)
+    return a3c.A3C(environments, config.agent, report, patience), patience
 
 
 @contextlib.contextmanager
@@ -53,12 +56,13 @@ def iterate_until(updates, condition):
 
 def test_training_goes_on_without_a_stopped_worker_and_ends_without_it(tmp_path):
     lines = []
-    agent = make_agent(tmp_path, 2, lines.append, silent=0.3, told=0.3, stop=0.6)
+    agent, patience = make_agent(tmp_path, 2, lines.append)
     with training_of(agent) as updates:
         iterate_until(updates, lambda _: bool((agent.shared.variables.rounds > 0).all()))
         victim = agent._workers[0].process.pid
         with agent.shared.lock:  # So that it does not have it.
             stop(victim)
+        patience.silent = 0.3
         rounds = agent.shared.variables.rounds
         iterate_until(updates, lambda _: any("worker 0" in line for line in lines))
         # The other one may be slow, too: how slow is the machine's affair.
@@ -73,6 +77,7 @@ def test_training_goes_on_without_a_stopped_worker_and_ends_without_it(tmp_path)
         iterate_until(updates, lambda _: f"worker 0 (process {victim}) is back" in lines)
         with agent.shared.lock:
             stop(victim)
+        patience.stop = 0.6
         agent.stop()
         list(updates)
         assert f"worker 0 (process {victim}) did not end its round within 1 s, and was killed" in lines
@@ -92,10 +97,11 @@ def stop_while_it_holds_the_lock(agent):
 
 @pytest.mark.parametrize("waiting", ["for updates", "to save"])
 def test_a_worker_that_is_stopped_with_the_shared_variables_ends_training(waiting, tmp_path):
-    agent = make_agent(tmp_path, 1, pytest.fail, locked=0.3)
+    agent, patience = make_agent(tmp_path, 1, pytest.fail)
     with training_of(agent) as updates:
         iterate_until(updates, lambda _: agent.frames > 0)
         victim = stop_while_it_holds_the_lock(agent)
+        patience.locked = 0.3
         with pytest.raises(
             a3c.WorkerError, match=rf"worker 0 \(process {victim}\) has kept the others from the shared"
         ):
@@ -106,14 +112,15 @@ def test_a_worker_that_is_stopped_with_the_shared_variables_ends_training(waitin
 
 
 def test_updates_and_records_agree_wherever_a_worker_was_stopped(tmp_path):
-    agent = make_agent(tmp_path, 1, lambda line: None, stop=0.0)
+    agent, patience = make_agent(tmp_path, 1, lambda line: None)
     recorded = 0
     with training_of(agent) as updates:
         for update in updates:
             recorded += update is not None
-            if recorded == 20:
+            if update is not None and recorded == 20:
                 with agent.shared.lock:
                     stop(agent._workers[0].process.pid)
+                patience.stop = 0.0
                 agent.stop()
     tensors = agent.save()
     assert int(tensors["updates"]) == int(tensors["rounds"][0]) == recorded
