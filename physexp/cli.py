@@ -18,6 +18,7 @@ from tyro.conf import OmitArgPrefixes, Positional
 from physexp import __version__, extras
 from physexp.agents import config as agent_config
 from physexp.analysis import config as config_lib
+from physexp.analysis import stopping
 
 Config = TypeVar("Config", bound=agent_config.AgentConfig)
 BenchSection = Literal[
@@ -441,12 +442,19 @@ class Demo:
 
 
 def main() -> None:
-    """The entry point: runs a command; an error of the user's is one line and exit status 2."""
+    """The entry point: runs a command.
+
+    An error of the user's is one line and exit status 2; Ctrl-C, SIGTERM and SIGHUP are 128 and the signal's number.
+    """
     try:
         try:
-            _run(sys.argv[1:])
+            with stopping.raised():
+                _run(sys.argv[1:])
         finally:
             sys.stdout.flush()
+    except KeyboardInterrupt as error:
+        print("physexp: interrupted", file=sys.stderr)
+        sys.exit(stopping.exit_status(error))
     except BrokenPipeError:  # Who read the output, `head` for one, has seen enough.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(1)
@@ -466,9 +474,6 @@ def _run(arguments: list[str]) -> None:
     except RuntimeError as error:
         print(f"physexp: {error}", file=sys.stderr)
         sys.exit(1)
-    except KeyboardInterrupt:
-        print("physexp: interrupted", file=sys.stderr)
-        sys.exit(130)
 
 
 _COMMANDS = {"tasks": Tasks, "train": Train, "evaluate": Evaluate, "replay": Replay, "play": Play,

@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Sequence
 from concurrent import futures
+import contextlib
 import dataclasses
-import multiprocessing
 import os
 from pathlib import Path
 import tempfile
@@ -11,7 +11,8 @@ import time
 
 from physexp.agents import checkpointing
 from physexp.analysis import config as config_lib
-from physexp.analysis import progress, records, training
+from physexp.analysis import jobs as jobs_here
+from physexp.analysis import progress, records, stopping, training
 from physexp.analysis import run as run_lib
 from physexp.analysis.experiments import base
 from physexp.suite import task
@@ -69,6 +70,7 @@ def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report
 
     Raises:
       RuntimeError: when some agents could not be trained; all others are done by then.
+      stopping.Interrupted: after a request to end, when the agents that were being trained have their checkpoints.
       ValueError: when the folder holds a run of the same name with another configuration, or what such a run played.
     """
     for job in wanted:
@@ -79,29 +81,34 @@ def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report
         return
     meter = Meter(wanted, results, num_processes)
     reported = time.monotonic()
-    context = multiprocessing.get_context("spawn")
     failures = []
-    with futures.ProcessPoolExecutor(num_processes, mp_context=context, max_tasks_per_child=1) as pool:
-        pending = {submit(job) if submit else pool.submit(_work, job, results): job for job in todo}
-        try:
-            while pending:
-                done, _ = futures.wait(pending, timeout=_POLL_SECONDS, return_when=futures.FIRST_COMPLETED)
-                for future in done:
-                    job = pending.pop(future)
-                    if future.exception() is not None:
-                        failures.append(f"{job.config.name}: {future.exception()}")
-                        report(f"FAILED {failures[-1]}")
-                        continue
-                    for name, content in (future.result() or {}).items():
-                        (results.path / name).parent.mkdir(parents=True, exist_ok=True)
-                        checkpointing.write_atomically(results.path / name, content)
-                    report(f"done: {job.config.name}")
-                if pending and (done or time.monotonic() - reported > _REPORT_SECONDS):
-                    report(meter.line(len(pending)))
-                    reported = time.monotonic()
-        except KeyboardInterrupt:
-            pool.shutdown(cancel_futures=True)
-            raise
+    with contextlib.ExitStack() as stack:
+        if submit is None:
+            here = stack.enter_context(jobs_here.Processes(_work, num_processes, report))
+            interruption = stack.enter_context(stopping.Interruption(here.stop))
+            pending = {here.submit(job.config.name, job, results): job for job in todo}
+        else:
+            interruption = stopping.Interruption(lambda: None)  # The cluster forgets its tasks when this process ends.
+            pending = {submit(job): job for job in todo}
+        while pending:
+            done, _ = futures.wait(pending, timeout=_POLL_SECONDS, return_when=futures.FIRST_COMPLETED)
+            for future in done:
+                job = pending.pop(future)
+                if interruption.happened:
+                    continue
+                if future.exception() is not None:
+                    failures.append(f"{job.config.name}: {future.exception()}")
+                    report(f"FAILED {failures[-1]}")
+                    continue
+                for name, content in (future.result() or {}).items():
+                    (results.path / name).parent.mkdir(parents=True, exist_ok=True)
+                    checkpointing.write_atomically(results.path / name, content)
+                report(f"done: {job.config.name}")
+            if pending and not interruption.happened and (done or time.monotonic() - reported > _REPORT_SECONDS):
+                report(meter.line(len(pending)))
+                reported = time.monotonic()
+    if interruption.happened:
+        raise interruption.happened
     if failures:
         raise RuntimeError(f"{len(failures)} of {len(todo)} agents could not be trained: {'; '.join(failures)}")
 
@@ -124,19 +131,13 @@ def _is_done(job: Job, results: base.Results) -> bool:
     return all(results.episodes_path(trial, job.config).exists() for trial in job.trials)
 
 
-def _work(job: Job, results: base.Results) -> None:
+def _work(tell: Callable[[str], None], job: Job, results: base.Results) -> None:
     """Trains an agent, if that is not done, and plays what it has not played."""
     this = results.run(job.config)
     if not (this.path / "config.json").exists():
         this.create(job.config)
     if not this.agent_path.exists():
-        parent = multiprocessing.parent_process()
-
-        def check_parent(row):
-            if parent is not None and not parent.is_alive():
-                raise RuntimeError("the sweep was killed")
-
-        training.train(this, check_parent)
+        training.train(this, tell=lambda line: tell(f"{job.config.name}: {line}"))
         this.keep_agent_only()
     for trial in job.trials:
         path = results.episodes_path(trial, job.config)
@@ -147,7 +148,7 @@ def _work(job: Job, results: base.Results) -> None:
 def work_elsewhere(job: Job) -> dict[str, bytes]:
     """Trains an agent on a machine that does not see the results; returns the files that belong there, by path."""
     with tempfile.TemporaryDirectory() as folder:
-        _work(job, base.Results(Path(folder)))
+        _work(print, job, base.Results(Path(folder)))
         return {
             str(path.relative_to(folder)): path.read_bytes()
             for path in sorted(Path(folder).rglob("*"))

@@ -3,8 +3,6 @@
 from collections.abc import Callable
 import functools
 import os
-import signal
-import threading
 import time
 
 import numpy as np
@@ -18,6 +16,7 @@ from physexp.agents.ppo import agent as ppo
 from physexp.agents.ppo.config import PPOConfig
 from physexp.analysis import config as config_lib
 from physexp.analysis import run as run_lib
+from physexp.analysis import stopping
 
 ROW_SECONDS = 5.0  # Between rows of metrics.csv.
 _WORKERS_PER_CORE = 32  # More would take memory (half a gigabyte each) and no less time.
@@ -56,7 +55,7 @@ def make_agent(config: config_lib.TrainConfig, on_cluster: bool = False,
     Args:
       config: the run's.
       on_cluster: train on the cluster that this process has joined.
-      tell: called with a line when a worker of the cluster has died.
+      tell: called with a line when a worker has died that can be replaced, or has fallen silent.
     """
     environments = functools.partial(make_environment, config)
     match config.agent:
@@ -65,7 +64,7 @@ def make_agent(config: config_lib.TrainConfig, on_cluster: bool = False,
 
             return distributed.DistributedA3C(environments, config.agent, run_lib.versions, tell)
         case A3CConfig():
-            return a3c.A3C(environments, config.agent)
+            return a3c.A3C(environments, config.agent, tell)
         case PPOConfig():
             return ppo.PPO(environments, config.agent)
         case _:
@@ -76,7 +75,7 @@ def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None, o
           tell: Callable[[str], None] = lambda line: None) -> None:  # fmt: skip
     """Trains the agent that a run's configuration describes, from its last checkpoint if there is one.
 
-    Ctrl-C finishes the update and writes a checkpoint; a second one leaves at once.
+    Ctrl-C, SIGTERM or SIGHUP finishes the update and writes a checkpoint; a second one leaves at once.
 
     Args:
       run: a run that has been created.
@@ -85,7 +84,7 @@ def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None, o
       tell: called with a line when something has gone wrong that training survives.
 
     Raises:
-      KeyboardInterrupt: after a Ctrl-C, when the checkpoint has been written.
+      stopping.Interrupted: after one of these signals, when the checkpoint has been written.
       RuntimeError: if training cannot go on; the last checkpoint is whole.
       ValueError: if another process is training in the run's folder, or as `check`.
     """
@@ -96,11 +95,11 @@ def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None, o
     try:
         recorder = _Recorder(run, config, report, tell)
         recorder.resume(agent)
-        with _Interruption(agent.stop) as interruption:
+        with stopping.Interruption(agent.stop) as interruption:
             while not _run(agent, recorder, tell):
                 recorder.resume(agent)
         if interruption.happened:
-            raise KeyboardInterrupt
+            raise interruption.happened
     finally:
         run.unlock()
 
@@ -324,25 +323,3 @@ def episode_columns(episodes, num_interactions: int) -> dict[str, list]:
         "length": episodes.lengths.tolist(),
         "actions": [row[:length].tolist() for row, length in zip(episodes.actions.T, episodes.lengths, strict=True)],
     }
-
-
-class _Interruption:
-    """Turns the first Ctrl-C into a call; the second is an ordinary one."""
-
-    def __init__(self, stop: Callable[[], None]):
-        self._stop, self.happened = stop, False
-
-    def __enter__(self):
-        self._in_main = threading.current_thread() is threading.main_thread()
-        if self._in_main:
-            self._previous = signal.signal(signal.SIGINT, self._handle)
-        return self
-
-    def __exit__(self, *_):
-        if self._in_main:
-            signal.signal(signal.SIGINT, self._previous)
-
-    def _handle(self, *_):
-        self.happened = True
-        self._stop()
-        signal.signal(signal.SIGINT, self._previous)

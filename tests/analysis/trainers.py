@@ -6,9 +6,9 @@ from pathlib import Path
 import signal
 import subprocess
 import sys
-import time
 
 import numpy as np
+from waiting import wait_until
 
 from physexp.agents.a3c import config as a3c
 from physexp.agents.ppo import config as ppo
@@ -91,14 +91,6 @@ def group(leader, words=""):
 def workers(process):
     """The worker processes of a trainer."""
     return group(process.pid, "spawn_main")
-
-
-def wait_until(condition, seconds, what):
-    """Waits for something to come true, or fails."""
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, f"not within {seconds} s: {what}"
-        time.sleep(0.02)
 
 
 def wait_for_checkpoint(process, run, beyond=-1):

@@ -6,7 +6,7 @@ A worker sends its gradient together with the record of the round that it is fro
 in the records, or in neither, whoever dies when. The driver hands out the records as `Agent.updates`.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 import dataclasses
 import time
 from typing import Any
@@ -23,7 +23,23 @@ from physexp.agents.a3c import learning as a3c
 
 _POLL_SECONDS = 0.1  # Between looks at what the workers have done.
 _MAX_DEATHS = 5  # Of a worker, with no update of anybody in between.
-_STOP_SECONDS = 120.0  # For an update that is under way to finish.
+
+
+@dataclasses.dataclass(frozen=True)
+class Patience:
+    """How long is waited for whom, s.
+
+    Attributes:
+      room: for a worker to be placed, until a line says how many are not.
+      silent: for a worker's next round, until a line says that it has not ended it.
+      answer: for the parameter server; then it is taken for dead.
+      stop: when training ends, for the rounds that are under way.
+    """
+
+    room: float = 60.0
+    silent: float = 120.0
+    answer: float = 120.0
+    stop: float = 120.0
 
 
 @dataclasses.dataclass
@@ -42,6 +58,21 @@ class Traffic:
     busy_seconds: float = 0.0
     bytes_in: int = 0
     bytes_out: int = 0
+
+
+@dataclasses.dataclass(frozen=True)
+class _Taken:
+    """What the parameter server hands to the driver.
+
+    Attributes:
+      updates: those since it was asked last.
+      rounds: how many each worker has played.
+      done: whether all frames are.
+    """
+
+    updates: list[agent_lib.Update]
+    rounds: list[int]
+    done: bool
 
 
 @dataclasses.dataclass(frozen=True)
@@ -94,15 +125,15 @@ class ParameterServer:
         parameters = torch.nn.utils.parameters_to_vector(variables.network.parameters()).detach().numpy()
         traffic.bytes_out += parameters.nbytes
         traffic.busy_seconds += time.perf_counter() - start
-        return _Reply(pulled, parameters, pulled.frames < self._config.frames and not self._stopped)
+        return _Reply(pulled, parameters, not self._is_done() and not self._stopped)
 
     def restore(self, tensors) -> None:
         self._variables.restore(tensors)
 
-    def take(self) -> list[agent_lib.Update]:
-        """The updates since this was called last."""
+    def take(self) -> _Taken:
+        """What has happened since this was called last."""
         records, self._records = self._records, []
-        return records
+        return _Taken(records, self._variables.rounds.tolist(), self._is_done())
 
     def save(self) -> dict[str, torch.Tensor]:
         return self._variables.save()
@@ -113,6 +144,9 @@ class ParameterServer:
     def stop(self) -> None:
         """Lets every worker end with the update that it is at."""
         self._stopped = True
+
+    def _is_done(self) -> bool:
+        return int(self._variables.frames) >= self._config.frames
 
 
 def _split(vector: torch.Tensor, network: torch.nn.Module) -> list[torch.Tensor]:
@@ -200,8 +234,7 @@ class Worker:
         torch.set_num_threads(1)
         # Alone, a worker learns the same as on one machine: it waits for what it has learned.
         shared = _Remote(server, agent_lib.worker_seed(config.seed, index), overlaps=config.num_workers > 1)
-        for _ in a3c_agent.work(index, make_environment, config, shared, lambda: not shared.goes_on):
-            pass
+        a3c_agent.work(index, make_environment, config, shared, lambda: not shared.goes_on)
         shared.flush()
 
 
@@ -214,17 +247,18 @@ class DistributedA3C(agent_lib.Agent):
 
     def __init__(self, make_environment: agent_lib.EnvironmentFactory, config: config_lib.A3CConfig,
                  find_versions: Callable[[], dict[str, str]],
-                 report: Callable[[str], None] = lambda line: None):  # fmt: skip
+                 report: Callable[[str], None] = lambda line: None, patience: Patience = Patience()):  # fmt: skip
         """Prepares the variables; the actors start with `updates`.
 
         Args:
           make_environment: called in each worker; must be picklable, and its module installed on all machines.
           config: the configuration. Workers for which the cluster has no room yet join when it has.
           find_versions: says what is installed; it must say the same on every machine.
-          report: called with a line when a worker has died.
+          report: called with a line when a worker has died, finds no room, or is silent.
+          patience: how long is waited for whom.
         """
         self._make_environment, self._config = make_environment, config
-        self._find_versions, self._report = find_versions, report
+        self._find_versions, self._report, self._patience = find_versions, report, patience
         environment = make_environment(config.seed, 1, 1)
         self._network = agent_lib.initial_network(environment, config)
         environment.close()
@@ -254,47 +288,51 @@ class DistributedA3C(agent_lib.Agent):
         self._stopping = True
 
     def updates(self, poll_seconds=0.5):
-        """As `Agent.updates`. A worker that dies is started again.
+        """As `Agent.updates`. A worker that dies is started again; it ends without those that were never placed.
 
         Raises:
-          VariablesLostError: if the parameter server dies. Restored, the agent can go on.
+          VariablesLostError: if the parameter server dies, or hangs. Restored, the agent can go on.
         """
         self._server = ray.remote(num_cpus=0)(ParameterServer).remote(self._network, self._tensors, self._config)
         make_worker = ray.remote(num_cpus=1, max_restarts=-1)(Worker)
         workers: list[Any] = [make_worker.remote() for _ in range(self._config.num_workers)]
-        running = {self._run(worker, index): index for index, worker in enumerate(workers)}
-        returning: dict[Any, int] = {}  # Those that have died, and do not answer yet.
-        self._deaths = dict.fromkeys(running.values(), 0)
-        waited, deadline = time.monotonic(), None
+        self._deaths = dict.fromkeys(range(len(workers)), 0)
+        running: dict[Any, int] = {}
+        coming: dict[Any, int] = {worker.ready.remote(): index for index, worker in enumerate(workers)}
+        watch = _Watch(len(workers), self._patience, self._report)
+        waited, deadline, done = time.monotonic(), None, False
         try:
-            while running or (returning and not self._stopping):
-                if self._stopping and deadline is None:
-                    self._ask("stop")
-                    deadline = time.monotonic() + _STOP_SECONDS
-                ended, _ = ray.wait([*running, *returning], timeout=_POLL_SECONDS)
+            while running or (coming and not done):
+                ended, _ = ray.wait([*running, *coming], timeout=_POLL_SECONDS)
                 for reference in ended:
                     if reference in running:
                         index = running.pop(reference)
                         if self._has_finished(reference, index):
                             continue
                     else:
-                        index = returning.pop(reference)
+                        index = coming.pop(reference)
                         if _answers(reference):
                             running[self._run(workers[index], index)] = index
                             continue
                         time.sleep(_POLL_SECONDS)
-                    returning[workers[index].ready.remote()] = index
-                records = self._ask("take")
-                yield from records
-                if records:
+                    coming[workers[index].ready.remote()] = index
+                taken = self._ask("take")
+                yield from taken.updates
+                if taken.updates:
                     waited = time.monotonic()
                     self._deaths = dict.fromkeys(self._deaths, 0)
                 elif time.monotonic() - waited > poll_seconds:
                     waited = time.monotonic()
                     yield None
+                watch.look(running.values(), coming.values(), taken.rounds)
+                done = taken.done or self._stopping
+                if done and deadline is None:
+                    self._ask("stop")
+                    deadline = time.monotonic() + self._patience.stop
                 if deadline is not None and time.monotonic() > deadline:
+                    self._report(f"{_named(running.values())} did not end within {self._patience.stop:.0f} s: killed")
                     break
-            yield from self._ask("take")
+            yield from self._ask("take").updates
             self._tensors = self.save()
         finally:
             for actor in (*workers, self._server):
@@ -309,7 +347,11 @@ class DistributedA3C(agent_lib.Agent):
     def _ask(self, question: str) -> Any:
         """Calls a method of the parameter server."""
         try:
-            return ray.get(getattr(self._server, question).remote())
+            return ray.get(getattr(self._server, question).remote(), timeout=self._patience.answer)
+        except ray.exceptions.GetTimeoutError:
+            raise agent_lib.VariablesLostError(
+                f"the parameter server has not answered for {self._patience.answer:.0f} s"
+            ) from None
         except ray.exceptions.RayActorError as error:
             raise agent_lib.VariablesLostError(f"the parameter server has died: {_first_line(error)}") from None
 
@@ -335,6 +377,50 @@ class DistributedA3C(agent_lib.Agent):
         except ray.exceptions.RayTaskError as error:
             raise a3c_agent.WorkerError(f"worker {index}: {error}") from None
         return True
+
+
+class _Watch:
+    """Tells who has not been placed, and who is silent."""
+
+    def __init__(self, num_workers: int, patience: Patience, report: Callable[[str], None]):
+        self._patience, self._report = patience, report
+        self._rounds: list[int] = []
+        self._heard = [time.monotonic()] * num_workers
+        self._silent: set[int] = set()
+        self._without_room = 0
+        self._crowded = time.monotonic()  # Since when the same number has no room.
+
+    def look(self, running: Collection[int], coming: Collection[int], rounds: list[int]) -> None:
+        """Looks at all workers.
+
+        Args:
+          running: those that have been placed.
+          coming: those that have not, or are being started again.
+          rounds: how many each has played.
+        """
+        now = time.monotonic()
+        for index in range(len(self._heard)):
+            if index not in running or not self._rounds or rounds[index] != self._rounds[index]:
+                self._heard[index] = now
+                if index in self._silent:
+                    self._silent.remove(index)
+                    self._report(f"worker {index} is back")
+            elif now - self._heard[index] >= self._patience.silent and index not in self._silent:
+                self._silent.add(index)
+                self._report(f"worker {index} has been silent for {self._patience.silent:.0f} s; training goes on with "
+                             "those that are not")  # fmt: skip
+        self._rounds = rounds
+        if not coming:
+            self._crowded, self._without_room = now, 0
+        elif now - self._crowded >= self._patience.room and len(coming) != self._without_room:
+            self._without_room = len(coming)
+            processors = ray.cluster_resources().get("CPU", 0)
+            self._report(f"{len(coming)} of {len(self._heard)} workers find no room on the cluster, which has "
+                         f"{processors:g} processors; they join when there is some")  # fmt: skip
+
+
+def _named(indices: Collection[int]) -> str:
+    return f"worker{'s' if len(indices) > 1 else ''} {', '.join(map(str, sorted(indices)))}"
 
 
 def _answers(reference) -> bool:

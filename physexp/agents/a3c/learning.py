@@ -1,6 +1,7 @@
 """Learning: gradients of whole episodes, applied to variables that all workers share."""
 
 from collections.abc import Callable, Mapping, Sequence
+import contextlib
 import dataclasses
 from typing import Protocol
 
@@ -92,19 +93,27 @@ class SharedMemory(Shared):
     Attributes:
       variables: themselves.
       lock: held while they are read or written.
+      holder: the worker that holds the lock, int64 []; -1 when none does.
+      record: called by `push`, while the lock is held, with what was applied and the counters. So an update is in the
+        variables and in the records, or in neither, wherever a worker is stopped.
     """
 
     def __init__(self, variables: learning.Variables, lock, max_staleness: int):
         self.variables, self.lock, self._max_staleness = variables.share_memory(), lock, max_staleness
+        self.holder = torch.tensor(-1).share_memory_()
+        self.record: Callable[[Contribution, dict[str, float]], None] | None = None
 
     def pull(self, network, worker):
-        with self.lock:
+        with self._held_by(worker):
             network.load_state_dict(self.variables.network.state_dict())
             return pull(self.variables, worker)
 
     def push(self, contribution):
-        with self.lock:
-            return push(self.variables, contribution, self._max_staleness)
+        with self._held_by(contribution.worker):
+            counters = push(self.variables, contribution, self._max_staleness)
+            if counters is not None and self.record is not None:
+                self.record(contribution, counters)
+            return counters
 
     def save(self):
         with self.lock:
@@ -113,6 +122,15 @@ class SharedMemory(Shared):
     def restore(self, tensors):
         with self.lock:
             self.variables.restore(tensors)
+
+    @contextlib.contextmanager
+    def _held_by(self, worker: int):
+        with self.lock:
+            self.holder.fill_(worker)
+            try:
+                yield
+            finally:
+                self.holder.fill_(-1)
 
 
 class A3CLearner(core.Learner):

@@ -1,0 +1,64 @@
+"""Processes that work for this one: what they inherit, and that none outlives its parent."""
+
+import contextlib
+import multiprocessing
+from multiprocessing import resource_tracker
+import os
+import signal
+import threading
+
+STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+"""Ctrl-C, what schedulers and containers send, and a terminal that is gone: requests to end."""
+
+_DEATH_SECONDS = 5.0  # For the system to take away what was killed.
+
+
+@contextlib.contextmanager
+def unheard_by_children():
+    """A context in which processes are started that do not hear requests to end.
+
+    Terminals and schedulers send those to every process; it is the parent that asks its children to stop. What comes
+    meanwhile is heard afterwards.
+    """
+    resource_tracker.ensure_running()  # Starting it would make them heard again.
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, STOP_SIGNALS)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextlib.contextmanager
+def inherited_by_workers():
+    """A context in which workers are started: as `unheard_by_children`, and with one thread for torch."""
+    threads = os.environ.get("OMP_NUM_THREADS")
+    os.environ["OMP_NUM_THREADS"] = "1"  # Read when a worker imports torch.
+    try:
+        with unheard_by_children():
+            yield
+    finally:
+        if threads is None:
+            del os.environ["OMP_NUM_THREADS"]
+        else:
+            os.environ["OMP_NUM_THREADS"] = threads
+
+
+def begin() -> None:
+    """What a child's process does first: it ignores requests to end, and ends when its parent does."""
+    for number in STOP_SIGNALS:
+        signal.signal(number, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    parent.join()
+    os._exit(1)  # Whatever it is at, or waits for: nobody is left to want it.
+
+
+def kill(process) -> None:
+    """Ends a child for certain: one that is stopped, or hangs, takes no other signal."""
+    if process.pid is not None:
+        process.kill()
+        process.join(_DEATH_SECONDS)

@@ -1,0 +1,102 @@
+"""Requests to end: Ctrl-C, SIGTERM and SIGHUP, wherever they come from and however often."""
+
+import os
+from pathlib import Path
+import signal
+import subprocess
+import sys
+import textwrap
+
+import pytest
+import trainers
+from trainers import PHYSEXP, wait_until
+
+from physexp.analysis import stopping
+
+ENDLESS = 10**9
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_the_first_request_is_a_call_and_the_second_is_raised(number):
+    stopped = []
+    interruption = stopping.Interruption(lambda: stopped.append(1), together_seconds=0)
+    with pytest.raises(stopping.Interrupted) as caught, interruption:
+        os.kill(os.getpid(), number)
+        assert stopped == [1] and interruption.happened.number == number
+        os.kill(os.getpid(), number)
+    assert stopped == [1]
+    assert stopping.exit_status(caught.value) == 128 + number
+    assert stopping.exit_status(KeyboardInterrupt()) == 130
+
+
+def test_requests_that_come_together_are_one():
+    stopped = []
+    with stopping.Interruption(lambda: stopped.append(1), together_seconds=3600.0):
+        for number in (signal.SIGTERM, signal.SIGTERM, signal.SIGHUP):
+            os.kill(os.getpid(), number)
+    assert stopped == [1]
+
+
+def test_what_was_ignored_stays_ignored_and_handlers_are_put_back():
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with stopping.raised(), stopping.Interruption(pytest.fail) as interruption:
+            assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+            os.kill(os.getpid(), signal.SIGHUP)
+        assert interruption.happened is None
+    finally:
+        signal.signal(signal.SIGHUP, before)
+    assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
+
+
+def ignored(pid):
+    """The signals that a process ignores."""
+    (line,) = (line for line in Path(f"/proc/{pid}/status").read_text().splitlines() if line.startswith("SigIgn"))
+    mask = int(line.split()[1], 16)
+    return {number for number in range(1, 65) if mask >> (number - 1) & 1}
+
+
+def test_sigterm_to_all_processes_writes_a_checkpoint(tmp_path):
+    run = trainers.create(tmp_path / "run", frames=ENDLESS, checkpoint_seconds=3600.0)
+    with trainers.trainer(run) as process:
+        # No checkpoint is due: what is there in the end was written because of the signal.
+        wait_until(lambda: any(signal.SIGTERM in ignored(worker.pid) for worker in trainers.workers(process)), 120,
+                   "a worker at work")  # fmt: skip
+        os.killpg(process.pid, signal.SIGTERM)
+        _, errors = process.communicate(timeout=120)
+    assert process.returncode == 128 + signal.SIGTERM, errors
+    assert errors.splitlines()[-1] == "physexp: interrupted" and "Traceback" not in errors
+    assert run.checkpointer.latest() is not None
+
+
+def test_a_lost_terminal_ends_training_with_a_checkpoint(tmp_path):
+    run = trainers.create(tmp_path / "run", frames=ENDLESS, checkpoint_seconds=3600.0)
+    command = [PHYSEXP, "train", "which_is_heavier", "features", "--run-dir", run.path, "--resume"]
+    terminal, inside = os.openpty()
+    with (
+        subprocess.Popen(list(map(str, command)), preexec_fn=lambda: os.login_tty(inside)) as process,
+        subprocess.Popen(["cat"], stdin=terminal, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as reader,
+    ):
+        os.close(inside)
+        os.close(terminal)
+        try:
+            wait_until(run.metrics, 120, "a row of metrics, and so something on the terminal")
+            reader.kill()  # The last one that has the terminal open.
+            assert process.wait(120) == 128 + signal.SIGHUP
+        finally:
+            for member in trainers.group(process.pid):
+                member.kill()
+    assert int(run.checkpointer.latest()[0]["frames"]) == run.metrics()[-1]["frames"] > 0
+
+
+def test_a_command_that_trains_nothing_ends_with_one_line():
+    code = """
+        import os, signal, sys
+        from physexp import cli
+
+        cli.Doctor.run = lambda self: (os.kill(os.getpid(), signal.SIGTERM), signal.pause())
+        sys.argv = ["physexp", "doctor"]
+        cli.main()
+    """
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stderr) == (128 + signal.SIGTERM, "physexp: interrupted\n")
