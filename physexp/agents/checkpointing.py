@@ -3,7 +3,6 @@
 from collections.abc import Callable, Mapping
 import hashlib
 import json
-import os
 from pathlib import Path
 from typing import Any
 
@@ -11,25 +10,10 @@ from safetensors import SafetensorError
 from safetensors import torch as safetensors
 import torch
 
+from physexp.agents.files import write_atomically
+
 FORMAT = 1
 """Of checkpoints."""
-
-
-def write_atomically(path: Path, content: bytes) -> None:
-    """Replaces a file: after a crash or on a full disk there is the old file or the new one, never a part.
-
-    Raises:
-      OSError: if the content cannot be written; the old file is untouched.
-    """
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        with open(temporary, "wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 def write_agent(path: Path, variables: Mapping[str, torch.Tensor]) -> None:
