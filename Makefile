@@ -1,47 +1,57 @@
-# Installs physexp into .venv, and runs what the project is for, and its tests, from there.
+# Installs physexp into .venv, and runs what the project is for, and its tests, from there. Each target installs what it
+# needs, and no more.
 
 # The first of these that is 3.11 or newer and can make a virtual environment makes .venv.
 PYTHON ?= python3.11 python3
 
 BIN = .venv/bin
-INSTALLED = .venv/installed
+PYTEST = OMP_NUM_THREADS=1 $(BIN)/python -m pytest
+HOW_TO_RUN = @echo 'To run physexp: $(BIN)/physexp --help; or without the folder, after: . $(BIN)/activate'
 
-.PHONY: help install demo test soak lint docs bench clean
+.PHONY: help install demo test test-long soak lint docs bench clean
+.NOTPARALLEL: # Two installations at once would write into one environment.
 .DEFAULT_GOAL = help
 
 help: ## Show this list.
-	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-8s %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "make %-9s  %s\n", $$1, $$2}' Makefile
 
-install: $(INSTALLED) ## Install physexp and its tools into .venv (the other targets do it when it is needed).
+install: .venv/installed-all ## Install physexp into .venv with everything that its commands can use.
+	$(HOW_TO_RUN)
 
-demo: $(INSTALLED) ## Train an agent to find the heaviest block and compare it with random pokes.
+demo: .venv/installed-figures ## Train an agent to find the heaviest block and compare it with random pokes.
 	$(BIN)/physexp demo
+	$(HOW_TO_RUN)
 
-test: lint ## Run lint and every test.
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n 2 --dist worksteal
+test: lint ## Run lint and the tests.
+	$(PYTEST) -n 2 --dist worksteal -m 'not long'
+	$(HOW_TO_RUN)
 
-soak: $(INSTALLED) ## Play every task for millions of steps (about an hour): nothing may diverge, grow or slow down.
-	PHYSEXP_SOAK=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest -s tests/analysis/test_soak.py
+test-long: .venv/installed-test ## Run the tests that take more than a person waits for.
+	$(PYTEST) -n 2 --dist worksteal -m long
 
-lint: $(INSTALLED) ## Run ruff and the type checker.
+soak: .venv/installed-test ## Play every task for millions of steps (about an hour): nothing may diverge, grow or slow down.
+	PHYSEXP_SOAK=1 $(PYTEST) -s tests/analysis/test_soak.py
+
+lint: .venv/installed-test ## Run ruff and the type checker.
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy physexp
 
-docs: $(INSTALLED) ## Build the documentation into docs/_build/html; a warning is an error. It runs the notebook.
+docs: .venv/installed-docs ## Build the documentation into docs/_build/html; a warning is an error. It runs the notebook.
 	$(BIN)/python -m sphinx -W --keep-going -q docs docs/_build/html
 
-bench: $(INSTALLED) ## Measure the speed of resets, batches and training.
+bench: .venv/installed-all ## Measure the speed of resets, batches and training.
 	$(BIN)/physexp bench
 
 clean: ## Remove .venv, builds and caches; runs stay.
 	rm -rf .venv build dist docs/_build *.egg-info .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -prune -exec rm -rf {} +
 
-# torch goes first and with its exact version: a looser request fetches gigabytes of CUDA.
-$(INSTALLED): setup.cfg pyproject.toml constraints.txt | $(BIN)/python
+# A stamp for each extra of setup.cfg. torch goes first and with its exact version: a looser request fetches gigabytes of
+# CUDA.
+.venv/installed-%: setup.cfg pyproject.toml constraints.txt | $(BIN)/python
 	$(BIN)/python -m pip install -c constraints.txt setuptools "$$(grep '^torch==' constraints.txt)"
-	$(BIN)/python -m pip install -c constraints.txt --no-build-isolation -e '.[test]'
+	$(BIN)/python -m pip install -c constraints.txt --no-build-isolation -e '.[$*]'
 	@touch $@
 
 $(BIN)/python:

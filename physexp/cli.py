@@ -14,6 +14,7 @@ from typing import Annotated, Generic, Literal, TypeVar, Union, get_args
 import tyro
 from tyro.conf import OmitArgPrefixes, Positional
 
+from physexp import extras
 from physexp.agents import config as agent_config
 from physexp.analysis import config as config_lib
 
@@ -21,10 +22,12 @@ Config = TypeVar("Config", bound=agent_config.AgentConfig)
 BenchSection = Literal[
     "reset", "batch", "training", "peers", "pixels", "pretrained", "replay", "distributed", "learning"
 ]
-
-_EXTRAS = {"matplotlib": "analysis", "pandas": "analysis", "stable_baselines3": "bench", "sb3_contrib": "bench",
-           "tensorboard": "tensorboard", "ray": "distributed"}  # fmt: skip
-"""Libraries that some commands need, and the extra that brings each."""
+_NEEDED = {
+    "peers": ("gymnasium", "stable_baselines3", "sb3_contrib"),
+    "distributed": ("ray",),
+    "learning": ("matplotlib", "pandas"),
+}
+"""Modules of extras that sections of the benchmark use."""
 
 
 @dataclasses.dataclass
@@ -290,6 +293,7 @@ class Reproduce:
     cluster: str | None = None
 
     def run(self) -> None:
+        extras.require("matplotlib", "pandas", *(["ray"] if self.cluster is not None else []))
         from physexp.analysis import reproduce
         from physexp.analysis.experiments import base, conditions
 
@@ -319,6 +323,7 @@ class Report:
     results_dir: Path = Path("results")
 
     def run(self) -> None:
+        extras.require("matplotlib", "pandas")
         from physexp.analysis import report
         from physexp.analysis.experiments import base
 
@@ -340,6 +345,7 @@ class Bench:
     json: bool = False
 
     def run(self) -> None:
+        extras.require(*dict.fromkeys(module for section in self.sections for module in _NEEDED.get(section, ())))
         from physexp.analysis import bench
 
         rows = []
@@ -378,6 +384,7 @@ class Demo:
     run_dir: Path = Path("runs/demo")
 
     def run(self) -> None:
+        extras.require("matplotlib")
         from physexp.analysis import demo
 
         demo.run(self.run_dir)
@@ -401,14 +408,9 @@ def _run(arguments: list[str]) -> None:
         command.run()
     except BrokenPipeError:
         raise
-    except (ValueError, OSError) as error:
+    except (ValueError, OSError, extras.MissingExtraError) as error:
         print(f"physexp: {error}", file=sys.stderr)
         sys.exit(2)
-    except ModuleNotFoundError as error:
-        if error.name not in _EXTRAS:
-            raise
-        print(f"physexp: {error.name} is not installed; pip install 'physexp[{_EXTRAS[error.name]}]'", file=sys.stderr)
-        sys.exit(1)
     except RuntimeError as error:
         print(f"physexp: {error}", file=sys.stderr)
         sys.exit(1)

@@ -9,13 +9,15 @@ Importing this module registers every task, so that Gymnasium finds them by name
 
 from typing import Any
 
-import gymnasium
-from gymnasium import spaces
-from gymnasium.vector import utils as vector_utils
-from gymnasium.vector import vector_env
-import numpy as np
+from physexp import extras, suite
 
-from physexp import suite
+extras.require("gymnasium")
+
+import gymnasium  # noqa: E402
+from gymnasium import spaces  # noqa: E402
+from gymnasium.vector import utils as vector_utils  # noqa: E402
+from gymnasium.vector import vector_env  # noqa: E402
+import numpy as np  # noqa: E402
 
 _RENDER_SIZE = 480  # Pixels, for people.
 

@@ -2,12 +2,15 @@
 
 from typing import Any
 
-from gymnasium import spaces
-import numpy as np
-from stable_baselines3.common.vec_env import base_vec_env
+from physexp import extras, suite
 
-from physexp import suite
-from physexp.suite import gymnasium as gymnasium_lib
+extras.require("stable_baselines3", "gymnasium")
+
+from gymnasium import spaces  # noqa: E402
+import numpy as np  # noqa: E402
+from stable_baselines3.common.vec_env import base_vec_env  # noqa: E402
+
+from physexp.suite import gymnasium as gymnasium_lib  # noqa: E402
 
 
 class VecEnv(base_vec_env.VecEnv):
