@@ -1,10 +1,10 @@
 """The demonstration: from nothing to an agent that experiments, in a minute or two."""
 
 from pathlib import Path
-import shutil
+import sys
 
 from physexp.analysis import config as config_lib
-from physexp.analysis import curves, evaluation, progress, training
+from physexp.analysis import curves, evaluation, progress, training, verdict
 from physexp.analysis import run as run_lib
 
 DIFFICULTY = 10.0
@@ -13,17 +13,25 @@ EPISODES = 2000
 
 
 def run(folder: Path) -> None:
-    """Trains Which is Heavier into a folder, prints how the agent does, and draws its learning curve."""
+    """Trains Which is Heavier into a folder, prints how the agent does, and draws its learning curve.
+
+    Raises:
+      ValueError: if the folder holds another run than one of a demo. That of a demo is moved aside within it.
+    """
     preset = config_lib.preset("which_is_heavier", "features")
     config = config_lib.TrainConfig(domain="which_is_heavier", task="features", difficulty=DIFFICULTY,
                                     agent=preset.replace(frames=FRAMES))  # fmt: skip
-    if (folder / "config.json").exists():
-        shutil.rmtree(folder)
     demo = run_lib.Run(folder)
-    demo.create(config)
+    if (folder / "config.json").exists():
+        if demo.config != config:
+            raise ValueError(f"{folder} holds a run that is no demo's; choose another --run-dir")
+        with demo.locked():
+            demo.set_aside()
     print(f"Training an agent to find the heaviest of four blocks (difficulty {DIFFICULTY:g}) ...", flush=True)
     with progress.Progress(config) as display:
-        training.train(demo, display)
+        training.train(demo, display, start=config)
+    if problem := verdict.of_run(demo):
+        print(f"{problem}\n{verdict.advice(config)}", file=sys.stderr)
     print(f"\nAfter training, over {EPISODES} new episodes each (chance is 25 % right):\n")
     print(f"{'interaction':14} {'right answers':>16} {'pokes':>8} {'return':>8}")
     for interaction in evaluation.INTERACTIONS:

@@ -10,7 +10,7 @@ import tempfile
 
 from physexp.agents import checkpointing
 from physexp.analysis import config as config_lib
-from physexp.analysis import progress, records, training
+from physexp.analysis import progress, records, training, verdict
 from physexp.analysis import run as run_lib
 from physexp.analysis.experiments import base
 from physexp.suite import task
@@ -92,7 +92,8 @@ def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report
                     for name, content in (future.result() or {}).items():
                         (results.path / name).parent.mkdir(parents=True, exist_ok=True)
                         checkpointing.write_atomically(results.path / name, content)
-                    report(f"done: {job.config.name}")
+                    problem = verdict.of_run(results.run(job.config))
+                    report(f"done: {job.config.name}" + (f", but {problem}" if problem else ""))
                 report(meter.line(len(pending)))
         except KeyboardInterrupt:
             pool.shutdown(cancel_futures=True)
@@ -122,16 +123,16 @@ def _is_done(job: Job, results: base.Results) -> bool:
 def _work(job: Job, results: base.Results) -> None:
     """Trains an agent, if that is not done, and plays what it has not played."""
     this = results.run(job.config)
-    if not (this.path / "config.json").exists():
-        this.create(job.config)
-    if not this.agent_path.exists():
-        parent = multiprocessing.parent_process()
+    parent = multiprocessing.parent_process()
 
-        def check_parent(row):
-            if parent is not None and not parent.is_alive():
-                raise RuntimeError("the sweep was killed")
+    def check_parent(row):
+        if parent is not None and not parent.is_alive():
+            raise RuntimeError("the sweep was killed")
 
-        training.train(this, check_parent)
+    with this.locked():
+        if not this.agent_path.exists():
+            is_new = not this.checkpointer.paths()
+            training.train(this, check_parent, start=job.config if is_new else None)
         this.keep_agent_only()
     for trial in job.trials:
         path = results.episodes_path(trial, job.config)
@@ -146,7 +147,7 @@ def work_elsewhere(job: Job) -> dict[str, bytes]:
         return {
             str(path.relative_to(folder)): path.read_bytes()
             for path in sorted(Path(folder).rglob("*"))
-            if path.is_file() and path.name != ".lock"
+            if path.is_file()
         }
 
 
