@@ -156,6 +156,7 @@ def _run(agent: agent_lib.Agent, recorder: "_Recorder", run: run_lib.Run, tell: 
     except learning.AgentError as error:
         raise RuntimeError(f"training stopped: {error}{recorder.save_failure(error)}; {_standing(run)}") from None
     except OSError as error:
+        run.check_lock()  # Where the folder has gone, nothing in it can be written either.
         raise RuntimeError(
             f"training stopped: cannot write to {run.path}: {error.strerror}; put that right; {_standing(run)}"
         ) from None
@@ -257,10 +258,10 @@ class _Recorder:
     def _write_checkpoint_when_complete(self) -> None:
         if self._snapshot is None or self._updates < int(self._snapshot["updates"]):
             return
-        self._run.check_lock()
         tensors, self._snapshot = self._snapshot, None
         if self._window:
             self._write_row()
+        self._run.check_lock()
         if self._records:
             columns = {name: sum((record[name] for record in self._records), []) for name in self._records[0]}
             self._run.append_episodes(self._frames, columns)
