@@ -8,6 +8,7 @@ import io
 import json
 import os
 from pathlib import Path
+import shlex
 import sys
 from typing import Annotated, Any, Generic, Literal, NoReturn, TypeVar, Union, get_args
 
@@ -111,7 +112,9 @@ class Train(Generic[Config]):
 
     def run(self) -> None:
         _check_options(self.domain, self.task, difficulty=self.difficulty)
-        from physexp.analysis import progress, training
+        needed = {"ray": self.cluster is not None, "tensorboard": self.tensorboard}
+        extras.require(*(module for module, is_needed in needed.items() if is_needed))
+        from physexp.analysis import progress, training, verdict
         from physexp.analysis import run as run_lib
 
         config = config_lib.TrainConfig(
@@ -120,29 +123,46 @@ class Train(Generic[Config]):
         )  # fmt: skip
         run = run_lib.Run(self.run_dir or Path("runs") / config.name)
         if self.resume:
-            if (run.config.domain, run.config.task) != (self.domain, self.task):
-                raise ValueError(f"{run.path} holds a run of {run.config.domain}/{run.config.task}; name that task")
-        else:
-            training.check(config, self.cluster is not None)
-        with contextlib.ExitStack() as stack:
-            if self.cluster is not None:
-                from physexp.analysis import cluster
+            config = run.config
+            if (config.domain, config.task) != (self.domain, self.task):
+                raise ValueError(f"{run.path} holds a run of {config.domain}/{config.task}; name that task")
+        training.check(config, self.cluster is not None)
+        try:
+            with contextlib.ExitStack() as stack:
+                stack.enter_context(run.locked())
+                run.check_resumable() if self.resume else run.check_new()
+                if self.cluster is not None:
+                    from physexp.analysis import cluster
 
-                stack.enter_context(cluster.joined(self.cluster))
-            if not self.resume:
-                run.create(config)
-            logs: list[Callable[[dict], None]] = [stack.enter_context(progress.Progress(run.config))]
-            if self.tensorboard:
-                from physexp.analysis import tensorboard
+                    stack.enter_context(cluster.joined(self.cluster))
+                logs: list[Callable[[dict], None]] = [stack.enter_context(progress.Progress(config))]
+                if self.tensorboard:
+                    from physexp.analysis import tensorboard
 
-                logs.append(stack.enter_context(tensorboard.TensorBoard(run)))
+                    logs.append(stack.enter_context(tensorboard.TensorBoard(run)))
 
-            def report(row: dict) -> None:
-                for log in logs:
-                    log(row)
+                def report(row: dict) -> None:
+                    for log in logs:
+                        log(row)
 
-            training.train(run, report, self.cluster is not None, _warn)
+                training.train(run, report, self.cluster is not None, _warn, None if self.resume else config)
+        except KeyboardInterrupt:
+            self._tell_how_to_go_on(run)
+            raise
+        if problem := verdict.of_run(run):
+            _warn(f"{problem}\n{verdict.advice(config)}")
         print(run.path)
+
+    def _tell_how_to_go_on(self, run) -> None:
+        """Names the last checkpoint of a run that was interrupted, and the command that goes on from it."""
+        paths = run.checkpointer.paths()
+        if not paths:
+            _warn(f"there is no checkpoint in {run.path} yet: the same command starts anew")
+            return
+        words = ["physexp", "train", self.domain, self.task, "--run-dir", str(run.path), "--resume"]
+        words += ["--cluster", self.cluster] if self.cluster is not None else []
+        words += ["--tensorboard"] if self.tensorboard else []
+        _warn(f"the checkpoint after {int(paths[-1].stem):,} frames: {paths[-1]}\nto go on: {shlex.join(words)}")
 
 
 @dataclasses.dataclass

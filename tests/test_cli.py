@@ -289,12 +289,9 @@ def test_a_run_is_not_resumed_as_another_task(run, untrained):
 
 
 def test_a_second_trainer_in_the_same_folder_is_refused(run, untrained):
-    untrained.lock()  # As a trainer does: this process is the first one.
-    try:
+    with untrained.locked():  # As a trainer does: this process is the first one.
         done = run("train", "which_is_heavier", "features", "--run-dir", untrained.path, "--resume")
-        assert_refused(done, str(untrained.path), "another process is training")
-    finally:
-        untrained.unlock()
+    assert_refused(done, str(untrained.path), "another process is training")
 
 
 def test_evaluate_prints_exactly_its_figures_as_json(run, untrained):

@@ -1,7 +1,7 @@
 """What an agent is to those who train it: it hands out what its updates did, and can be saved, restored and stopped."""
 
 import abc
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Mapping
 import dataclasses
 from typing import Any
 
@@ -44,7 +44,7 @@ class Agent(abc.ABC):
         """Environment steps trained on."""
 
     @abc.abstractmethod
-    def updates(self, poll_seconds: float = 0.5) -> Iterator[Update | None]:
+    def updates(self, poll_seconds: float = 0.5) -> Generator[Update | None, None, None]:
         """Trains until `frames` are reached or `stop` is called; yields each update, or None when none came in time.
 
         Raises:

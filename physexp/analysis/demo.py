@@ -1,10 +1,10 @@
 """The demonstration: from nothing to an agent that experiments, in a minute or two."""
 
 from pathlib import Path
-import shutil
+import sys
 
 from physexp.analysis import config as config_lib
-from physexp.analysis import curves, evaluation, progress, training
+from physexp.analysis import curves, evaluation, progress, training, verdict
 from physexp.analysis import run as run_lib
 
 DIFFICULTY = 10.0
@@ -12,22 +12,33 @@ FRAMES = 1_500_000
 EPISODES = 2000
 
 
+def config() -> config_lib.TrainConfig:
+    """What a demo trains."""
+    agent = config_lib.preset("which_is_heavier", "features").replace(frames=FRAMES)
+    return config_lib.TrainConfig(domain="which_is_heavier", task="features", difficulty=DIFFICULTY, agent=agent)
+
+
 def run(folder: Path) -> None:
-    """Trains Which is Heavier into a folder, prints how the agent does, and draws its learning curve."""
-    preset = config_lib.preset("which_is_heavier", "features")
-    config = config_lib.TrainConfig(domain="which_is_heavier", task="features", difficulty=DIFFICULTY,
-                                    agent=preset.replace(frames=FRAMES))  # fmt: skip
+    """Trains Which is Heavier into a folder, prints how the agent does, and draws its learning curve.
+
+    Raises:
+      ValueError: if the folder holds another run than one of a demo. That of a demo is moved aside within it.
+    """
+    demo, wanted = run_lib.Run(folder), config()
     if (folder / "config.json").exists():
-        shutil.rmtree(folder)
-    demo = run_lib.Run(folder)
-    demo.create(config)
+        if demo.config != wanted:
+            raise ValueError(f"{folder} holds a run that is no demo's; choose another --run-dir")
+        with demo.locked():
+            demo.set_aside()
     print(f"Training an agent to find the heaviest of four blocks (difficulty {DIFFICULTY:g}) ...", flush=True)
-    with progress.Progress(config) as display:
-        training.train(demo, display)
+    with progress.Progress(wanted) as display:
+        training.train(demo, display, start=wanted)
+    if problem := verdict.of_run(demo):
+        print(f"{problem}\n{verdict.advice(wanted)}", file=sys.stderr)
     print(f"\nAfter training, over {EPISODES} new episodes each (chance is 25 % right):\n")
     print(f"{'interaction':14} {'right answers':>16} {'pokes':>8} {'return':>8}")
     for interaction in evaluation.INTERACTIONS:
-        figures = evaluation.evaluate(demo, EPISODES, interaction).summary(config.agent.discount)
+        figures = evaluation.evaluate(demo, EPISODES, interaction).summary(wanted.agent.discount)
         half = (figures["success_interval"][1] - figures["success_interval"][0]) / 2
         print(f"{interaction:14} {figures['success_rate']:8.1%} +-{half:5.1%} {figures['mean_interactions']:8.2f} "
               f"{figures['mean_return']:8.3f}")  # fmt: skip

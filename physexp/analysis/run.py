@@ -8,14 +8,19 @@ In it are::
     checkpoints/      the shared variables (safetensors) and the facts beside them (JSON)
     replays/*.rrd     episodes for the rerun viewer
     agent.safetensors the network alone, in half precision, once `keep_agent_only` has put it in their place
+    superseded-N/     records that are no part of the run any more: of attempts that came to no checkpoint, and rows
+                      after the checkpoint from which training went on
+    .lock             while a trainer is at work
+
+The folder may be a symbolic link; what is in it may not, since it is written to and removed.
 """
 
-from collections.abc import Mapping
-import csv
-import fcntl
+from collections.abc import Iterator, Mapping
+import contextlib
 import importlib.metadata
-import io
+import itertools
 import json
+import os
 from pathlib import Path
 import platform
 import shutil
@@ -25,11 +30,15 @@ from typing import Any
 import pyarrow
 import torch
 
-from physexp.agents import checkpointing, learning
+from physexp.agents import checkpointing, files, learning
 from physexp.analysis import config as config_lib
-from physexp.analysis import tables
+from physexp.analysis import lock, tables
 
 FORMAT = 1
+
+_FOLDERS = ("checkpoints", "episodes.parquet", "replays", "tensorboard")
+_RECORDS = ("metrics.csv", "failed_batch.npz", "agent.safetensors", *_FOLDERS)
+_LARGEST_CONFIG = 2**20  # Bytes.
 
 METRICS = {
     "frames": "environment steps trained on",
@@ -51,6 +60,8 @@ METRICS = {
 }
 """The columns of `metrics.csv`; losses and rates are means over the updates since the row before."""
 
+_HEADER = ",".join(METRICS) + "\n"
+
 EPISODES = pyarrow.schema(
     [
         ("frames", pyarrow.int64()),  # Of training, when the episode was learned from.
@@ -71,7 +82,7 @@ class Run:
     def __init__(self, path: Path):
         self.path = Path(path)
         self.checkpointer = checkpointing.Checkpointer(self.path / "checkpoints")
-        self._lock_file: Any = None
+        self._lock = lock.FolderLock(self.path)
 
     @property
     def config(self) -> config_lib.TrainConfig:
@@ -93,9 +104,11 @@ class Run:
           ValueError: as `config`.
         """
         try:
-            fields = json.loads((self.path / "config.json").read_text())
-        except FileNotFoundError:
+            content = files.read_plain(self.path / "config.json", _LARGEST_CONFIG)
+        except (FileNotFoundError, NotADirectoryError):
             raise ValueError(f"{self.path} holds no run (no config.json); give the folder of a run") from None
+        try:
+            fields = json.loads(content)
         except (ValueError, RecursionError) as error:
             raise ValueError(f"{self.path}/config.json is no JSON: {error}") from None
         form = fields.get("format") if isinstance(fields, dict) else None
@@ -103,34 +116,107 @@ class Run:
             raise ValueError(f"{self.path}/config.json has format {form!r}; this version reads format {FORMAT}")
         return fields
 
-    def create(self, config: config_lib.TrainConfig) -> None:
+    # Starting.
+
+    @contextlib.contextmanager
+    def locked(self) -> Iterator[None]:
+        """A context in which no other trainer works in the folder; see `FolderLock.held`.
+
+        Raises:
+          OSError: if the folder cannot be made or written to.
+          ValueError: if another trainer is at work in it, or if it or a folder in it is none.
+        """
+        with self._lock.held():
+            for name in _FOLDERS:
+                files.refuse_link(self.path / name)
+            for litter in (self.path / "replays").glob(".replay-*"):  # Of a trainer that was killed.
+                shutil.rmtree(litter)
+            yield
+
+    def check_lock(self) -> None:
+        """Makes sure, within `locked`, that nobody else can be writing here by now.
+
+        Raises:
+          RuntimeError: if somebody has removed the lock file, or moved the folder.
+        """
+        if not self._lock.is_held:
+            raise RuntimeError(
+                f"training stopped: the lock file {self.path / '.lock'} was removed, or the folder moved; its last "
+                "checkpoint is as it was: --resume it where it is now"
+            )
+
+    def create(self, config: config_lib.TrainConfig) -> Path | None:
         """Makes the folder and writes the configuration.
 
+        Returns:
+          Where the records were moved of an earlier attempt that came to no checkpoint; None where there were none.
+
         Raises:
-          ValueError: if there is a run already.
+          OSError, ValueError: as `locked`; ValueError also if there is a run already.
         """
-        if (self.path / "config.json").exists():
+        with self.locked():
+            self.check_new()
+            moved = self.set_aside()
+            content = {"format": FORMAT, "train": config.to_json(), "versions": versions(), "commit": commit(),
+                       "renderer": renderer(config)}  # fmt: skip
+            files.write_atomically(self.path / "config.json", (json.dumps(content, indent=1) + "\n").encode())
+        return moved
+
+    def discard(self) -> None:
+        """Takes back, within `locked`, what `create` wrote, unless something has been recorded since."""
+        if not self._recorded() and self._lock.is_held:
+            (self.path / "config.json").unlink(missing_ok=True)
+
+    def check_new(self) -> None:
+        """Raises ValueError if the folder holds a run that has come to a checkpoint."""
+        if self.checkpointer.paths() or self.agent_path.exists():
             raise ValueError(f"{self.path} already holds a run; add --resume to continue it, or choose another folder")
-        self.path.mkdir(parents=True, exist_ok=True)
-        content = {"format": FORMAT, "train": config.to_json(), "versions": versions(), "commit": commit(),
-                   "renderer": renderer(config)}  # fmt: skip
-        checkpointing.write_atomically(self.path / "config.json", (json.dumps(content, indent=1) + "\n").encode())
 
-    def lock(self) -> None:
-        """Keeps other trainers out of the folder until this process ends or `unlock` is called.
+    def check_resumable(self) -> None:
+        """Makes sure that training can go on, or start, without a loss.
 
         Raises:
-          ValueError: if another trainer is at work in it.
+          ValueError: if there are records or an agent, but no checkpoint that training could go on from.
         """
-        self._lock_file = open(self.path / ".lock", "w")  # noqa: SIM115
-        try:
-            fcntl.flock(self._lock_file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            self._lock_file.close()
-            raise ValueError(f"another process is training in {self.path}; wait for it or choose another") from None
+        if self.checkpointer.paths():
+            return
+        if self.agent_path.exists():
+            raise ValueError(
+                f"{self.path} is finished and has kept its agent alone; evaluate it, or train in another folder"
+            )
+        if self._recorded():
+            raise ValueError(
+                f"{self.path} holds no checkpoint to resume from; leave out --resume to start anew, which moves its "
+                "records aside"
+            )
 
-    def unlock(self) -> None:
-        self._lock_file.close()
+    def set_aside(self) -> Path | None:
+        """Moves all that a run has recorded, and its configuration, into a folder `superseded-N`; returns that.
+
+        Returns None, and changes nothing, where nothing has been recorded.
+        """
+        recorded = self._recorded()
+        if not recorded:
+            return None
+        folder = self._make_superseded()
+        for path in recorded:
+            path.rename(folder / path.name)
+        with contextlib.suppress(FileNotFoundError):
+            (self.path / "config.json").rename(folder / "config.json")
+        return folder
+
+    def _recorded(self) -> list[Path]:
+        return [self.path / name for name in _RECORDS if os.path.lexists(self.path / name)]
+
+    def _make_superseded(self) -> Path:
+        for number in itertools.count(1):
+            folder = self.path / f"superseded-{number}"
+            with contextlib.suppress(FileExistsError):
+                folder.mkdir()
+                break
+        return folder
+
+    # The agent.
 
     @property
     def is_finished(self) -> bool:
@@ -173,33 +259,57 @@ class Run:
         Raises:
           ValueError: if there is no checkpoint, or its weights are not finite in half precision.
         """
-        found = self.checkpointer.latest()
-        if found is None:
-            raise ValueError(f"{self.path} holds no checkpoint yet; let the training write one")
-        checkpointing.write_agent(self.agent_path, learning.network_variables(found[0]))
-        for folder in ("checkpoints", "episodes.parquet"):
-            shutil.rmtree(self.path / folder, ignore_errors=True)
+        with self.locked():
+            if not self.agent_path.exists():
+                found = self.checkpointer.latest()
+                if found is None:
+                    raise ValueError(f"{self.path} holds no checkpoint yet; let the training write one")
+                checkpointing.write_agent(self.agent_path, learning.network_variables(found[0]))
+            for name in ("checkpoints", "episodes.parquet"):
+                with contextlib.suppress(FileNotFoundError):
+                    shutil.rmtree(self.path / name)
 
     # Metrics.
 
     def append_metrics(self, row: dict[str, float]) -> None:
         """Adds a row to `metrics.csv`."""
-        path = self.path / "metrics.csv"
-        text = io.StringIO()
-        writer = csv.DictWriter(text, METRICS, lineterminator="\n")
-        if not path.exists():
-            writer.writeheader()
-        writer.writerow({name: f"{row[name]:.6g}" if isinstance(row[name], float) else row[name] for name in METRICS})
-        with open(path, "a") as file:
-            file.write(text.getvalue())
+        values = (f"{row[name]:.6g}" if isinstance(row[name], float) else str(row[name]) for name in METRICS)
+        with files.open_plain(self.path / "metrics.csv", "ab") as file:
+            header = b"" if file.tell() else _HEADER.encode()
+            file.write(header + f"{','.join(values)}\n".encode())
 
     def metrics(self) -> list[dict[str, float]]:
-        """The rows of `metrics.csv`."""
-        path = self.path / "metrics.csv"
-        if not path.exists():
-            return []
-        with open(path) as file:
-            return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+        """The rows of `metrics.csv`, without one that a crash has torn.
+
+        Raises:
+          ValueError: if there is something else in it.
+        """
+        header, lines = self._lines()
+        rows = []
+        for number, line in enumerate(lines, 2):
+            try:
+                rows.append(dict(zip(header, map(float, line.split(",")), strict=True)))
+            except ValueError:
+                raise ValueError(
+                    f"{self.path}/metrics.csv is damaged: line {number} is no row of {len(header)} numbers; mend it, "
+                    "or move it away"
+                ) from None
+        return rows
+
+    def _lines(self) -> tuple[list[str], list[str]]:
+        """The names of the columns of `metrics.csv`, and its whole lines, without their ends."""
+        try:
+            with files.open_plain(self.path / "metrics.csv", "rb") as file:
+                content = file.read().decode(errors="replace")
+        except FileNotFoundError:
+            content = ""
+        header, *lines = (content[: content.rfind("\n") + 1] or _HEADER).splitlines()
+        names = header.split(",")
+        if names[0] != "frames" or not set(names) <= set(METRICS):  # Earlier versions had fewer columns.
+            raise ValueError(
+                f"{self.path}/metrics.csv is damaged: its first line names no metrics; mend it, or move it away"
+            )
+        return names, lines
 
     def append_episodes(self, frames: int, columns: dict[str, list]) -> None:
         """Adds a part to `episodes.parquet`."""
@@ -208,15 +318,33 @@ class Run:
         tables.write(folder / f"part-{frames:015d}.parquet", pyarrow.table(columns, EPISODES), compression="zstd")
 
     def rewind(self, frames: int) -> None:
-        """Drops what was recorded after a checkpoint, so that a resumed run leaves no row twice."""
-        path = self.path / "metrics.csv"
-        if path.exists():
-            lines = path.read_text().splitlines(keepends=True)
-            kept = [line for line in lines[1:] if line.endswith("\n") and int(line.split(",", 1)[0]) <= frames]
-            checkpointing.write_atomically(path, "".join(lines[:1] + kept).encode())
-        for part in (self.path / "episodes.parquet").glob("part-*.parquet"):
-            if int(part.stem.removeprefix("part-")) > frames:
-                part.unlink()
+        """Moves what was recorded after a checkpoint aside, so that a resumed run leaves no row twice.
+
+        What it tells of was learned and lost. One worker, or PPO, makes it again to the bit; several workers do not.
+
+        Raises:
+          ValueError: as `metrics`, or if the rows have the columns of an earlier version.
+        """
+        header, lines = self._lines()
+        if header != list(METRICS):
+            raise ValueError(f"{self.path}/metrics.csv has the columns of an earlier version; resume it with that")
+        is_kept = [row["frames"] <= frames for row in self.metrics()]
+        kept = list(itertools.compress(lines, is_kept))
+        later = [line for line, keep in zip(lines, is_kept, strict=True) if not keep]
+        parts = (self.path / "episodes.parquet").glob(f"part-{'[0-9]' * 15}.parquet")
+        later_parts = [part for part in parts if int(part.stem.removeprefix("part-")) > frames]
+        if later or later_parts:
+            folder = self._make_superseded()
+            (folder / "episodes.parquet").mkdir()
+            for part in later_parts:
+                part.rename(folder / "episodes.parquet" / part.name)
+            _write_lines(folder / "metrics.csv", later)
+        if (self.path / "metrics.csv").exists():
+            _write_lines(self.path / "metrics.csv", kept)
+
+
+def _write_lines(path: Path, lines: list[str]) -> None:
+    files.write_atomically(path, (_HEADER + "".join(f"{line}\n" for line in lines)).encode())
 
 
 def renderer(config: config_lib.TrainConfig) -> str:

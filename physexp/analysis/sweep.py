@@ -12,7 +12,7 @@ import time
 from physexp.agents import checkpointing
 from physexp.analysis import config as config_lib
 from physexp.analysis import jobs as jobs_here
-from physexp.analysis import progress, records, stopping, training
+from physexp.analysis import progress, records, stopping, training, verdict
 from physexp.analysis import run as run_lib
 from physexp.analysis.experiments import base
 from physexp.suite import task
@@ -103,7 +103,8 @@ def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report
                 for name, content in (future.result() or {}).items():
                     (results.path / name).parent.mkdir(parents=True, exist_ok=True)
                     checkpointing.write_atomically(results.path / name, content)
-                report(f"done: {job.config.name}")
+                problem = verdict.of_run(results.run(job.config))
+                report(f"done: {job.config.name}" + (f", but {problem}" if problem else ""))
             if pending and not interruption.happened and (done or time.monotonic() - reported > _REPORT_SECONDS):
                 report(meter.line(len(pending)))
                 reported = time.monotonic()
@@ -134,10 +135,12 @@ def _is_done(job: Job, results: base.Results) -> bool:
 def _work(tell: Callable[[str], None], job: Job, results: base.Results) -> None:
     """Trains an agent, if that is not done, and plays what it has not played."""
     this = results.run(job.config)
-    if not (this.path / "config.json").exists():
-        this.create(job.config)
-    if not this.agent_path.exists():
-        training.train(this, tell=lambda line: tell(f"{job.config.name}: {line}"))
+    with this.locked():
+        if not this.agent_path.exists():
+            is_new = not this.checkpointer.paths()
+            training.train(
+                this, tell=lambda line: tell(f"{job.config.name}: {line}"), start=job.config if is_new else None
+            )
         this.keep_agent_only()
     for trial in job.trials:
         path = results.episodes_path(trial, job.config)
@@ -152,7 +155,7 @@ def work_elsewhere(job: Job) -> dict[str, bytes]:
         return {
             str(path.relative_to(folder)): path.read_bytes()
             for path in sorted(Path(folder).rglob("*"))
-            if path.is_file() and path.name != ".lock"
+            if path.is_file()
         }
 
 

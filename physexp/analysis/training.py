@@ -1,15 +1,18 @@
 """Training: runs an agent on a task, and records it in a run's folder."""
 
 from collections.abc import Callable
+import contextlib
 import functools
+import io
 import os
+import shutil
 import time
 
 import numpy as np
 
 from physexp import suite
 from physexp.agents import agent as agent_lib
-from physexp.agents import checkpointing, learning
+from physexp.agents import checkpointing, devices, files, learning
 from physexp.agents.a3c import agent as a3c
 from physexp.agents.a3c.config import A3CConfig
 from physexp.agents.ppo import agent as ppo
@@ -17,9 +20,11 @@ from physexp.agents.ppo.config import PPOConfig
 from physexp.analysis import config as config_lib
 from physexp.analysis import run as run_lib
 from physexp.analysis import stopping
+from physexp.suite import rendering
 
 ROW_SECONDS = 5.0  # Between rows of metrics.csv.
 _WORKERS_PER_CORE = 32  # More would take memory (half a gigabyte each) and no less time.
+_CHECKPOINTS_AT_ONCE = 3  # Two are kept, and the next is written before the older one goes.
 _REPLAY_SEED = 2_000_003  # Of the episode that replays show, apart from those of training and evaluation.
 
 
@@ -34,9 +39,16 @@ def check(config: config_lib.TrainConfig, on_cluster: bool = False) -> None:
 
     Raises:
       ValueError: for a task that is none, for an agent that cannot be trained on a cluster, for more workers than this
-        machine can bear.
+        machine can bear, for a GPU or an OpenGL library that is needed and is not here.
     """
-    suite.load_task(config.domain, config.task, config.task_kwargs)
+    needs_gl = suite.load_task(config.domain, config.task, config.task_kwargs).sense.needs_gl
+    try:
+        if needs_gl:
+            rendering.check()
+        if not on_cluster:  # There each worker computes on what its own machine has.
+            devices.choose(config.agent.device, needs_gl)
+    except RuntimeError as error:
+        raise ValueError(str(error)) from None
     if not isinstance(config.agent, A3CConfig):
         if on_cluster:
             raise ValueError(f"agent is {config.agent.algorithm}, which has one process; on a cluster train a3c")
@@ -72,59 +84,90 @@ def make_agent(config: config_lib.TrainConfig, on_cluster: bool = False,
 
 
 def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None, on_cluster: bool = False,
-          tell: Callable[[str], None] = lambda line: None) -> None:  # fmt: skip
-    """Trains the agent that a run's configuration describes, from its last checkpoint if there is one.
+          tell: Callable[[str], None] = lambda line: None,
+          start: config_lib.TrainConfig | None = None) -> None:  # fmt: skip
+    """Trains an agent, and keeps the run's folder locked meanwhile.
 
-    Ctrl-C, SIGTERM or SIGHUP finishes the update and writes a checkpoint; a second one leaves at once.
+    Ctrl-C, SIGTERM or SIGHUP finishes the update and writes a checkpoint; a second one leaves at once. A start
+    that comes to nothing leaves nothing behind.
 
     Args:
-      run: a run that has been created.
+      run: a run that has been created, unless it is started here.
       report: called with each row of metrics.
       on_cluster: train on the cluster that this process has joined.
       tell: called with a line when something has gone wrong that training survives.
+      start: what to train from the start; None to go on with the run in the folder, from its last checkpoint if there
+        is one.
 
     Raises:
       stopping.Interrupted: after one of these signals, when the checkpoint has been written.
-      RuntimeError: if training cannot go on; the last checkpoint is whole.
-      ValueError: if another process is training in the run's folder, or as `check`.
+      OSError: if the folder cannot be made or written to.
+      RuntimeError: if training cannot go on; it says where it stands.
+      ValueError: if another process is training in the run's folder, if there is too little room in it, if it holds a
+        run that would be started anew, or records without a checkpoint that would be resumed, or as `check`.
     """
-    config = run.config
-    check(config, on_cluster)
-    agent = make_agent(config, on_cluster, tell)
-    run.lock()
-    try:
-        recorder = _Recorder(run, config, report, tell)
-        recorder.resume(agent)
-        with stopping.Interruption(agent.stop) as interruption:
-            while not _run(agent, recorder, tell):
-                recorder.resume(agent)
-        if interruption.happened:
-            raise interruption.happened
-    finally:
-        run.unlock()
+    with run.locked():
+        config = start or run.config
+        check(config, on_cluster)
+        if start is None:
+            run.check_resumable()
+        elif moved := run.create(start):
+            tell(f"what an earlier attempt without a checkpoint had recorded is now in {moved}")
+        try:
+            agent = make_agent(config, on_cluster, tell)
+            _check_room(run, agent)
+            recorder = _Recorder(run, config, report, tell)
+            recorder.resume(agent)
+            with stopping.Interruption(agent.stop) as interruption:
+                while not _run(agent, recorder, run, tell):
+                    recorder.resume(agent)
+        finally:
+            if start is not None:
+                run.discard()
+    if interruption.happened:
+        raise interruption.happened
 
 
-def _run(agent: agent_lib.Agent, recorder: "_Recorder", tell: Callable[[str], None]) -> bool:
+def _check_room(run: run_lib.Run, agent: agent_lib.Agent) -> None:
+    """Refuses a folder that is too full for checkpoints."""
+    needed = _CHECKPOINTS_AT_ONCE * sum(value.nbytes for value in agent.save().values())
+    free = shutil.disk_usage(run.path).free
+    if free < needed:
+        raise ValueError(
+            f"{run.path} has {free / 1e6:.1f} MB of free space, and checkpoints need {needed / 1e6:.1f} MB; make room, "
+            "or choose another folder"
+        )
+
+
+def _run(agent: agent_lib.Agent, recorder: "_Recorder", run: run_lib.Run, tell: Callable[[str], None]) -> bool:
     """Trains to the end; returns False if it has to go on from the last checkpoint."""
     try:
-        for update in agent.updates():
-            if update is not None:
-                recorder.add(update)
-            if recorder.checkpoint_is_due():
-                recorder.snapshot(agent.save())
+        with contextlib.closing(agent.updates()) as updates:
+            for update in updates:
+                if update is not None:
+                    recorder.add(update)
+                if recorder.checkpoint_is_due():
+                    recorder.snapshot(agent.save())
         recorder.snapshot(agent.save())
     except agent_lib.VariablesLostError as error:
-        tell(f"{error}; training goes on from the last checkpoint")
+        tell(f"{error}; training goes on from {'the last checkpoint' if run.checkpointer.paths() else 'the start'}")
         return False
     except learning.AgentError as error:
-        where = recorder.save_failure(error)
-        raise RuntimeError(f"training stopped: {error}{where}; the last checkpoint is whole, --resume it") from None
+        raise RuntimeError(f"training stopped: {error}{recorder.save_failure(error)}; {_standing(run)}") from None
     except OSError as error:
+        run.check_lock()  # Where the folder has gone, nothing in it can be written either.
         raise RuntimeError(
-            f"training stopped: cannot write to {recorder.path}: {error.strerror}; the last checkpoint is whole, "
-            "make room and --resume it"
+            f"training stopped: cannot write to {run.path}: {error.strerror}; put that right; {_standing(run)}"
         ) from None
     return True
+
+
+def _standing(run: run_lib.Run) -> str:
+    """What is there to go on from."""
+    paths = run.checkpointer.paths()
+    if not paths:
+        return "there is no checkpoint yet, so start it anew"
+    return f"the last checkpoint, after {int(paths[-1].stem):,} frames, is whole, --resume it"
 
 
 class _Recorder:
@@ -137,7 +180,6 @@ class _Recorder:
     def __init__(self, run: run_lib.Run, config: config_lib.TrainConfig, report: Callable[[dict], None],
                  tell: Callable[[str], None]):  # fmt: skip
         self._run, self._config, self._report, self._tell = run, config, report, tell
-        self.path = run.path
         self._num_interactions = suite.load_task(config.domain, config.task, config.task_kwargs).num_interactions
         self._start_over()
 
@@ -209,7 +251,9 @@ class _Recorder:
         return self._snapshot is None and waited > self._config.agent.checkpoint_seconds
 
     def snapshot(self, tensors: dict) -> None:
-        """Writes a checkpoint of these variables, as soon as the updates in it have been recorded."""
+        """Writes a checkpoint of these variables, as soon as the updates in it have been recorded, if there are any."""
+        if int(tensors["updates"]) == 0:
+            return
         self._snapshot = tensors
         self._write_checkpoint_when_complete()
 
@@ -217,8 +261,12 @@ class _Recorder:
         """Saves the episodes that made the loss diverge; returns a phrase that says where."""
         if error.batch is None:
             return ""
-        path = self._run.path / "failed_batch.npz"
-        np.savez_compressed(path, **error.batch)
+        path, content = self._run.path / "failed_batch.npz", io.BytesIO()
+        np.savez_compressed(content, **error.batch)
+        try:
+            files.write_atomically(path, content.getvalue())
+        except OSError as obstacle:
+            return f" (the batch could not be written to {path}: {obstacle.strerror})"
         return f" (the batch is in {path})"
 
     def _write_checkpoint_when_complete(self) -> None:
@@ -227,6 +275,7 @@ class _Recorder:
         tensors, self._snapshot = self._snapshot, None
         if self._window:
             self._write_row()
+        self._run.check_lock()
         if self._records:
             columns = {name: sum((record[name] for record in self._records), []) for name in self._records[0]}
             self._run.append_episodes(self._frames, columns)
@@ -235,6 +284,7 @@ class _Recorder:
             self._write_replay(tensors)
         facts = {"task": self._config.task_name, "episodes": self._episodes, "seconds": self._elapsed(),
                  "versions": run_lib.versions()}  # fmt: skip
+        self._run.check_lock()  # Once more: a replay takes seconds.
         self._run.checkpointer.save(tensors, facts)
         self._checkpointed = time.monotonic()
         later, self._later = self._later, []
@@ -256,6 +306,7 @@ class _Recorder:
         return self._seconds + time.monotonic() - self._started
 
     def _write_row(self) -> None:
+        self._run.check_lock()
         now = time.monotonic()
         row = {"frames": self._frames, "updates": self._updates, "episodes": self._episodes,
                "seconds": self._elapsed()}  # fmt: skip

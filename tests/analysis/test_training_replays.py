@@ -6,7 +6,7 @@ import subprocess
 import pytest
 from rerun.chunk import RrdReader
 
-from physexp.agents.a3c import config as a3c
+from physexp.agents.ppo import config as ppo
 from physexp.analysis import config as config_lib
 from physexp.analysis import run as run_lib
 from physexp.analysis import training
@@ -14,7 +14,7 @@ from physexp.analysis.replay import writing
 
 SMALL = config_lib.TrainConfig(
     domain="which_is_heavier", task="features", difficulty=10.0,
-    agent=a3c.A3CConfig(num_workers=1, envs_per_worker=32, frames=6000, checkpoint_seconds=0.05),
+    agent=ppo.PPOConfig(num_threads=1, num_environments=32, frames=6000, checkpoint_seconds=0.05),
 )  # fmt: skip
 
 

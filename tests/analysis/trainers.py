@@ -101,4 +101,4 @@ def wait_for_checkpoint(process, run, beyond=-1):
         paths = run.checkpointer.paths()
         return bool(paths) and int(paths[-1].stem) > beyond
 
-    wait_until(there, 90, "a checkpoint")
+    wait_until(there, 400, "a checkpoint")

@@ -1,0 +1,374 @@
+"""A run's folder: one trainer at a time, nothing written or removed outside of it, and no record lost."""
+
+import json
+import multiprocessing
+import os
+import resource
+import signal
+
+import pytest
+import torch
+
+from physexp.agents.a3c import config as a3c
+from physexp.analysis import config as config_lib
+from physexp.analysis import run as run_lib
+
+ROUNDS = 50
+FOLDERS = ("checkpoints", "episodes.parquet", "replays", "tensorboard")
+
+
+def make_config(seed=0):
+    return config_lib.TrainConfig(domain="which_is_heavier", task="features", agent=a3c.A3CConfig(seed=seed))
+
+
+def row(frames):
+    return {**dict.fromkeys(run_lib.METRICS, 0.5), "frames": frames}
+
+
+def checkpoint(run, frames=10):
+    return run.checkpointer.save({"frames": torch.tensor(frames), "network/w": torch.ones(2)}, {})
+
+
+@pytest.fixture
+def run(tmp_path):
+    made = run_lib.Run(tmp_path / "run")
+    made.create(make_config())
+    return made
+
+
+def contents(folder):
+    """Every file below a folder with its content, and every link with its target."""
+    return {
+        str(path.relative_to(folder)): os.readlink(path) if path.is_symlink() else path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_symlink() or path.is_file()
+    }
+
+
+# Starting together.
+
+
+def _race(folder, number, barrier, both_have_tried):
+    """Starts a run in each round, as `training.train` does; exits with 1 where a round went wrong."""
+    wrong = 0
+    for round_ in range(ROUNDS):
+        run = run_lib.Run(folder / "new" / str(round_))
+        barrier.wait()
+        try:
+            with run.locked():
+                run.create(make_config(seed=number))
+                both_have_tried.wait()
+                run.append_metrics(row(frames=number))
+        except ValueError:
+            both_have_tried.wait()
+            continue
+        content = (run.path / "metrics.csv").read_text().splitlines()
+        wrong += run.config.agent.seed != number or len(content) != 2 or not content[1].startswith(f"{number},")
+    os._exit(min(1, wrong))
+
+
+def test_of_two_that_start_together_in_one_new_folder_one_is_refused_before_it_writes(tmp_path):
+    context = multiprocessing.get_context("fork")
+    barriers = context.Barrier(2), context.Barrier(2)
+    racers = [context.Process(target=_race, args=(tmp_path, number, *barriers)) for number in (1, 2)]
+    for racer in racers:
+        racer.start()
+    for racer in racers:
+        racer.join()
+    assert [racer.exitcode for racer in racers] == [0, 0]
+    for round_ in range(ROUNDS):
+        run = run_lib.Run(tmp_path / "new" / str(round_))
+        assert [entry["frames"] for entry in run.metrics()] == [run.config.agent.seed], "one has won, wholly"
+        assert not (run.path / ".lock").exists()
+
+
+def test_one_that_ends_while_another_starts_never_lets_two_in(tmp_path):
+    """The lock file is removed by its owner: who has opened it meanwhile must not take that for the lock."""
+    context = multiprocessing.get_context("fork")
+    inside = context.Value("i", 0)
+    twice = context.Value("i", 0)
+
+    def take_turns():
+        run, turns = run_lib.Run(tmp_path / "run"), 0
+        while turns < 200:
+            try:
+                with run.locked():
+                    with inside.get_lock():
+                        inside.value += 1
+                        twice.value |= inside.value > 1
+                    with inside.get_lock():
+                        inside.value -= 1
+                    turns += 1
+            except ValueError as error:
+                assert "another process is training" in str(error)
+
+    racers = [context.Process(target=take_turns) for _ in range(3)]
+    for racer in racers:
+        racer.start()
+    for racer in racers:
+        racer.join()
+    assert [racer.exitcode for racer in racers] == [0, 0, 0] and twice.value == 0
+    assert contents(tmp_path) == {}
+
+
+def test_a_start_that_fails_takes_back_the_folders_that_it_made_and_no_other(tmp_path):
+    (tmp_path / "mine").mkdir()
+    run = run_lib.Run(tmp_path / "mine" / "deep" / "run")
+    with pytest.raises(RuntimeError, match="no GPU"), run.locked():
+        run.create(make_config())
+        try:
+            raise RuntimeError("no GPU")
+        finally:
+            run.discard()
+    assert list(tmp_path.iterdir()) == [tmp_path / "mine"] and list((tmp_path / "mine").iterdir()) == []
+
+
+def test_a_disk_that_is_full_from_the_start_leaves_nothing(tmp_path):
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, before[1]))  # Less than a configuration has bytes.
+    try:
+        with pytest.raises(OSError, match="config.json"):
+            run_lib.Run(tmp_path / "run").create(make_config())
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("place", ["file", "file/below/it"])
+def test_a_run_has_no_place_where_a_file_is(place, tmp_path):
+    (tmp_path / "file").write_text("mine")
+    with pytest.raises(ValueError, match="is a file or lies below one; choose another folder"):
+        run_lib.Run(tmp_path / place).create(make_config())
+    assert contents(tmp_path) == {"file": b"mine"}
+
+
+# An earlier attempt.
+
+
+def test_an_attempt_without_a_checkpoint_is_started_anew_and_its_records_are_moved_aside(run):
+    run.append_metrics(row(10))
+    run.append_episodes(10, {name: [] for name in run_lib.EPISODES.names})
+    before = contents(run.path)
+    moved = run.create(make_config(seed=1))
+    assert moved == run.path / "superseded-1" and contents(moved) == before
+    assert run.config.agent.seed == 1 and run.metrics() == []
+    run.append_metrics(row(20))
+    assert run.create(make_config(seed=2)) == run.path / "superseded-2"
+    assert contents(moved) == before
+
+
+def test_an_attempt_without_any_record_is_replaced(run):
+    assert run.create(make_config(seed=1)) is None
+    assert os.listdir(run.path) == ["config.json"] and run.config.agent.seed == 1
+
+
+@pytest.mark.parametrize("what", ["a checkpoint", "an agent"])
+def test_a_run_that_came_to_something_is_not_started_anew(what, run):
+    checkpoint(run)
+    if what == "an agent":
+        run.keep_agent_only()
+    before = contents(run.path)
+    with pytest.raises(ValueError, match="already holds a run; add --resume"):
+        run.create(make_config(seed=1))
+    assert contents(run.path) == before
+
+
+def test_records_without_a_checkpoint_are_not_resumed_over(run):
+    run.check_resumable()  # Nothing is lost where nothing is.
+    run.append_metrics(row(10))
+    with pytest.raises(ValueError, match="no checkpoint to resume from; leave out --resume to start anew"):
+        run.check_resumable()
+    checkpoint(run)
+    run.check_resumable()
+
+
+def test_a_run_that_has_kept_its_agent_alone_is_not_resumed(run):
+    checkpoint(run)
+    run.append_metrics(row(10))
+    run.keep_agent_only()
+    with pytest.raises(ValueError, match="is finished and has kept its agent alone; evaluate it"):
+        run.check_resumable()
+
+
+def test_rewinding_moves_later_records_aside_and_drops_a_torn_row(run):
+    for frames in (10, 20, 30):
+        run.append_metrics(row(frames))
+        run.append_episodes(frames, {name: [] for name in run_lib.EPISODES.names})
+    with open(run.path / "metrics.csv", "a") as file:
+        file.write("1,7")  # Torn by a crash: a part of a row, whose frames look small.
+    run.rewind(30)
+    assert sorted(os.listdir(run.path)) == ["config.json", "episodes.parquet", "metrics.csv"]
+    run.rewind(20)
+    assert [entry["frames"] for entry in run.metrics()] == [10, 20]
+    run.append_metrics(row(25))
+    assert [entry["frames"] for entry in run.metrics()] == [10, 20, 25]
+    assert sorted(os.listdir(run.path / "episodes.parquet")) == [f"part-{frames:015d}.parquet" for frames in (10, 20)]
+    aside = run_lib.Run(run.path / "superseded-1")
+    assert [entry["frames"] for entry in aside.metrics()] == [30]
+    assert os.listdir(aside.path / "episodes.parquet") == [f"part-{30:015d}.parquet"]
+    run.rewind(-1)
+    assert run.metrics() == []
+    assert [entry["frames"] for entry in run_lib.Run(run.path / "superseded-2").metrics()] == [10, 20, 25]
+
+
+def test_keeping_the_agent_goes_on_where_a_kill_has_left_it(run):
+    checkpoint(run)
+    checkpoints = contents(run.path / "checkpoints")
+    run.keep_agent_only()
+    assert not (run.path / "checkpoints").exists()
+    agent = run.agent_path.read_bytes()
+    for name, content in checkpoints.items():
+        (run.path / "checkpoints").mkdir(exist_ok=True)
+        (run.path / "checkpoints" / name).write_bytes(content)
+    run.keep_agent_only()
+    assert contents(run.path).keys() == {"config.json", "agent.safetensors"} and run.agent_path.read_bytes() == agent
+
+
+# metrics.csv.
+
+
+def test_wherever_a_kill_tears_the_metrics_whole_rows_are_read_and_a_resumed_run_writes_on(tmp_path):
+    whole = run_lib.Run(tmp_path)
+    whole.append_metrics(row(10))
+    whole.append_metrics(row(20))
+    content = (tmp_path / "metrics.csv").read_bytes()
+    assert content.count(b"\n") == 3 and content.startswith(b"frames,updates,")
+    ends = [end + near for end in range(len(content)) if content[end : end + 1] == b"\n" for near in (0, 1)]
+    for size in sorted({*range(0, len(content), 11), *ends}):
+        (tmp_path / "metrics.csv").write_bytes(content[:size])
+        num_rows = max(0, content[:size].count(b"\n") - 1)
+        expected = [10.0, 20.0][:num_rows]
+        assert [entry["frames"] for entry in whole.metrics()] == expected
+        whole.rewind(20)
+        whole.append_metrics(row(30))
+        assert [entry["frames"] for entry in whole.metrics()] == [*expected, 30.0]
+        assert (tmp_path / "metrics.csv").read_bytes().startswith(content[: content.index(b"\n") + 1])
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ("frames,{rest}\n1,2\n", "metrics.csv is damaged: line 2 is no row of 16 numbers"),
+        ("frames,{rest}\n{row}\n{word}\n", "metrics.csv is damaged: line 3 is no row of 16 numbers"),
+        ("frames,{rest},colour\n", "metrics.csv is damaged: its first line names no metrics"),
+        ("{row}\n", "metrics.csv is damaged: its first line names no metrics"),
+        ("\0\0\0\0\n", "metrics.csv is damaged: its first line names no metrics"),
+        ("\xff\n", "metrics.csv is damaged: its first line names no metrics"),
+    ],
+)
+def test_damaged_metrics_are_named_in_one_line_and_left_alone(content, words, run):
+    first, *rest = run_lib.METRICS
+    fields = {"rest": ",".join(rest), "row": "1" + ",1" * len(rest), "word": "a" + ",1" * len(rest)}
+    damaged = content.format(**fields).encode("latin-1")
+    (run.path / "metrics.csv").write_bytes(damaged)
+    for read in (run.metrics, lambda: run.rewind(-1)):
+        with pytest.raises(ValueError, match=words) as caught:
+            read()
+        assert str(caught.value).startswith(str(run.path)) and "\n" not in str(caught.value)
+    assert (run.path / "metrics.csv").read_bytes() == damaged
+
+
+# Links.
+
+
+@pytest.mark.parametrize("name", FOLDERS)
+def test_a_folder_of_a_run_that_is_a_link_is_refused_and_what_it_points_to_stays(name, run, tmp_path):
+    elsewhere = tmp_path / "elsewhere"
+    (elsewhere / ".replay-x").mkdir(parents=True)
+    (elsewhere / "part-000000000000099.parquet").write_text("mine")
+    (run.path / name).symlink_to(elsewhere)
+    for use in (lambda: run.create(make_config()), run.keep_agent_only):
+        with pytest.raises(ValueError, match=f"{name} is a symbolic link") as caught:
+            use()
+        assert "\n" not in str(caught.value)
+    assert sorted(os.listdir(elsewhere)) == [".replay-x", "part-000000000000099.parquet"]
+    assert sorted(os.listdir(run.path)) == sorted(["config.json", name])
+
+
+def test_a_lock_that_is_a_link_is_refused_and_its_target_stays_as_it_was(run, tmp_path):
+    (tmp_path / "precious").write_text("mine")
+    (run.path / ".lock").symlink_to(tmp_path / "precious")
+    with pytest.raises(ValueError, match=r"\.lock is a symbolic link"), run.locked():
+        pass
+    assert (tmp_path / "precious").read_text() == "mine"
+
+
+@pytest.mark.parametrize("name", ["config.json", "metrics.csv"])
+def test_a_file_of_a_run_that_is_a_link_is_neither_read_nor_written_through(name, run, tmp_path):
+    run.append_metrics(row(10))
+    (run.path / name).rename(tmp_path / "precious")
+    before = (tmp_path / "precious").read_bytes()
+    (run.path / name).symlink_to(tmp_path / "precious")
+    uses = {
+        "config.json": (lambda: run.config,),
+        "metrics.csv": (run.metrics, lambda: run.append_metrics(row(20)), lambda: run.rewind(0)),
+    }[name]
+    for use in uses:
+        with pytest.raises(ValueError, match=f"{name} is a symbolic link"):
+            use()
+    assert (tmp_path / "precious").read_bytes() == before
+
+
+def test_the_folder_itself_may_be_a_link(tmp_path):
+    (tmp_path / "large disk").mkdir()
+    (tmp_path / "latest").symlink_to(tmp_path / "large disk")
+    run = run_lib.Run(tmp_path / "latest")
+    with run.locked():
+        run.create(make_config())
+        run.append_metrics(row(10))
+    assert sorted(contents(tmp_path / "large disk")) == ["config.json", "metrics.csv"]
+    assert (tmp_path / "latest").is_symlink()
+
+
+# The lock.
+
+
+def test_a_trainer_whose_lock_file_is_removed_notices_and_does_not_remove_the_next_ones(run):
+    with run.locked():
+        run.check_lock()
+        (run.path / ".lock").unlink()
+        with pytest.raises(RuntimeError, match=r"\.lock was removed, or the folder moved"):
+            run.check_lock()
+        other = run_lib.Run(run.path)
+        with other.locked():
+            with pytest.raises(RuntimeError, match="was removed"):
+                run.check_lock()
+            run.discard()
+            assert run.config == make_config(), "what is there now is the other's"
+            other.check_lock()
+        assert not (run.path / ".lock").exists()
+        other_lock = run.path / ".lock"
+        other_lock.write_text("")
+    assert other_lock.exists()
+
+
+def test_a_trainer_whose_folder_is_moved_notices(run):
+    with run.locked():
+        run.path.rename(run.path.with_name("moved"))
+        with pytest.raises(RuntimeError, match="or the folder moved"):
+            run.check_lock()
+    assert os.listdir(run.path.parent) == ["moved"]
+
+
+def test_what_killed_trainers_have_left_of_replays_is_removed_by_the_next(run):
+    (run.path / "replays" / ".replay-abc").mkdir(parents=True)
+    (run.path / "replays" / ".replay-abc" / "000000.rrd").write_text("half")
+    (run.path / "replays" / "000000000001000.rrd").write_text("whole")
+    with run.locked():
+        assert os.listdir(run.path / "replays") == ["000000000001000.rrd"]
+
+
+def test_a_damaged_agent_is_one_line_that_names_it(run):
+    checkpoint(run)
+    run.keep_agent_only()
+    run.agent_path.write_bytes(run.agent_path.read_bytes()[:-1])
+    with pytest.raises(ValueError, match=r"agent\.safetensors is damaged") as caught:
+        run.variables()
+    assert "\n" not in str(caught.value)
+
+
+def test_a_configuration_that_is_no_json_is_named(run):
+    (run.path / "config.json").write_text(json.dumps({"format": 1})[:-1])
+    with pytest.raises(ValueError, match=r"run/config\.json is no JSON"):
+        _ = run.config
