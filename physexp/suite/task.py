@@ -123,6 +123,9 @@ class QuestionTask(composer.Task):
 
     # What a subclass defines.
 
+    question = "Which answer is right?"
+    """What is asked, in words."""
+
     num_structures = 1
     """How many compiled models the hidden property chooses from."""
 

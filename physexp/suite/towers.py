@@ -40,6 +40,7 @@ class Options(task.Options):
 class Towers(task.QuestionTask):
     """A tower whose glue is hidden."""
 
+    question = "How many rigid bodies is the tower made of?"
     num_structures = len(tower.PATTERNS)
 
     def __init__(self, options: Options, actuator, sense: senses.Sense):

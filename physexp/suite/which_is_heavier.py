@@ -50,6 +50,7 @@ class WhichIsHeavier(task.QuestionTask):
     """Four blocks in a line that move only vertically; their masses are hidden."""
 
     options: Options
+    question = "Which of the four blocks is heaviest?"
 
     def __init__(self, options: Options, sense: senses.Sense):
         """Builds the scene."""
