@@ -54,10 +54,9 @@ def _image(pixels: np.ndarray, columns: int, lines: int) -> str:
     """Two rows of pixels in each line of text, by 24-bit colours."""
     size = min(len(pixels), columns, 2 * (lines - _OTHER_LINES)) // 2 * 2
     if size < _SMALLEST_IMAGE:
-        needed, best = (
-            f"{side} columns by {side // 2 + _OTHER_LINES} lines" for side in (_SMALLEST_IMAGE, len(pixels))
-        )
-        return f"(a terminal of {columns} columns by {lines} lines is too small for an image; {needed} do, {best} are best)"
+        needed, best = (f"{side} by {side // 2 + _OTHER_LINES}" for side in (_SMALLEST_IMAGE, len(pixels)))
+        size_now = f"{columns} columns by {lines} lines"
+        return f"(the terminal has {size_now}, too small for an image: it needs {needed}, and {best} is best)"
     text = []
     small = _shrunk(pixels, size)
     for upper, lower in zip(small[::2], small[1::2], strict=True):

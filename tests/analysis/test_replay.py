@@ -473,9 +473,9 @@ def viewers(home):
     found = []
     for entry in Path("/proc").iterdir():
         with contextlib.suppress(OSError):
-            if entry.name.isdigit() and f"HOME={home}\0".encode() in (entry / "environ").read_bytes():
-                if os.readlink(entry / "exe") == str(writing.PROGRAM.resolve()):
-                    found.append(int(entry.name))
+            is_ours = entry.name.isdigit() and f"HOME={home}\0".encode() in (entry / "environ").read_bytes()
+            if is_ours and os.readlink(entry / "exe") == str(writing.PROGRAM.resolve()):
+                found.append(int(entry.name))
     return found
 
 
