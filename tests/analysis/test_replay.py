@@ -261,7 +261,7 @@ def test_what_is_hidden_has_an_entity_of_its_own_which_is_switched_off(written):
         assert hidden == {f"/world/hidden/mass_{k}" for k in range(4)}
     else:
         glued = np.flatnonzero(tower.PATTERNS[int(episode.hidden)])
-        assert hidden == {f"/world/hidden/glue_{k}" for k in glued}
+        assert hidden == {f"/world/hidden/glue_above_block_{k}" for k in glued}
     command = [writing.PROGRAM, "rrd", "print", "-vvv", path]
     printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     override = printed.partition("ViewContents/overrides/world/hidden")[2]

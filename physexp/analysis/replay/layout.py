@@ -35,7 +35,13 @@ def _column(episode: recording.Episode, root: str) -> rrb.Container:
     now, curves = _thoughts(episode, root)
     if root:
         plots = [rrb.Tabs(*(view for views in curves for view in views), active_tab=0)] if curves else []
-        return rrb.Vertical(scene, about, rrb.Horizontal(*now, seen), *plots, row_shares=[5, 4, 4, 4][: 3 + len(plots)])
+        return rrb.Vertical(
+            scene,
+            about,
+            rrb.Horizontal(*now, seen, column_shares=[5, 4][-1 - len(now) :]),
+            *plots,
+            row_shares=[5, 4, 4, 4][: 3 + len(plots)],
+        )
     right = [seen, *now, *(rrb.Tabs(*views, active_tab=0) for views in curves)]
     left = rrb.Vertical(scene, about, row_shares=[3, 2])
     return rrb.Horizontal(left, rrb.Vertical(*right, row_shares=[5, 4, 4, 4][: len(right)]), column_shares=[3, 2])

@@ -180,8 +180,8 @@ class EpisodeWriter:
                                           radii=[0.006], show_labels=True))  # fmt: skip
             self._follow(entity, names.index(palette.owner(joint.full_identifier)))
         bodies = episode.things.bodies
-        for k in np.flatnonzero(bodies[1:] == bodies[:-1]):
-            entity = f"world/hidden/glue_{k}"
+        for k in np.flatnonzero(bodies[1:] == bodies[:-1]).tolist():
+            entity = f"world/hidden/glue_above_{names[k]}"
             middle = (episode.positions[0, k + 1] - episode.positions[0, k]) @ episode.rotations[0, k] / 2
             half = (0.4 * block.HALF_SIZE, 1.15 * block.HALF_SIZE, 0.8 * block.HALF_SIZE)
             self._log(entity, rr.Boxes3D(centers=[middle], half_sizes=[half], colors=[palette.GLUE],
@@ -191,7 +191,8 @@ class EpisodeWriter:
     # What was seen.
 
     def _write_seen(self) -> None:
-        moved, sensed = {}, palette.sensed_things(self._task)
+        moved: dict[str, np.ndarray] = {}
+        sensed = palette.sensed_things(self._task)
         for name, values in self._episode.observations.items():
             if values.dtype == np.uint8:
                 for time, image in zip(self._step_times, values, strict=True):
