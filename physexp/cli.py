@@ -233,13 +233,15 @@ class Replay:
     def run(self) -> None:
         from physexp.analysis import evaluation, replay
 
+        if self.view:
+            replay.check_display()
         seed = evaluation.SEED if self.seed is None else self.seed
         targets = [self.target] if self.compare is None else [self.target, self.compare]
         path = replay.replay(targets, self.episodes, self.output, self.interaction, self.select, seed, _tell,
                              self.difficulty)  # fmt: skip
         print(path)
         if self.view or self.web:
-            replay.view(path, self.web)
+            replay.view(path, self.web, _tell)
 
 
 @dataclasses.dataclass

@@ -23,6 +23,7 @@ class Options(task.Options):
 class WhichIsBolted(task.QuestionTask):
     """Three blocks that rise when they are pulled, but for one."""
 
+    question = "Which block is bolted to the floor?"
     num_structures = NUM_BLOCKS  # Bolted is what is compiled in: one model for each answer.
 
     def __init__(self, options, sense):

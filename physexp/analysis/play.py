@@ -1,18 +1,16 @@
 """A person plays in a terminal, beside the ideal experimenter and a trained agent on the same instances."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 import dataclasses
+import shutil
 from typing import Any
-
-import numpy as np
 
 from physexp import suite
 from physexp.agents import core, environment_loop, pretrained
+from physexp.analysis import config, terminal
 from physexp.analysis.ideal import playing, towers, which_is_heavier
 
-_WIDTH, _HEIGHT = 48, 14  # Characters of a drawing.
-_ROOM = 0.6  # m, from the middle to the side of a drawing of the towers
-_QUIT = "q"
+_QUIT, _HELP = "q", "?"
 
 
 @dataclasses.dataclass
@@ -50,7 +48,7 @@ def play(domain: str, task: str, difficulty: float | None = None, seed: int | No
       show: shows a text.
 
     Returns:
-      Scores by player: `you`, `ideal experimenter`, `trained agent`.
+      Scores by player: `you`, and, where there are such, `trained agent` and `ideal experimenter`.
 
     Raises:
       ValueError: for an unknown name, or where the scene is to be shown and there is no display.
@@ -58,11 +56,12 @@ def play(domain: str, task: str, difficulty: float | None = None, seed: int | No
     kwargs: dict[str, Any] = {} if difficulty is None else {"difficulty": difficulty}
     environment = suite.load(domain, task, task_kwargs={**kwargs, "random": seed})
     observers = _viewers(environment, domain, task, kwargs) if view else []
-    others, discount = _others(environment, domain, task)
+    rules = _rules(environment)
+    show(rules)
+    others, discount = _others(environment, domain, task, difficulty, show)
     scores = {"you": Score(), **{name: Score() for name in others}}
-    show(_rules(environment))
     while True:
-        outcome = _play_episode(environment, observers, read, show)
+        outcome = _play_episode(environment, rules, observers, read, show)
         if outcome is None:
             return scores
         scores["you"].add(*outcome, discount)
@@ -75,17 +74,24 @@ def play(domain: str, task: str, difficulty: float | None = None, seed: int | No
 
 def _viewers(environment: suite.Environment, domain, task, kwargs) -> list[environment_loop.Observer]:
     """What shows the scene in the viewer."""
-    from physexp.analysis.replay import recording, writing  # Takes a second, and most play without.
+    from physexp.analysis.replay import live, recording, viewing  # Takes a second, and most play without.
 
     recorder = recording.EpisodeRecorder(environment, domain, task, kwargs, agent="you")
-    return [recorder, writing.Live(recorder, writing.open_viewer)]
+    return [recorder, live.Live(recorder, viewing.Viewer())]
 
 
-def _others(environment: suite.Environment, domain: str, task: str) -> tuple[dict[str, core.Actor], float]:
+def _others(environment: suite.Environment, domain: str, task: str, difficulty: float | None,
+            show) -> tuple[dict[str, core.Actor], float]:  # fmt: skip
     """The players to compare with, and the discount that the trained one knows."""
-    agent = pretrained.load(domain, task)
-    discount = agent.card["agent"]["discount"]
-    others: dict[str, core.Actor] = {"trained agent": agent.actor()}
+    others: dict[str, core.Actor] = {}
+    discount = config.DISCOUNT[domain]
+    try:
+        agent = pretrained.load(domain, task, difficulty)
+    except ValueError:
+        show(f"There is no agent trained at difficulty {difficulty:g} to compare you with.\n")
+    else:
+        discount = agent.card["agent"]["discount"]
+        others["trained agent"] = agent.actor()
     if domain == "towers":
         others["ideal experimenter"] = towers.IdealExperimenter(towers.solve(task, 0.0, discount))
     elif task == "features":
@@ -95,20 +101,22 @@ def _others(environment: suite.Environment, domain: str, task: str) -> tuple[dic
 
 
 def _rules(environment: suite.Environment) -> str:
+    """The question, and how to find out and to answer."""
     task = environment.task
-    lines = [f"{number:3}  {name}" for number, name in enumerate(task.action_names)]
-    return "\n".join(["Every interaction costs time; the answer ends the episode. Type a number:", "", *lines,
-                      f"  {_QUIT}  quit", ""])  # fmt: skip
+    actions = [f"{number:3}  {name}" for number, name in enumerate(task.action_names)]
+    return "\n".join([task.question, "", terminal.legend(environment.observation_spec()), "",
+                      "Every interaction costs time; the answer ends the episode. Type a number:", "", *actions,
+                      f"  {_HELP}  show this again", f"  {_QUIT}  quit", ""])  # fmt: skip
 
 
-def _play_episode(environment: suite.Environment, observers, read, show) -> tuple[int, float] | None:
+def _play_episode(environment: suite.Environment, rules: str, observers, read, show) -> tuple[int, float] | None:
     """One episode: its length and reward, or None if the player quits."""
     timestep, length = environment.reset(), 0
     for observer in observers:
         observer.observe_first(environment, timestep)
     while not timestep.last():
-        show(drawing(timestep.observation))
-        action = _ask(environment, read, show)
+        show(terminal.drawing(timestep.observation, *shutil.get_terminal_size()))
+        action = _ask(environment, rules, read, show)
         if action is None:
             return None
         timestep, length = environment.step(action), length + 1
@@ -119,7 +127,7 @@ def _play_episode(environment: suite.Environment, observers, read, show) -> tupl
     return length, float(timestep.reward)
 
 
-def _ask(environment: suite.Environment, read, show) -> int | None:
+def _ask(environment: suite.Environment, rules: str, read, show) -> int | None:
     """The number of an action; None to quit."""
     count = environment.action_spec().num_values
     while True:
@@ -129,9 +137,12 @@ def _ask(environment: suite.Environment, read, show) -> int | None:
             return None
         if text == _QUIT:
             return None
+        if text == _HELP:
+            show(rules)
+            continue
         if text.isdecimal() and int(text) < count:
             return int(text)
-        show(f"{text!r} is no action; type a number from 0 to {count - 1}, or {_QUIT}")
+        show(f"{text!r} is no action; type a number from 0 to {count - 1}, {_HELP} or {_QUIT}")
 
 
 def _replay(environment: suite.Environment, domain, task, kwargs, actor: core.Actor) -> tuple[int, float]:
@@ -142,35 +153,3 @@ def _replay(environment: suite.Environment, domain, task, kwargs, actor: core.Ac
     metrics = environment_loop.EnvironmentLoop(again, actor).run_episode()
     again.close()
     return metrics["episode_length"], metrics["episode_return"]
-
-
-def drawing(observation: Mapping[str, np.ndarray]) -> str:
-    """An observation as text: bars of heights, the towers from the side, or an image in coloured half blocks."""
-    if "pixels" in observation:
-        return _image(observation["pixels"])
-    if "heights" in observation:
-        return "\n".join(f"block {k} {'#' * round(100 * height):40} {100 * height:5.1f} cm"
-                         for k, height in enumerate(observation["heights"]))  # fmt: skip
-    canvas = np.full((_HEIGHT, _WIDTH), " ")
-    things = {str(k): position for k, position in enumerate(observation["positions"])}
-    if "fist_position" in observation:
-        things["O"] = observation["fist_position"]
-    for name, (x, _, z) in things.items():
-        column = round((x + _ROOM) / (2 * _ROOM) * (_WIDTH - 1))
-        row = _HEIGHT - 1 - round(z / 0.55 * (_HEIGHT - 1))
-        if 0 <= column < _WIDTH and 0 <= row < _HEIGHT:
-            canvas[row, column] = name
-    floor = "-" * _WIDTH
-    aside = "  ".join(f"{name}: y {100 * y:+.1f} cm" for name, (_, y, _) in things.items())
-    return "\n".join(["".join(row).rstrip() for row in canvas] + [floor, aside])
-
-
-def _image(pixels: np.ndarray) -> str:
-    """Two rows of pixels in each line of text, by 24-bit colours."""
-    lines = []
-    for upper, lower in zip(pixels[::2], pixels[1::2], strict=True):
-        cells = (
-            f"\x1b[38;2;{a[0]};{a[1]};{a[2]};48;2;{b[0]};{b[1]};{b[2]}m▀" for a, b in zip(upper, lower, strict=True)
-        )
-        lines.append("".join(cells) + "\x1b[0m")
-    return "\n".join(lines)

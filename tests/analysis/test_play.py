@@ -1,6 +1,7 @@
 """A person at the terminal: what is drawn, asked and counted."""
 
 import os
+import re
 import subprocess
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 from trainers import PHYSEXP, fresh_seed
 
 from physexp import suite
-from physexp.analysis import play
+from physexp.analysis import play, terminal
 
 
 def typed(*lines):
@@ -59,18 +60,18 @@ def test_what_is_no_action_is_asked_again():
     )
     assert scores["you"].episodes == 0
     for text in ("'nine'", "'8'", "'-1'"):
-        assert f"{text} is no action; type a number from 0 to 7, or q" in shown
+        assert f"{text} is no action; type a number from 0 to 7, ? or q" in shown
 
 
 def test_heights_are_drawn_as_bars():
-    text = play.drawing({"heights": np.array([0.0, 0.123, 0.4, 0.0], np.float32)}).splitlines()
+    text = terminal.drawing({"heights": np.array([0.0, 0.123, 0.4, 0.0], np.float32)}).splitlines()
     assert text[1].count("#") == 12 and "12.3 cm" in text[1]
     assert text[2].count("#") == 40 and not text[0].count("#")
 
 
 def test_a_tower_is_drawn_from_the_side_with_the_fist_beside_it():
     environment = suite.load("towers", "fist_features", task_kwargs={"random": 0})
-    rows = play.drawing(environment.reset().observation).splitlines()
+    rows = terminal.drawing(environment.reset().observation).splitlines()
     places = {name: (row, line.index(name)) for row, line in enumerate(rows[:-2]) for name in "01234O" if name in line}
     assert [places[str(k)][0] for k in range(5)] == sorted((places[str(k)][0] for k in range(5)), reverse=True)
     assert len({places[str(k)][1] for k in range(5)}) == 1
@@ -80,9 +81,65 @@ def test_a_tower_is_drawn_from_the_side_with_the_fist_beside_it():
 def test_an_image_is_drawn_in_its_own_colours():
     image = np.zeros((84, 84, 3), np.uint8)
     image[0, 0], image[1, 0] = (10, 20, 30), (40, 50, 60)
-    lines = play.drawing({"pixels": image}).splitlines()
+    lines = terminal.drawing({"pixels": image}, 84, 45).splitlines()
     assert len(lines) == 42
     assert lines[0].startswith("\x1b[38;2;10;20;30;48;2;40;50;60m▀")
+
+
+@pytest.mark.parametrize(("columns", "lines"), [(80, 24), (40, 50), (200, 20), (16, 11)])
+def test_an_image_fits_the_terminal_and_keeps_its_mean(columns, lines):
+    image = np.random.default_rng(fresh_seed()).integers(256, size=(84, 84, 3), dtype=np.uint8)
+    rows = terminal.drawing({"pixels": image}, columns, lines).splitlines()
+    assert len(rows) <= lines - 2 and {row.count("▀") for row in rows} == {2 * len(rows)} and 2 * len(rows) <= columns
+    colors = np.array(re.findall(r"(\d+);(\d+);(\d+)(?:;48|m)", "\n".join(rows)), int)
+    assert len(colors) == (2 * len(rows)) ** 2
+    np.testing.assert_allclose(colors.mean(axis=0), image.mean(axis=(0, 1)), atol=0.6)
+
+
+def test_a_terminal_that_is_too_small_for_an_image_is_told_so():
+    for columns, lines in ((15, 50), (80, 10)):
+        text = terminal.drawing({"pixels": np.zeros((84, 84, 3), np.uint8)}, columns, lines)
+        assert f"{columns} columns by {lines} lines" in text and "16 by 11" in text and "\n" not in text
+
+
+@pytest.mark.parametrize("columns", [20, 48, 200])
+def test_features_fit_the_terminal(columns):
+    heights = {"heights": np.array([0.0, 0.123, 0.4, 0.0], np.float32)}
+    positions = {"positions": np.array([(0, 0, 0.05 + 0.1 * k) for k in range(5)])}
+    assert all(len(line) <= columns for line in terminal.drawing(heights, columns, 10).splitlines())
+    side = terminal.drawing(positions, columns, 10).splitlines()
+    assert len(side) <= 9 and all(len(line) <= columns for line in side[:-1])
+
+
+@pytest.mark.parametrize(
+    ("domain", "task", "words"),
+    [
+        ("which_is_heavier", "features", ["Which of the four blocks is heaviest?", "0  poke block 0"]),
+        ("towers", "fist_features", ["How many rigid bodies is the tower made of?", "O is the fist"]),
+    ],
+)
+def test_the_question_comes_first_in_words_and_what_is_drawn_is_explained(domain, task, words):
+    shown = []
+    play.play(domain, task, seed=1, read=typed("?", "q"), show=shown.append)
+    assert shown[0].startswith(words[0]) and all(word in shown[0] for word in words)
+    assert shown[0] == shown[-1]  # Again, when it is asked for.
+
+
+@pytest.mark.parametrize("difficulty", [3.0, 4.0])
+def test_a_player_is_compared_with_an_agent_of_the_difficulty_that_is_played(difficulty):
+    shown = []
+    scores = play.play("which_is_heavier", "features", difficulty, 1, read=typed("0", "4"), show=shown.append)
+    players = {"you", "ideal experimenter"} | ({"trained agent"} if difficulty == 3 else set())
+    assert set(scores) == players and all(score.episodes == 1 for score in scores.values())
+    missing = "There is no agent trained at difficulty 4 to compare you with.\n"
+    assert (missing in shown) == (difficulty == 4)
+
+
+def test_the_agent_beside_a_player_is_the_one_of_that_difficulty(monkeypatch):
+    loaded, load = [], play.pretrained.load
+    monkeypatch.setattr(play.pretrained, "load", lambda *names: loaded.append(names) or load(*names))
+    play.play("which_is_heavier", "features", 10.0, 1, read=typed("q"), show=lambda text: None)
+    assert loaded == [("which_is_heavier", "features", 10.0)]
 
 
 def test_the_command_plays_without_any_gl_from_what_is_typed():

@@ -1,12 +1,17 @@
 """Replays: what is recorded is what happened, and what is written is what was recorded."""
 
+import contextlib
 import functools
+import os
 from pathlib import Path
+import re
 import resource
 import shutil
 import signal
+import socket
 import subprocess
 import sys
+import urllib.request
 
 import numpy as np
 from PIL import Image
@@ -18,7 +23,8 @@ from trainers import PHYSEXP, fresh_seed, wait_until
 from physexp import suite
 from physexp.agents import core, environment_loop
 from physexp.analysis import evaluation, replay
-from physexp.analysis.replay import recording, selection, writing
+from physexp.analysis.replay import beliefs, live, palette, recording, selection, words, writing
+from physexp.suite import block, tower
 
 TASKS = [("which_is_heavier", "features"), ("towers", "fist_features"), ("towers", "direct_pixels")]
 
@@ -160,6 +166,11 @@ def test_poses_and_observations_read_back_are_those_of_the_episode(written):
         elif values.ndim == 3:
             read = [np.array(chunks(path, f"/seen/{name}/{letter}")["Scalars:scalars"]) for letter in "xyz"]
             np.testing.assert_array_equal(np.stack(read, axis=-1), values)
+        elif name == "fist_position":
+            read = [np.array(chunks(path, f"/seen/{name}/{letter}")["Scalars:scalars"]) for letter in "xyz"]
+            np.testing.assert_array_equal(np.concatenate(read, axis=1), values)
+            far = np.linalg.norm(values - values[0], axis=1)
+            np.testing.assert_allclose(np.array(chunks(path, "/seen/moved")["Scalars:scalars"])[:, 5], far, rtol=1e-5)
         else:
             np.testing.assert_array_equal(chunks(path, f"/seen/{name}")["Scalars:scalars"], values)
 
@@ -167,14 +178,79 @@ def test_poses_and_observations_read_back_are_those_of_the_episode(written):
 def test_beliefs_actions_and_outcome_are_written(written):
     episode, _, environment, path = written
     first = environment.task.num_interactions
-    np.testing.assert_allclose(chunks(path, "/belief/history")["Scalars:scalars"], episode.policies[:, first:])
+    answers = episode.policies[:, first:]
+    belief = answers / answers.sum(axis=1, keepdims=True)
+    np.testing.assert_allclose(chunks(path, "/belief/labels")["Scalars:scalars"], belief)
+    np.testing.assert_allclose(chunks(path, "/belief/policy")["Scalars:scalars"], episode.policies)
+    np.testing.assert_allclose(np.ravel(chunks(path, "/belief/answers")["Scalars:scalars"]), answers.sum(axis=1))
     np.testing.assert_allclose(np.ravel(chunks(path, "/belief/value")["Scalars:scalars"]), episode.values)
-    words = [text[0] for text in chunks(path, "/did/actions")["TextLog:text"]]
-    assert words == [f"step {t}: {environment.task.action_names[a]}" for t, a in enumerate(episode.actions)]
-    open_question, end = [text[0] for text in chunks(path, "/did/outcome")["TextDocument:text"]]
-    assert "The question is open" in open_question
+    said = [text[0] for text in chunks(path, "/did/actions")["TextLog:text"]]
+    assert said == [f"step {t}: {environment.task.action_names[a]}" for t, a in enumerate(episode.actions)]
+
+
+def test_the_bars_of_a_belief_carry_the_names_of_their_labels(written):
+    episode, _, environment, path = written
+    tables = [text[0].splitlines() for text in chunks(path, "/belief/now")["TextDocument:text"]]
+    assert len(tables) == len(episode.actions)
+    answers = episode.policies[:, environment.task.num_interactions :]
+    for table, policy in zip(tables, answers, strict=True):
+        for k, (row, name) in enumerate(zip(table[2:], environment.task.label_names, strict=True)):
+            label, number, bar, answers_now, *_ = [cell.strip() for cell in row.strip("|").split("|")]
+            assert label == name.removesuffix(" is heaviest")
+            share = policy[k] / policy.sum()
+            assert float(number) == pytest.approx(share, abs=0.0051) and len(bar) == 20
+            assert bar.count("█") == round(20 * share)
+            assert float(answers_now) == pytest.approx(policy[k], abs=0.0051)
+
+
+def test_the_text_asks_the_question_names_the_episode_and_tells_the_words_at_the_start_and_the_verdict_at_the_end(
+    written,
+):
+    episode, _, environment, path = written
+    start, end = [text[0] for text in chunks(path, "/did/outcome")["TextDocument:text"]]
+    for text in (start, end):
+        for word in (environment.task.question, f"seed {episode.seed}, episode 0", "a careless agent",
+                     "**policy**", "**belief**: the policy restricted to the labels", words.HIDDEN_TAB):  # fmt: skip
+            assert word in text
+    assert environment.task.question.endswith("?")
+    assert "Not answered yet" in start and "Not answered yet" not in end
     verdict = "right" if episode.rewards[-1] > 0 else f"wrong; it is: {environment.task.label_names[episode.answer]}"
     assert f"That is {verdict}." in end
+
+
+def series(path, entity):
+    """Names and colours of the curves of an entity in a file."""
+    for chunk in RrdReader(str(path)).stream():
+        if str(chunk.entity_path) == entity and chunk.is_static:
+            batch = chunk.to_record_batch().to_pydict()
+            return batch["SeriesLines:names"][0], [
+                tuple(c.to_bytes(4, "big")[:3]) for c in batch["SeriesLines:colors"][0]
+            ]
+    raise LookupError(entity)
+
+
+def test_a_blocks_colour_means_that_block_and_nothing_else(written):
+    episode, _, environment, path = written
+    blocks = {f"block {k}": tuple(int(255 * c) for c in block.COLORS[k][:3]) for k in range(5)}
+    seen = set()
+    for entity in ("/belief/labels", "/belief/answers", "/belief/value", "/seen/heights", "/seen/moved"):
+        with contextlib.suppress(LookupError):
+            for name, color in zip(*series(path, entity), strict=True):
+                assert (color in blocks.values()) == (name in blocks), (entity, name)
+                assert color == blocks.get(name, color)
+                seen.add(name)
+    assert {"value", "answers now"} <= seen
+    if episode.domain == "towers":
+        assert {"1 body", "2 bodies", "5 bodies"} <= seen
+    if "fist_position" in episode.observations:
+        assert {"fist", *blocks} <= seen
+
+
+def test_every_component_of_a_feature_is_named_after_the_thing_it_tells_of():
+    blocks = [f"block_{k}" for k in range(5)]
+    heavier, towers_ = (suite.load_task(*task) for task in TASKS[:2])
+    assert palette.sensed_things(heavier) == {"heights": blocks[:4]}
+    assert palette.sensed_things(towers_) == {"positions": blocks, "fist_position": ["fist"]}
 
 
 def test_what_is_hidden_has_an_entity_of_its_own_which_is_switched_off(written):
@@ -184,15 +260,14 @@ def test_what_is_hidden_has_an_entity_of_its_own_which_is_switched_off(written):
     if episode.domain == "which_is_heavier":
         assert hidden == {f"/world/hidden/mass_{k}" for k in range(4)}
     else:
-        from physexp.suite import tower
-
         glued = np.flatnonzero(tower.PATTERNS[int(episode.hidden)])
-        assert hidden == {f"/world/hidden/glue_{k}" for k in glued}
+        assert hidden == {f"/world/hidden/glue_above_block_{k}" for k in glued}
     command = [writing.PROGRAM, "rrd", "print", "-vvv", path]
     printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     override = printed.partition("ViewContents/overrides/world/hidden")[2]
     table = override.partition("EntityBehavior:visible")[2].partition("METADATA")[0]
     assert "[false]" in table and "[true]" not in table
+    assert words.HIDDEN_TAB in printed  # The view that shows it.
 
 
 def test_an_arrow_shows_where_the_action_acts_and_which_way(written):
@@ -228,7 +303,7 @@ def test_the_effects_that_are_shown_are_those_of_the_physics(domain, task):
 
 def test_the_ideal_posterior_beside_an_agent_follows_its_pokes():
     episode, _, _ = record("which_is_heavier", "features")
-    posteriors = writing.ideal_posteriors(episode)
+    posteriors = beliefs.IDEAL[episode.domain](episode)
     assert posteriors.shape == (7, 4)
     np.testing.assert_allclose(posteriors[0], 0.25)  # Nothing is known yet.
     np.testing.assert_allclose(posteriors.sum(axis=1), 1)
@@ -275,6 +350,7 @@ writing.write(Path({str(path)!r}), groups, lambda line: print(line, flush=True))
         process.send_signal(signal.SIGKILL)
     subprocess.run([writing.PROGRAM, "rrd", "verify", path], check=True, capture_output=True)
     assert [entry.kind for entry in RrdReader(str(path)).recordings()] == ["recording"] * 2
+    assert [entry.name for entry in tmp_path.iterdir()] == ["replay.rrd"]
 
 
 def test_a_full_disk_while_writing_leaves_the_earlier_episodes_and_is_one_readable_line(tmp_path):
@@ -301,6 +377,10 @@ def test_two_agents_are_shown_side_by_side_on_the_same_instances(tmp_path):
     assert len(lines) == 1
     names = {str(chunk.entity_path) for chunk in RrdReader(str(path)).stream()}
     assert {"/A/world/things/fist", "/B/world/things/fist", "/A/belief/value", "/B/belief/value"} <= names
+    command = [writing.PROGRAM, "rrd", "print", "-vvv", path]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    for title in ("A: towers/fist_features", "B: towers/fist_features", "A: belief", "B: belief"):
+        assert title in printed
 
 
 def test_agents_of_different_tasks_are_not_compared(tmp_path):
@@ -344,8 +424,6 @@ def test_the_viewer_opens_a_file_and_shows_it(tmp_path):
     colors, counts = np.unique(pixels.reshape(-1, 3), axis=0, return_counts=True)
     assert len(colors) > 200  # Text, curves, shaded cubes: much more than a background.
     assert counts.max() < 0.95 * counts.sum()
-    from physexp.suite import block
-
     red = np.array(block.COLORS[0][:3])  # The face of block 0, in whatever light.
     seen = colors[np.linalg.norm(colors, axis=1) > 0].astype(float)
     hue = seen / np.linalg.norm(seen, axis=1, keepdims=True) - red / np.linalg.norm(red)
@@ -360,13 +438,16 @@ def test_an_episode_that_is_watched_live_shows_nothing_hidden_before_it_is_over(
     for path, actions in zip(paths, ([0, 1], [0, 1, 4]), strict=True):
         streams = []
 
-        def open_stream(stream, layout, path=path, streams=streams):
-            streams.append(stream)
-            stream.save(path, default_blueprint=layout)
+        class File:
+            def show(self, stream, layout, path=path, streams=streams):
+                streams.append(stream)
+                stream.save(path, default_blueprint=layout)
+
+            def flush(self, stream):
+                stream.flush()
 
         environment.task.next_episode = 0
-        live = writing.Live(recorder, open_stream)
-        observers = [recorder, live]
+        observers = [recorder, live.Live(recorder, File())]
         timestep = environment.reset()
         for observer in observers:
             observer.observe_first(environment, timestep)
@@ -381,26 +462,111 @@ def test_an_episode_that_is_watched_live_shows_nothing_hidden_before_it_is_over(
     assert not [entity for entity in so_far if "hidden" in entity or "ideal" in entity]
     assert {"/world/hidden/mass_0", "/belief/ideal"} <= everything
     said = [{text[0] for text in chunks(path, "/did/outcome")["TextDocument:text"]} for path in paths]
-    assert not any("answer" in text.lower() for text in said[0])
+    assert all("Not answered yet" in text for text in said[0])
     assert any("Answer after 2 interactions" in text for text in said[1])
+    log = [text[0] for text in chunks(paths[1], "/did/actions")["TextLog:text"]]
+    assert log == ["step 0: poke block 0", "step 1: poke block 1", "step 2: answer: block 0 is heaviest"]
+
+
+def viewers(home):
+    """The processes of rerun's program whose HOME is this."""
+    found = []
+    for entry in Path("/proc").iterdir():
+        with contextlib.suppress(OSError):
+            is_ours = entry.name.isdigit() and f"HOME={home}\0".encode() in (entry / "environ").read_bytes()
+            if is_ours and os.readlink(entry / "exe") == str(writing.PROGRAM.resolve()):
+                found.append(int(entry.name))
+    return found
+
+
+def listening(pids):
+    """The addresses and ports on which processes listen."""
+    inodes = set()
+    for pid in pids:
+        with contextlib.suppress(OSError):
+            for link in Path(f"/proc/{pid}/fd").iterdir():
+                with contextlib.suppress(OSError):
+                    inodes.add(os.readlink(link))
+    found = set()
+    for table, family in (("tcp", socket.AF_INET), ("tcp6", socket.AF_INET6)):
+        for line in Path(f"/proc/net/{table}").read_text().splitlines()[1:]:
+            _, local, _, state, *rest = line.split()
+            if state == "0A" and f"socket:[{rest[5]}]" in inodes:  # 0A is LISTEN.
+                address, port = local.split(":")
+                groups = [bytes.fromhex(address[i : i + 8])[::-1] for i in range(0, len(address), 8)]
+                found.add((socket.inet_ntop(family, b"".join(groups)), int(port, 16)))
+    return found
+
+
+@pytest.mark.skipif(not Path("/proc/net/tcp").exists(), reason="needs /proc")
+def test_the_viewer_in_a_browser_is_served_to_this_machine_alone_and_its_address_is_told(tmp_path):
+    environment = {**os.environ, "HOME": str(tmp_path), "BROWSER": "true"}
+    output = tmp_path / "output"
+    command = [PHYSEXP, "replay", "which_is_heavier/features", "--episodes", "1", "--web", "--output",
+               tmp_path / "one.rrd"]  # fmt: skip
+    with open(output, "w") as file:
+        process = subprocess.Popen(command, env=environment, stdout=file, stderr=file, start_new_session=True)
+    try:
+        wait_until(lambda: len(listening(viewers(tmp_path))) >= 2, 120, "two listening sockets")
+        assert {address for address, _ in listening(viewers(tmp_path))} == {"127.0.0.1"}
+        (url,) = re.findall(r"http://127\.0\.0\.1:\d+/\S+", output.read_text())
+        with urllib.request.urlopen(url, timeout=60) as page:
+            assert page.status == 200
+        process.send_signal(signal.SIGINT)
+        assert process.wait(60) == 0 and "Traceback" not in output.read_text()
+        wait_until(lambda: not viewers(tmp_path), 60, "the viewer to be gone")
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
 
 
 @pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="needs xvfb-run: apt-get install xvfb mesa-vulkan-drivers")
-def test_a_person_plays_beside_the_viewer(tmp_path):
-    environment = {"HOME": str(tmp_path), "PATH": f"{PHYSEXP.parent}:/usr/bin:/bin"}
+def test_a_person_plays_beside_the_viewer_which_others_cannot_reach_and_may_be_closed(tmp_path):
+    environment = {"HOME": str(tmp_path), "PATH": f"{PHYSEXP.parent}:/usr/bin:/bin",
+                   "PYTHONPATH": os.environ.get("PYTHONPATH", "")}  # fmt: skip
     subprocess.run([writing.PROGRAM, "analytics", "disable"], env=environment, check=True, capture_output=True)
     command = ["xvfb-run", "-a", PHYSEXP, "play", "which_is_heavier", "features", "--seed", "3", "--view"]
-    done = subprocess.run(command, input="0\n4\nq\n", env=environment, text=True, capture_output=True, timeout=120,
-                          check=False)  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    assert "The answer: block" in done.stdout and "Traceback" not in done.stderr
+    output = tmp_path / "output"
+    with open(output, "w") as file:
+        process = subprocess.Popen(command, env=environment, stdin=subprocess.PIPE, stdout=file, stderr=file, text=True,
+                                   start_new_session=True)  # fmt: skip
+
+    def type_in(text):
+        asked = output.read_text().count("action: ")
+        process.stdin.write(text + "\n")
+        process.stdin.flush()
+        wait_until(lambda: output.read_text().count("action: ") > asked, 120, f"the question after {text}")
+
+    try:
+        wait_until(lambda: "action: " in output.read_text(), 120, "the first question")
+        (first,) = viewers(tmp_path)
+        sockets = listening([first])
+        assert sockets and {address for address, _ in sockets} == {"127.0.0.1"}
+        type_in("0")
+        os.kill(first, signal.SIGKILL)  # The player closes the window.
+        type_in("0")
+        type_in("4")  # The next episode opens another one.
+        wait_until(lambda: set(viewers(tmp_path)) - {first}, 60, "another viewer")
+        process.stdin.write("q\n")
+        process.stdin.close()
+        assert process.wait(60) == 0
+        assert output.read_text().count("The answer: block") == 1 and "Traceback" not in output.read_text()
+    finally:
+        for pid in viewers(tmp_path):
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
 
 
-def test_without_a_display_the_viewer_is_refused_in_one_line(tmp_path):
-    command = [PHYSEXP, "play", "which_is_heavier", "features", "--view"]
-    done = subprocess.run(
-        command, input="q\n", env={"HOME": str(tmp_path)}, text=True, capture_output=True, check=False
-    )
+@pytest.mark.parametrize("command", [["play", "which_is_heavier", "features"], ["replay", "which_is_heavier/features"]])
+def test_without_a_display_the_viewer_is_refused_in_one_line_before_anything_is_played(command, tmp_path):
+    environment = {"HOME": str(tmp_path), "PYTHONPATH": os.environ.get("PYTHONPATH", "")}
+    done = subprocess.run([PHYSEXP, *command, "--view"], cwd=tmp_path, env=environment, input="q\n", text=True,
+                          capture_output=True, check=False)  # fmt: skip
+    assert not list(tmp_path.glob("*.rrd"))
     assert done.returncode == 2 and done.stderr.count("\n") == 1 and "no display" in done.stderr
 
 
@@ -410,6 +576,34 @@ def test_the_command_writes_a_file_and_names_it(tmp_path):
                           capture_output=True, text=True, check=True)  # fmt: skip
     assert done.stdout.splitlines()[-1] == str(path)
     assert len(RrdReader(str(path)).recordings()) == 2
+
+
+def test_what_is_no_regular_file_is_refused_before_anything_is_played(tmp_path):
+    target = tmp_path / "target"
+    target.write_text("precious")
+    (tmp_path / "link.rrd").symlink_to(target)
+    os.mkfifo(tmp_path / "pipe.rrd")
+    for name, message in (("link.rrd", "is a symbolic link"), ("pipe.rrd", "is a pipe or a device"), (".", "a folder")):
+        with pytest.raises(ValueError, match=f"{message}; name a file"):
+            replay.replay(["no agent at all"], 1, tmp_path / name)
+    with pytest.raises(OSError):
+        replay.replay(["no agent at all"], 1, target / "below.rrd")
+    assert target.read_text() == "precious"
+
+
+def test_a_program_of_reruns_that_fails_or_does_not_answer_is_one_line(tmp_path, monkeypatch):
+    episode, _, _ = record("which_is_heavier", "features")
+    failing, sleeping = tmp_path / "failing", tmp_path / "sleeping"
+    failing.write_text("#!/bin/sh\ncat > /dev/null\necho something went wrong >&2\nexit 3\n")
+    sleeping.write_text("#!/bin/sh\nexec sleep 1000\n")
+    monkeypatch.setattr(writing, "_MERGE_SECONDS", 0.2)
+    for program, message in ((failing, "cannot merge the recordings: something went wrong$"), (sleeping, "not merged")):
+        program.chmod(0o755)
+        monkeypatch.setattr(writing, "PROGRAM", program)
+        path = tmp_path / f"{program.name}.rrd"
+        with pytest.raises(RuntimeError, match=message):
+            writing.write(path, [lambda: [episode]] * 2)
+        assert len(RrdReader(str(path)).recordings()) == 1  # The first one is there.
 
 
 @pytest.mark.parametrize(

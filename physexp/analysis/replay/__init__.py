@@ -3,13 +3,13 @@
 from collections.abc import Callable, Sequence
 import functools
 from pathlib import Path
-import subprocess
 
 from physexp.analysis import evaluation
 from physexp.analysis.replay import recording, selection, writing
 from physexp.analysis.replay.recording import Episode, EpisodeRecorder
+from physexp.analysis.replay.viewing import check_display, view
 
-__all__ = ["Episode", "EpisodeRecorder", "replay", "view"]
+__all__ = ["Episode", "EpisodeRecorder", "check_display", "replay", "view"]
 
 
 def replay(targets: Sequence[str], count: int, output: Path, interaction: str = "learned",
@@ -29,8 +29,11 @@ def replay(targets: Sequence[str], count: int, output: Path, interaction: str = 
       The path of the file.
 
     Raises:
-      ValueError: if a target is no agent, or agents that are to be compared play different tasks.
+      OSError: if the file cannot be written.
+      ValueError: if a target is no agent, agents that are to be compared play different tasks, or there is something
+        else than a regular file at `output`.
     """
+    writing.check_output(output)
     agents = [evaluation.find_agent(target, difficulty) for target in targets]
     network, config = agents[0]
     for _, other in agents[1:]:
@@ -62,8 +65,3 @@ def _episodes(targets, agents, episode, interaction) -> list[Episode]:
         for target, (other, other_config) in zip(targets[1:], others, strict=True)
     ]
     return [first, *rest]
-
-
-def view(path: Path, web: bool) -> None:
-    """Opens a file in the viewer, or in the browser's, until that is closed."""
-    subprocess.run([str(writing.PROGRAM), *(["--web-viewer"] if web else []), str(path)], check=True)

@@ -21,12 +21,14 @@ class Things:
       kinds: `box` or `sphere`.
       sizes: half edges or radii, m, float64 [K, 3].
       colors: float64 [K, 4].
+      bodies: which rigid body each belongs to, int64 [K].
     """
 
     names: tuple[str, ...]
     kinds: tuple[str, ...]
     sizes: np.ndarray
     colors: np.ndarray
+    bodies: np.ndarray
 
 
 @dataclasses.dataclass(frozen=True)
@@ -186,6 +188,7 @@ def _things(model: mujoco.MjModel, geoms: Sequence[int]) -> Things:
         kinds=tuple(kinds[int(model.geom_type[geom])] for geom in geoms),
         sizes=sizes,
         colors=model.geom_rgba[geoms].copy(),
+        bodies=model.body_weldid[model.geom_bodyid[geoms]].astype(np.int64),
     )
 
 

@@ -2,42 +2,36 @@
 
 world/things/NAME      what moves, with its true pose at every physics step; world/room the floor
 world/action           the force or velocity applied, as an arrow
-world/hidden/...       what cannot be seen: glue, masses; switched off until it is wanted
-seen/...               what the agent observed: the image, or features as plots
-belief/...             probabilities of all actions, and of the labels if one had to be given now, as bars; those of the
-                       labels and the value as curves; for Which is Heavier the ideal experimenter's posterior
-did/...                actions as a log, the outcome as text
+world/hidden/...       what cannot be seen: glue, masses; in a view of its own
+seen/...               what the agent observed: the image, or features as plots; seen/moved the distances from the start
+belief/now             the belief, and the policy of the labels, as a table with bars
+belief/labels          the belief: the policy restricted to the labels and renormalized
+belief/policy          the policy: the probability of every action; belief/answers: of all labels together
+belief/value           the return that the agent expects
+belief/ideal           what an ideal experimenter would believe, where that is known
+did/...                actions as a log, the question and the outcome as text
 
-Everything is on one timeline, `time`, in seconds. Episodes side by side have their entities below their agents' names.
+Everything is on one timeline, `time`, in seconds. Episodes side by side have their entities below A, B and so on.
 """
 
 from collections.abc import Callable, Sequence
 import os
 from pathlib import Path
 import subprocess
-import sys
-import tempfile
-from typing import Any
 
 import numpy as np
 import rerun as rr
-import rerun.blueprint as rrb
-import rerun_cli
 from scipy.spatial import transform
 
 from physexp import suite
-from physexp.agents import checkpointing, environment_loop
-from physexp.analysis.ideal import which_is_heavier as ideal
-from physexp.analysis.replay import recording
-from physexp.suite import block, tower, which_is_heavier
-
-PROGRAM = Path(rerun_cli.__file__).with_name("rerun")
-"""Rerun's own program, with its viewer and its tools for files."""
+from physexp.agents import checkpointing
+from physexp.analysis.replay import beliefs, layout, palette, recording, words
+from physexp.analysis.replay.layout import TIMELINE
+from physexp.analysis.replay.viewing import PROGRAM, last_line
+from physexp.suite import block
 
 _ARROW_LENGTH = 0.25  # m
-_ARROW_COLOR = (220, 40, 120)
-_GLUE_COLOR = (255, 255, 255)
-_TIMELINE = "time"
+_MERGE_SECONDS = 300.0  # A few hundred times what it takes.
 
 
 def write(path: Path, groups: Sequence[Callable[[], Sequence[recording.Episode]]],
@@ -54,76 +48,53 @@ def write(path: Path, groups: Sequence[Callable[[], Sequence[recording.Episode]]
 
     Raises:
       OSError: if the file cannot be written; what had been written stays.
-      ValueError: if the path is that of a folder.
+      RuntimeError: if rerun's own program fails.
+      ValueError: if there is something else than a regular file at that path.
     """
-    if path.is_dir():
-        raise ValueError(f"{path} is a folder; name a file")
+    check_output(path)
     rr.set_strict_mode(True)  # Otherwise errors are warnings, and data is dropped.
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=path.parent, prefix=".replay-") as folder:
-        parts: list[Path] = []
-        for number, group in enumerate(groups):
-            parts.append(Path(folder) / f"{number:06d}.rrd")
-            episodes = list(group())
-            newest = _recording(episodes)
-            parts[-1].write_bytes(newest)
-            merged = _run("rrd", "merge", *map(str, parts)) if len(parts) > 1 else newest
-            checkpointing.write_atomically(path, merged)
-            report(f"{number + 1} of {len(groups)}: {_name(episodes[0])}")
+    written = b""
+    for number, group in enumerate(groups):
+        episodes = list(group())
+        newest = _recording(episodes)
+        written = _merge(written + newest) if written else newest
+        checkpointing.write_atomically(path, written)
+        report(f"{number + 1} of {len(groups)}: {words.name(episodes[0])}")
     return path
 
 
-class Live(environment_loop.Observer):
-    """Shows an episode in the viewer while it is played: what may be known, and all of it once it is over."""
-
-    def __init__(self, recorder: recording.EpisodeRecorder, open_stream: Callable[[rr.RecordingStream, Any], None]):
-        """Prepares to show.
-
-        Args:
-          recorder: observes the same episodes, before this observer does.
-          open_stream: called with the stream of each episode and its blueprint, to connect it to a viewer or a file.
-        """
-        self._recorder, self._open_stream = recorder, open_stream
-
-    def observe_first(self, environment, timestep):
-        episode = self._recorder.episode
-        self._stream = rr.RecordingStream(f"physexp-{episode.domain}-{episode.task}",
-                                          recording_id=f"{episode.seed}-{episode.number}-live")  # fmt: skip
-        self._open_stream(self._stream, blueprint([episode], [""]))
-        self._stream.send_recording_name(_name(episode))
-        self._show(is_over=False)
-
-    def observe(self, environment, timestep, action):
-        self._show(timestep.last())
-
-    def get_metrics(self):
-        """Nothing: this only shows."""
-        return {}
-
-    def _show(self, is_over: bool) -> None:
-        writer = _Writer(self._stream, self._recorder.episode, "")
-        writer.write() if is_over else writer.write_so_far()
-        self._stream.flush()
-
-
-def open_viewer(stream: rr.RecordingStream, layout: rrb.Blueprint) -> None:
-    """Connects a stream to the viewer, which is started where none is open.
+def check_output(path: Path) -> None:
+    """Makes the folder of a file that is going to be written.
 
     Raises:
-      ValueError: where there is no display.
+      OSError: if the file cannot be written.
+      ValueError: if there is something else than a regular file.
     """
-    if sys.platform == "linux" and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
-        raise ValueError("there is no display to open the viewer on (DISPLAY is not set); leave out --view")
-    stream.spawn(default_blueprint=layout)
+    if path.is_symlink():
+        raise ValueError(f"{path} is a symbolic link; name a file")
+    if path.is_dir():
+        raise ValueError(f"{path} is a folder; name a file")
+    if path.exists() and not path.is_file():
+        raise ValueError(f"{path} is a pipe or a device; name a file")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if not os.access(path.parent, os.W_OK | os.X_OK):
+        raise PermissionError(f"{path.parent} is a folder that you may not write to; name a file in another")
 
 
-def _run(*arguments: str) -> bytes:
-    """Runs rerun's own program; returns what it writes."""
-    return subprocess.run([str(PROGRAM), *arguments], check=True, capture_output=True).stdout
+def _merge(recordings: bytes) -> bytes:
+    """One file of what is several, one after the other.
 
-
-def _name(episode: recording.Episode) -> str:
-    return f"{episode.domain}/{episode.task}, seed {episode.seed}, episode {episode.number}"
+    Raises:
+      RuntimeError: if rerun's program fails or does not answer.
+    """
+    command = [str(PROGRAM), "rrd", "merge"]
+    try:
+        done = subprocess.run(command, input=recordings, capture_output=True, timeout=_MERGE_SECONDS, check=False)
+    except subprocess.TimeoutExpired:
+        raise RuntimeError(f"rerun has not merged the recordings within {_MERGE_SECONDS:g} s; try again") from None
+    if done.returncode:
+        raise RuntimeError(f"rerun cannot merge the recordings: {last_line(done.stderr)}")
+    return done.stdout
 
 
 def _recording(episodes: Sequence[recording.Episode]) -> bytes:
@@ -133,14 +104,14 @@ def _recording(episodes: Sequence[recording.Episode]) -> bytes:
                                 recording_id=f"{first.seed}-{first.number}-{players}")  # fmt: skip
     roots = [""] if len(episodes) == 1 else [f"{chr(ord('A') + index)}" for index in range(len(episodes))]
     memory = stream.memory_recording()
-    stream.send_blueprint(blueprint(episodes, roots), make_active=False, make_default=True)
-    stream.send_recording_name(_name(first))
+    stream.send_blueprint(layout.blueprint(episodes, roots), make_active=False, make_default=True)
+    stream.send_recording_name(words.name(first))
     for episode, root in zip(episodes, roots, strict=True):
-        _Writer(stream, episode, root).write()
+        EpisodeWriter(stream, episode, root).write()
     return memory.drain_as_bytes()
 
 
-class _Writer:
+class EpisodeWriter:
     """Writes one episode below a root entity."""
 
     def __init__(self, stream: rr.RecordingStream, episode: recording.Episode, root: str):
@@ -154,28 +125,29 @@ class _Writer:
     def _num_interactions(self) -> int:
         return int((self._episode.actions < self._task.num_interactions).sum())
 
-    def write(self) -> None:
-        self.write_so_far()
+    def write(self, already: int = 0) -> None:
+        """Everything; the log has so many actions already."""
+        self.write_so_far(already)
         self._write_hidden()
         self._write_belief()
         self._write_outcome()
 
-    def write_so_far(self) -> None:
-        """What may be known before the question is answered."""
+    def write_so_far(self, already: int = 0) -> None:
+        """What may be known before the question is answered; the log has so many actions already."""
         self._write_scene()
         self._write_seen()
-        self._write_actions()
+        self._write_actions(already)
 
     def _path(self, entity: str) -> str:
         return f"{self._root}/{entity}"
 
     def _log(self, entity: str, archetype, time: float | None = None) -> None:
         if time is not None:
-            self._stream.set_time(_TIMELINE, duration=time)
+            self._stream.set_time(TIMELINE, duration=time)
         self._stream.log(self._path(entity), archetype, static=time is None)
 
     def _columns(self, entity: str, times, columns) -> None:
-        self._stream.send_columns(self._path(entity), [rr.TimeColumn(_TIMELINE, duration=times)], columns)
+        self._stream.send_columns(self._path(entity), [rr.TimeColumn(TIMELINE, duration=times)], columns)
 
     # The scene.
 
@@ -198,77 +170,92 @@ class _Writer:
         self._columns(entity, episode.times, columns)
 
     def _write_hidden(self) -> None:
-        """Masses as labels; glued blocks joined by a bar that moves with the lower one."""
-        names = self._episode.things.names
-        if self._episode.domain == "which_is_heavier":
-            for k, mass in enumerate(which_is_heavier.kilograms(self._episode.hidden)):
-                entity, thing = f"world/hidden/mass_{k}", names.index(f"block_{k}")
-                self._log(
-                    entity,
-                    rr.Points3D(
-                        [(0, 0, 0.1 + 0.06 * (k % 2))], labels=[f"{mass:.2f} kg"], radii=[0.006], show_labels=True
-                    ),
-                )
-                self._follow(entity, thing)
-            return
-        for k, glued in enumerate(tower.PATTERNS[int(self._episode.hidden)]):
-            if glued:
-                entity = f"world/hidden/glue_{k}"
-                half = (0.4 * block.HALF_SIZE, 1.15 * block.HALF_SIZE, 0.8 * block.HALF_SIZE)
-                self._log(entity, rr.Boxes3D(centers=[(0, 0, block.HALF_SIZE)], half_sizes=[half], colors=[_GLUE_COLOR],
-                                             fill_mode="solid"))  # fmt: skip
-                self._follow(entity, names.index(f"block_{k}"))
+        """Masses as labels; things that are one rigid body joined by bars that move with the lower one."""
+        episode, task = self._episode, self._task
+        names = episode.things.names
+        masses = task.hidden_masses(np.asarray(episode.hidden)[None])[0]
+        for number, (joint, mass) in enumerate(zip(task.hidden_joints, masses, strict=True)):
+            entity = f"world/hidden/mass_{number}"
+            self._log(entity, rr.Points3D([(0, 0, 0.1 + 0.06 * (number % 2))], labels=[f"{mass:.2f} kg"],
+                                          radii=[0.006], show_labels=True))  # fmt: skip
+            self._follow(entity, names.index(palette.owner(joint.full_identifier)))
+        bodies = episode.things.bodies
+        for k in np.flatnonzero(bodies[1:] == bodies[:-1]).tolist():
+            entity = f"world/hidden/glue_above_{names[k]}"
+            middle = (episode.positions[0, k + 1] - episode.positions[0, k]) @ episode.rotations[0, k] / 2
+            half = (0.4 * block.HALF_SIZE, 1.15 * block.HALF_SIZE, 0.8 * block.HALF_SIZE)
+            self._log(entity, rr.Boxes3D(centers=[middle], half_sizes=[half], colors=[palette.GLUE],
+                                         fill_mode="solid"))  # fmt: skip
+            self._follow(entity, k)
 
     # What was seen.
 
     def _write_seen(self) -> None:
+        moved: dict[str, np.ndarray] = {}
+        sensed = palette.sensed_things(self._task)
         for name, values in self._episode.observations.items():
             if values.dtype == np.uint8:
                 for time, image in zip(self._step_times, values, strict=True):
                     self._log(f"seen/{name}", rr.Image(image), time)
-            elif values.ndim == 3:
-                for axis, letter in enumerate("xyz"):
-                    self._curves(
-                        f"seen/{name}/{letter}", values[..., axis], [f"block {k}" for k in range(values.shape[1])]
-                    )
+            elif values[0].size == len(sensed[name]):
+                self._curves(f"seen/{name}", values, sensed[name])
             else:
-                series = ["x", "y", "z"] if values.shape[1] == 3 else [f"block {k}" for k in range(values.shape[1])]
-                self._curves(f"seen/{name}", values, series)
+                places = values.reshape(len(values), len(sensed[name]), -1)
+                for axis, letter in enumerate("xyz"):
+                    self._curves(f"seen/{name}/{letter}", places[..., axis], sensed[name])
+                moved.update(zip(sensed[name], np.linalg.norm(places - places[0], axis=2).T, strict=True))
+        if moved:
+            self._curves("seen/moved", np.stack(list(moved.values()), axis=1), list(moved))
 
-    def _curves(self, entity: str, values: np.ndarray, names: Sequence[str]) -> None:
-        """Curves [T, S] at the times of the steps."""
-        colors = [(255 * np.array(color)).astype(np.uint8) for color in block.COLORS[: len(names)]]
-        self._log(entity, rr.SeriesLines(names=list(names), colors=colors, widths=[2.0] * len(names)))
+    def _curves(self, entity: str, values: np.ndarray, things: Sequence[str]) -> None:
+        """Curves [T, S] of what is known of S things, at the times of the steps."""
+        colors = [palette.of_thing(self._episode.things, thing) for thing in things]
+        self._series(entity, values, [palette.spoken(thing) for thing in things], colors)
+
+    def _series(self, entity: str, values: np.ndarray, names: Sequence[str], colors=None, steps: bool = False) -> None:
+        """Curves [T, S] at the times of the steps; with `steps` each value holds until the next."""
+        lines = rr.SeriesLines(names=list(names), colors=colors, widths=[2.0] * len(names),
+                               interpolation_mode="StepAfter" if steps else None)  # fmt: skip
+        self._log(entity, lines)
         self._columns(entity, self._step_times[: len(values)], rr.Scalars.columns(scalars=values))
 
     # What was believed.
 
     def _write_belief(self) -> None:
-        policies, first_label = self._episode.policies, self._task.num_interactions
-        if len(policies):
-            for time, policy in zip(self._step_times, policies, strict=False):
-                self._log("belief/actions", rr.BarChart(policy), time)
-                self._log("belief/labels", rr.BarChart(policy[first_label:] / policy[first_label:].sum()), time)
-            self._curves("belief/history", policies[:, first_label:], list(self._task.label_names))
-            self._curves("belief/value", self._episode.values[:, None], ["value"])
-        if self._episode.domain == "which_is_heavier":
-            self._curves(
-                "belief/ideal", ideal_posteriors(self._episode), [f"ideal: {n}" for n in self._task.label_names]
-            )
+        episode, things, labels = self._episode, self._episode.things, self._task.label_names
+        names, colors = [palette.short(label, things) for label in labels], palette.of_labels(labels, things)
+        ideal = beliefs.IDEAL[episode.domain](episode) if episode.domain in beliefs.IDEAL else None
+        if ideal is not None:
+            self._series("belief/ideal", ideal, names, colors, steps=True)
+        if len(episode.policies):
+            first_label = self._task.num_interactions
+            belief, answers = beliefs.of_policy(episode.policies, first_label), episode.policies[:, first_label:]
+            for step in range(len(belief)):
+                table = words.bars(names, belief[step], answers[step], None if ideal is None else ideal[step])
+                self._markdown("belief/now", table, self._step_times[step])
+            self._series("belief/labels", belief, names, colors, steps=True)
+            self._series("belief/policy", episode.policies, self._task.action_names, steps=True)
+            self._series("belief/answers", answers.sum(axis=1, keepdims=True), ["answers now"], [palette.ANSWERS],
+                         steps=True)  # fmt: skip
+            self._series("belief/value", episode.values[:, None], ["value"], [palette.VALUE], steps=True)
 
     # What was done.
 
-    def _write_actions(self) -> None:
-        episode, names = self._episode, self._task.action_names
-        for step, (time, action) in enumerate(zip(self._step_times, episode.actions, strict=False)):
-            self._log("did/actions", rr.TextLog(f"step {step}: {names[action]}"), time)
-        self._log("did/outcome", rr.TextDocument(f"{episode.agent}\n\nThe question is open."), 0.0)
-        if len(episode.actions):
+    def _write_actions(self, already: int) -> None:
+        names = self._task.action_names
+        for step, action in list(enumerate(self._episode.actions))[already:]:
+            self._log("did/actions", rr.TextLog(f"step {step}: {names[action]}"), self._step_times[step])
+        if not already:
+            self._markdown("did/outcome", words.about(self._episode, self._task.question, "Not answered yet."), 0.0)
+        if len(self._episode.actions):
             self._write_arrows()
 
     def _write_outcome(self) -> None:
-        episode = self._episode
-        self._log("did/outcome", rr.TextDocument(f"{episode.agent}\n\n{outcome(episode)}"), self._step_times[-1])
+        text = words.about(self._episode, self._task.question, words.outcome(self._episode))
+        self._markdown("did/outcome", text, self._step_times[-1])
+
+    def _markdown(self, entity: str, text: str, time: float) -> None:
+        self._log(entity, rr.TextDocument(text, media_type="text/markdown"), time)
 
     def _write_arrows(self) -> None:
         """At every physics step, where the action acts and in which direction; of no length where there is none."""
@@ -281,58 +268,7 @@ class _Writer:
                 thing, effect = effects[episode.actions[step]]
                 origins[frame] = episode.positions[frame, episode.things.names.index(thing)]
                 vectors[frame] = _ARROW_LENGTH * np.array(effect) / np.linalg.norm(effect)
-        self._log("world/action", rr.Arrows3D.from_fields(colors=[_ARROW_COLOR], radii=[0.012]))
+        self._log("world/action", rr.Arrows3D.from_fields(colors=[palette.ACTION], radii=[0.012]))
         self._columns("world/action", episode.times, rr.Arrows3D.columns(origins=origins, vectors=vectors))
         end = self._step_times[-1] + 1e-3  # After the last step, when nothing is done any more.
         self._columns("world/action", [end], rr.Arrows3D.columns(origins=[(0, 0, 0)], vectors=[(0, 0, 0)]))
-
-
-def ideal_posteriors(episode: recording.Episode) -> np.ndarray:
-    """How likely each block is to be the heaviest, to who has seen what the pokes reveal: [T + 1, num_blocks]."""
-    known = np.full((len(episode.actions) + 1, len(episode.hidden)), np.nan)
-    for step, action in enumerate(episode.actions):
-        if action < len(episode.hidden):
-            known[step + 1 :, action] = episode.hidden[action]
-    difficulty = episode.task_kwargs.get("difficulty", which_is_heavier.Options.difficulty)
-    return ideal.posterior(known, difficulty)
-
-
-def outcome(episode: recording.Episode) -> str:
-    """How an episode ended, in words."""
-    task = suite.load_task(episode.domain, episode.task, episode.task_kwargs)
-    label = int(episode.actions[-1]) - task.num_interactions
-    truth = task.label_names[episode.answer]
-    if label < 0:
-        return f"Time ran out. The right answer: {truth}."
-    verdict = "right" if label == episode.answer else f"wrong; it is: {truth}"
-    return f"Answer after {len(episode.actions) - 1} interactions: {task.label_names[label]}. That is {verdict}."
-
-
-def blueprint(episodes: Sequence[recording.Episode], roots: Sequence[str]) -> rrb.Blueprint:
-    """How a recording opens: the scene at the left, what was seen and believed at the right, time standing still."""
-    columns = [_column(episode, root) for episode, root in zip(episodes, roots, strict=True)]
-    body = columns[0] if len(columns) == 1 else rrb.Horizontal(*columns)
-    return rrb.Blueprint(body, rrb.TimePanel(timeline=_TIMELINE, play_state="paused", state="collapsed"),
-                         rrb.BlueprintPanel(state="collapsed"), rrb.SelectionPanel(state="collapsed"))  # fmt: skip
-
-
-def _column(episode: recording.Episode, root: str):
-    eye = rrb.EyeControls3D(position=(0.65, -1.1, 0.7), look_target=(0, 0, 0.22), eye_up=(0, 0, 1))
-    if episode.domain == "which_is_heavier":
-        eye = rrb.EyeControls3D(position=(0.1, -0.95, 0.45), look_target=(0, 0, 0.2), eye_up=(0, 0, 1))
-    hidden: Any = {f"{root}/world/hidden": rrb.EntityBehavior(visible=False)}
-    scene = rrb.Spatial3DView(origin=f"{root}/world", name=f"{episode.agent or 'scene'}", overrides=hidden,
-                              eye_controls=eye)  # fmt: skip
-    seen: rrb.View
-    if "pixels" in episode.observations:
-        seen = rrb.Spatial2DView(origin=f"{root}/seen/pixels", name="seen")
-    else:
-        seen = rrb.TimeSeriesView(origin=f"{root}/seen", name="seen, m")
-    bars = rrb.BarChartView(origin=f"{root}/belief/labels", name="its answer, if it had to give one now")
-    history = rrb.TimeSeriesView(origin=f"{root}/belief", name="beliefs", contents=["$origin/history", "$origin/value"])
-    views = [seen, bars, history]
-    if episode.domain == "which_is_heavier":
-        views.append(rrb.TimeSeriesView(origin=f"{root}/belief/ideal", name="to the ideal experimenter"))
-    words = rrb.Vertical(rrb.TextDocumentView(origin=f"{root}/did/outcome", name="outcome"),
-                         rrb.TextLogView(origin=f"{root}/did/actions", name="actions"))  # fmt: skip
-    return rrb.Horizontal(rrb.Vertical(scene, words, row_shares=[3, 1]), rrb.Vertical(*views), column_shares=[3, 2])

@@ -1,0 +1,139 @@
+"""Draws docs/which_is_heavier.gif and docs/towers.gif: an episode each of an agent that comes with the package."""
+
+from collections.abc import Iterator, Sequence
+import dataclasses
+from pathlib import Path
+
+from matplotlib import figure
+from matplotlib.backends import backend_agg
+import numpy as np
+from PIL import Image
+
+from physexp import suite
+from physexp.analysis import evaluation
+from physexp.analysis.replay import beliefs, palette, recording
+from physexp.suite import rendering
+
+EPISODES = {"which_is_heavier": ("which_is_heavier/features", 12, 0), "towers": ("towers/fist_features", 8, 0)}
+"""For each picture whose agent plays, and the seed and the index of the episode."""
+
+SCALE = 2  # For dense screens.
+SIZE = (880 * SCALE, 400 * SCALE)  # pixels
+SCENE = 340 * SCALE  # pixels
+FRAMES_PER_STEP = 4
+THINKING, MOVING, ENDING = 700, 100, 3000  # ms, of a decision, of a frame that moves, of the verdict
+COLORS = 96
+LABEL_COLOR, RIGHT, WRONG = "#2b8a94", "#2f7d3b", "#b3362b"
+
+
+@dataclasses.dataclass(frozen=True)
+class Frame:
+    """What a frame shows.
+
+    Attributes:
+      substep: of the physics, whose poses are shown.
+      action: in words.
+      belief: probabilities of the labels, float64 [L].
+      verdict: in words, at the end.
+      duration: ms.
+    """
+
+    substep: int
+    action: str
+    belief: np.ndarray
+    verdict: str
+    duration: int
+
+
+def recorded(name: str) -> recording.Episode:
+    """The episode that a picture shows."""
+    target, seed, number = EPISODES[name]
+    network, config = evaluation.find_agent(target)
+    return recording.reenact(network, config, seed, number, None)
+
+
+def frames(episode: recording.Episode) -> list[Frame]:
+    """What is shown of an episode: each decision, what it brings, and the verdict."""
+    task = suite.load_task(episode.domain, episode.task, episode.task_kwargs)
+    belief, substeps, found = beliefs.of_policy(episode.policies, task.num_interactions), task.options.substeps, []
+    for step, action in enumerate(episode.actions):
+        said, start = f"step {step + 1}: {task.action_names[action]}", step * substeps
+        if action >= task.num_interactions:
+            verdict = "Right!" if episode.rewards[-1] > 0 else f"Wrong: it is {task.label_names[episode.answer]}."
+            found.append(Frame(start, said, belief[step], verdict, ENDING))
+            continue
+        for number in range(FRAMES_PER_STEP):
+            duration = MOVING if number else THINKING
+            found.append(Frame(start + number * substeps // FRAMES_PER_STEP, said, belief[step], "", duration))
+    return found
+
+
+def scenes(episode: recording.Episode, substeps: Sequence[int]) -> Iterator[np.ndarray]:
+    """Images at some physics steps, uint8 [SCENE, SCENE, 3]."""
+    environment = suite.load(episode.domain, episode.task, task_kwargs={**episode.task_kwargs, "random": episode.seed})
+    environment.task.next_episode = episode.number
+    environment.reset()
+    model = environment.task.apparatus.model
+    moving = [geom for geom in range(model.ngeom) if model.body_weldid[model.geom_bodyid[geom]] != 0]
+    renderer = rendering.Renderer(model, size=2 * SCENE)
+    large = np.zeros((1, 2 * SCENE, 2 * SCENE, 3), np.uint8)
+    positions, rotations = np.zeros((1, model.ngeom, 3)), np.zeros((1, model.ngeom, 9))
+    for substep in substeps:
+        positions[0, moving], rotations[0, moving] = (
+            episode.positions[substep],
+            episode.rotations[substep].reshape(-1, 9),
+        )
+        renderer.render(positions, rotations, np.zeros(1, int), large)
+        yield np.asarray(Image.fromarray(large[0]).resize((SCENE, SCENE), Image.Resampling.LANCZOS))
+    renderer.close()
+    environment.close()
+
+
+def drawn(episode: recording.Episode, frame: Frame, scene: np.ndarray) -> Image.Image:
+    """A frame: the scene, the action in words, the belief as named bars, and the verdict."""
+    task = suite.load_task(episode.domain, episode.task, episode.task_kwargs)
+    names = [palette.short(label, episode.things) for label in task.label_names]
+    things = [name.replace(" ", "_") for name in names]
+    colors = [np.array(palette.of_thing(episode.things, thing)) / 255 if thing in episode.things.names else LABEL_COLOR
+              for thing in things]  # fmt: skip
+    width, height = SIZE
+    picture = figure.Figure((width / 100 / SCALE, height / 100 / SCALE), dpi=100 * SCALE, facecolor="white")
+    canvas = backend_agg.FigureCanvasAgg(picture)
+    picture.figimage(scene, 20 * SCALE, 20 * SCALE)
+    picture.text(
+        20 * SCALE / width, 1 - 24 * SCALE / height, task.question, fontsize=14, fontweight="bold", va="center"
+    )
+    left = (40 * SCALE + SCENE) / width
+    picture.text(left, 0.82, frame.action, fontsize=13, va="center")
+    axes = picture.add_axes((left + 0.11, 0.27, 0.81 - left, 0.38))
+    axes.barh(names, frame.belief, color=colors, height=0.7)
+    axes.invert_yaxis()
+    axes.set_xlim(0, 1)
+    axes.set_title("the agent's belief", fontsize=11, loc="left", color="#555555")
+    axes.set_xticks([])
+    axes.tick_params(axis="y", length=0, labelsize=12)
+    axes.spines[:].set_visible(False)
+    axes.spines["left"].set_visible(True)
+    for row, chance in enumerate(frame.belief):
+        axes.text(chance + 0.015, row, f"{chance:.0%}", va="center", fontsize=11)
+    color = RIGHT if episode.rewards[-1] > 0 else WRONG
+    picture.text(left, 0.12, frame.verdict, fontsize=15, fontweight="bold", color=color, va="center")
+    canvas.draw()
+    return Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3].copy())
+
+
+def save(pictures: Sequence[Image.Image], durations: Sequence[int], path: Path) -> None:
+    """Writes an animation whose frames share their colours, so that what stays takes no space."""
+    samples = pictures[:: max(1, len(pictures) // 6)]
+    colors = Image.fromarray(np.concatenate([np.asarray(picture) for picture in samples])).quantize(COLORS)
+    plain = [picture.quantize(palette=colors, dither=Image.Dither.NONE) for picture in pictures]
+    plain[0].save(path, save_all=True, append_images=plain[1:], duration=list(durations), loop=0, optimize=True)
+
+
+if __name__ == "__main__":
+    for name in EPISODES:
+        episode = recorded(name)
+        shown = frames(episode)
+        images = scenes(episode, [frame.substep for frame in shown])
+        pictures = [drawn(episode, frame, scene) for frame, scene in zip(shown, images, strict=True)]
+        save(pictures, [frame.duration for frame in shown], Path(__file__).with_name(f"{name}.gif"))

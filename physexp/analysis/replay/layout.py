@@ -1,0 +1,113 @@
+"""How a recording opens: the scene at the left, what was seen and believed at the right, time standing still."""
+
+from collections.abc import Sequence
+import functools
+
+import numpy as np
+import rerun as rr
+import rerun.blueprint as rrb
+
+from physexp import suite
+from physexp.analysis.replay import beliefs, recording, words
+
+TIMELINE = "time"
+
+_LONGER = 1.08  # Plots than the episode, so that its end is seen.
+_FIELD_OF_VIEW = 55.0  # degrees, of the viewer's own eye
+_NEARER = 0.7  # Than where the same is seen as through the agent's camera, since a window is wider than its images.
+
+
+def blueprint(episodes: Sequence[recording.Episode], roots: Sequence[str]) -> rrb.Blueprint:
+    """The layout of episodes side by side, each below its root entity."""
+    columns = [_column(episode, root) for episode, root in zip(episodes, roots, strict=True)]
+    body = columns[0] if len(columns) == 1 else rrb.Horizontal(*columns)
+    return rrb.Blueprint(body, rrb.TimePanel(timeline=TIMELINE, play_state="paused", state="collapsed"),
+                         rrb.BlueprintPanel(state="collapsed"), rrb.SelectionPanel(state="collapsed"))  # fmt: skip
+
+
+def titled(root: str, title: str) -> str:
+    """The title of a view of one of several episodes side by side."""
+    return f"{root}: {title}" if root else title
+
+
+def _column(episode: recording.Episode, root: str) -> rrb.Container:
+    scene, about, seen = _scene(episode, root), _about(root), _seen(episode, root)
+    now, curves = _thoughts(episode, root)
+    if root:
+        plots = [rrb.Tabs(*(view for views in curves for view in views), active_tab=0)] if curves else []
+        return rrb.Vertical(
+            scene,
+            about,
+            rrb.Horizontal(*now, seen, column_shares=[5, 4][-1 - len(now) :]),
+            *plots,
+            row_shares=[5, 4, 4, 4][: 3 + len(plots)],
+        )
+    right = [seen, *now, *(rrb.Tabs(*views, active_tab=0) for views in curves)]
+    left = rrb.Vertical(scene, about, row_shares=[3, 2])
+    return rrb.Horizontal(left, rrb.Vertical(*right, row_shares=[5, 4, 4, 4][: len(right)]), column_shares=[3, 2])
+
+
+def _scene(episode: recording.Episode, root: str) -> rrb.Tabs:
+    """The scene without what is hidden, and, behind it, with it."""
+    eye, origin = _eye(episode), f"{root}/world"
+    without = {f"{root}/world/hidden": rrb.EntityBehavior(visible=False)}
+    return rrb.Tabs(
+        rrb.Spatial3DView(origin=origin, name=titled(root, episode.agent or "scene"), eye_controls=eye,
+                          overrides=without),  # type: ignore[arg-type]
+        rrb.Spatial3DView(origin=origin, name=titled(root, words.HIDDEN_TAB), eye_controls=eye),
+        active_tab=0,
+    )  # fmt: skip
+
+
+def _eye(episode: recording.Episode) -> rrb.EyeControls3D:
+    """Looks from where the agent's camera does, so near that it shows as much."""
+    camera = suite.load_task(episode.domain, episode.task, episode.task_kwargs).root_entity.camera
+    right, up = np.reshape(camera.xyaxes, (2, 3))
+    forward = np.cross(up, right)
+    distance = -float(camera.pos @ forward)  # To where it passes the middle of the room.
+    target = camera.pos + distance * forward
+    nearer = _NEARER * distance * np.tan(np.radians(camera.fovy / 2)) / np.tan(np.radians(_FIELD_OF_VIEW / 2))
+    return rrb.EyeControls3D(position=target - nearer * forward, look_target=target, eye_up=(0, 0, 1))
+
+
+def _about(root: str) -> rrb.Container:
+    text = rrb.TextDocumentView(origin=f"{root}/did/outcome", name=titled(root, "question and outcome"))
+    columns = rrb.TextLogColumns(timeline_columns=[rrb.encodings.TimelineColumn(TIMELINE, visible=False)],
+                                 text_log_columns=["Body"])  # fmt: skip
+    log = rrb.TextLogView(origin=f"{root}/did/actions", name=titled(root, "actions"), columns=columns)
+    return rrb.Horizontal(text, log, column_shares=[2, 1])
+
+
+def _seen(episode: recording.Episode, root: str) -> rrb.View | rrb.Container:
+    if "pixels" in episode.observations:
+        return rrb.Spatial2DView(origin=f"{root}/seen/pixels", name=titled(root, "seen: the image"))
+    curves = functools.partial(_curves, episode, root)
+    if not any(values.ndim == 3 for values in episode.observations.values()):
+        return curves("seen, m", [f"seen/{name}" for name in episode.observations])
+    axes = [curves(f"{axis}, m", [f"seen/{name}/{axis}" for name in episode.observations]) for axis in "xyz"]
+    return rrb.Tabs(curves("seen: distance from start, m", ["seen/moved"]), *axes, active_tab=0)
+
+
+def _thoughts(episode: recording.Episode, root: str) -> tuple[list[rrb.View], list[list[rrb.View]]]:
+    """What is believed now, and plots of it over time in groups, of which the first ones are to be seen first."""
+    curves, chances = functools.partial(_curves, episode, root), (-0.05, 1.05)
+    ideal = [curves("belief of an ideal experimenter", ["belief/ideal"], chances)][: episode.domain in beliefs.IDEAL]
+    if not len(episode.policies):
+        return [], [ideal] if ideal else []
+    now = rrb.TextDocumentView(origin=f"{root}/belief/now", name=titled(root, "belief and policy, now"))
+    answers = curves("answers now (policy), and value", ["belief/answers", "belief/value"], (-1.05, 1.05))
+    policy = curves("policy of every action", ["belief/policy"], chances)
+    return [now], [[curves("belief", ["belief/labels"], chances), *ideal], [answers, policy]]
+
+
+def _curves(episode: recording.Episode, root: str, title: str, entities: Sequence[str],
+            limits: tuple[float, float] | None = None) -> rrb.View:  # fmt: skip
+    """A plot of some entities, up to a little after the end of an episode that is over."""
+    until = _LONGER * float(episode.times[-1]) if len(episode.actions) else None
+    return rrb.TimeSeriesView(
+        origin=f"{root}/", name=titled(root, title), contents=[f"{root}/{entity}" for entity in entities],
+        plot_legend=rrb.PlotLegend(rrb.Corner2D.LeftTop),
+        axis_x=None if until is None else rrb.TimeAxis(view_range=rr.TimeRange(
+            start=rr.TimeRangeBoundary.absolute(seconds=0), end=rr.TimeRangeBoundary.absolute(seconds=until))),
+        axis_y=None if limits is None else rrb.ScalarAxis(range=limits),
+    )  # fmt: skip

@@ -1,0 +1,53 @@
+"""Episodes in the viewer while they are played."""
+
+from typing import Protocol
+
+import rerun as rr
+import rerun.blueprint as rrb
+
+from physexp.agents import environment_loop
+from physexp.analysis.replay import layout, recording, words, writing
+
+
+class Screen(Protocol):
+    """Where streams are shown: `viewing.Viewer`, for one."""
+
+    def show(self, stream: rr.RecordingStream, layout: rrb.Blueprint) -> None:
+        """Connects a stream."""
+
+    def flush(self, stream: rr.RecordingStream) -> None:
+        """Sends what a stream holds."""
+
+
+class Live(environment_loop.Observer):
+    """Shows an episode while it is played: what may be known, and all of it once it is over."""
+
+    def __init__(self, recorder: recording.EpisodeRecorder, screen: Screen):
+        """Prepares to show.
+
+        Args:
+          recorder: observes the same episodes, before this observer does.
+          screen: shows the stream of each episode.
+        """
+        self._recorder, self._screen = recorder, screen
+
+    def observe_first(self, environment, timestep):
+        episode = self._recorder.episode
+        self._stream = rr.RecordingStream(f"physexp-{episode.domain}-{episode.task}",
+                                          recording_id=f"{episode.seed}-{episode.number}-live")  # fmt: skip
+        self._screen.show(self._stream, layout.blueprint([episode], [""]))
+        self._stream.send_recording_name(words.name(episode))
+        self._show(is_over=False)
+
+    def observe(self, environment, timestep, action):
+        self._show(timestep.last())
+
+    def get_metrics(self):
+        """Nothing: this only shows."""
+        return {}
+
+    def _show(self, is_over: bool) -> None:
+        episode = self._recorder.episode
+        writer, already = writing.EpisodeWriter(self._stream, episode, ""), max(0, len(episode.actions) - 1)
+        writer.write(already) if is_over else writer.write_so_far(already)
+        self._screen.flush(self._stream)

@@ -1,0 +1,132 @@
+"""Opening rerun's viewer so that this machine alone can reach it: it knows no password."""
+
+from collections.abc import Callable
+import os
+from pathlib import Path
+import socket
+import subprocess
+import sys
+import time
+import urllib.parse
+
+import rerun as rr
+import rerun.blueprint as rrb
+import rerun_cli
+
+PROGRAM = Path(rerun_cli.__file__).with_name("rerun")
+"""Rerun's own program: its viewer, and its tools for files."""
+
+_LOOPBACK = "127.0.0.1"
+_DATA_PORT, _WEB_PORT = 9876, 9090  # Rerun's own, which others expect; where they are taken, any free one.
+_START_SECONDS, _FLUSH_SECONDS = 60.0, 10.0
+
+
+def check_display() -> None:
+    """Raises ValueError where there is no display to open a window on."""
+    if sys.platform == "linux" and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        raise ValueError("there is no display to open the viewer on (DISPLAY is not set); leave out --view")
+
+
+def view(path: Path, web: bool, report: Callable[[str], None] = lambda line: None) -> None:
+    """Opens a file in the viewer, or in the browser's, until that is closed or Ctrl-C ends it.
+
+    Args:
+      path: of the file.
+      web: in a browser instead of a window.
+      report: called with a line that tells the address for a browser.
+
+    Raises:
+      RuntimeError: if the viewer fails.
+      ValueError: where there is no display for a window.
+    """
+    data_port = _free_port(_DATA_PORT)
+    command = [*_command(data_port), str(path)]
+    if web:
+        web_port = _free_port(_WEB_PORT)
+        command += ["--web-viewer", "--web-viewer-port", str(web_port)]
+        query = urllib.parse.urlencode({"url": _address(data_port)})
+        report(f"serving http://{_LOOPBACK}:{web_port}/?{query} to this machine alone; Ctrl-C ends it")
+    else:
+        check_display()
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+        try:
+            _, messages = process.communicate()
+        except KeyboardInterrupt:
+            process.terminate()
+            return
+    if process.returncode:
+        raise RuntimeError(f"rerun's viewer failed: {last_line(messages)}")
+
+
+class Viewer:
+    """A window of the viewer that streams are shown in. It stays when this process ends."""
+
+    def __init__(self):
+        """Prepares; the window opens with the first stream, and again if it has been closed.
+
+        Raises:
+          ValueError: where there is no display.
+        """
+        check_display()
+        self._process: subprocess.Popen | None = None
+
+    def show(self, stream: rr.RecordingStream, layout: rrb.Blueprint) -> None:
+        """Connects a stream to the window.
+
+        Raises:
+          RuntimeError: if the viewer does not start.
+        """
+        if self._process is None or self._process.poll() is not None:
+            self._port = _free_port(_DATA_PORT)
+            self._process = subprocess.Popen([*_command(self._port), "--hide-welcome-screen", "--expect-data-soon"],
+                                             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                             stderr=subprocess.DEVNULL, start_new_session=True)  # fmt: skip
+            self._wait()
+        stream.connect_grpc(_address(self._port), default_blueprint=layout)
+
+    def flush(self, stream: rr.RecordingStream) -> None:
+        """Sends what the stream holds, unless the window has been closed: then there is nobody to send it to."""
+        if self._process is not None and self._process.poll() is None:
+            stream.flush(timeout_sec=_FLUSH_SECONDS)
+
+    def _wait(self) -> None:
+        """Waits until the viewer listens."""
+        assert self._process is not None
+        deadline = time.monotonic() + _START_SECONDS
+        while True:
+            try:
+                socket.create_connection((_LOOPBACK, self._port), timeout=1).close()
+                return
+            except OSError:
+                pass
+            if self._process.poll() is not None or time.monotonic() > deadline:
+                self._process.kill()
+                raise RuntimeError(f"rerun's viewer does not start; `{PROGRAM}` tells why")
+            time.sleep(0.05)
+
+
+def last_line(messages: bytes) -> str:
+    """The last line of what a program has said, without its colours."""
+    lines = [line for line in messages.decode(errors="replace").splitlines() if line.strip()]
+    return lines[-1] if lines else "it does not say why"
+
+
+def _command(data_port: int) -> list[str]:
+    return [str(PROGRAM), "--bind", _LOOPBACK, "--port", str(data_port)]
+
+
+def _address(data_port: int) -> str:
+    return f"rerun+http://{_LOOPBACK}:{data_port}/proxy"
+
+
+def _free_port(preferred: int) -> int:
+    """A port of the loopback on which nobody listens."""
+    for port in (preferred, 0):
+        with socket.socket() as candidate:
+            candidate.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            try:
+                candidate.bind((_LOOPBACK, port))
+            except OSError:
+                continue
+            return candidate.getsockname()[1]
+    raise RuntimeError("no port of this machine is free; end programs that listen")

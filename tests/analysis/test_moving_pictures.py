@@ -1,0 +1,37 @@
+"""The moving pictures of the README: what docs/draw_episodes.py draws."""
+
+import importlib.util
+from pathlib import Path
+
+import numpy as np
+from PIL import Image, ImageSequence
+import pytest
+
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+@pytest.fixture(scope="module")
+def script():
+    spec = importlib.util.spec_from_file_location("draw_episodes", DOCS / "draw_episodes.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize("name", ["which_is_heavier", "towers"])
+def test_a_moving_picture_is_small_loops_and_ends_as_the_script_draws_it(script, name):
+    path = DOCS / f"{name}.gif"
+    assert path.stat().st_size < 1e6
+    episode = script.recorded(name)
+    shown = script.frames(episode)
+    with Image.open(path) as picture:
+        assert picture.info["loop"] == 0 and picture.n_frames > 10  # It repeats for ever.
+        pictures, durations = [], []
+        for frame in ImageSequence.Iterator(picture):
+            pictures.append(np.asarray(frame.convert("RGB")).astype(int))
+            durations.append(frame.info["duration"])
+    assert durations == [frame.duration for frame in shown] and 5000 < sum(durations) < 11000
+    assert all((later != earlier).any() for earlier, later in zip(pictures, pictures[1:], strict=False))
+    (scene,) = script.scenes(episode, [shown[-1].substep])
+    drawn = np.asarray(script.drawn(episode, shown[-1], scene)).astype(int)
+    assert np.abs(pictures[-1] - drawn).mean() < 2 < np.abs(pictures[0] - drawn).mean()  # Of 255; its colours are few.
