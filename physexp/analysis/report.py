@@ -82,7 +82,7 @@ _OPEN_HEADER = ("verdict", "claim", "condition", "95 % interval", "wanted", "exp
 def _open(sections) -> list[tuple[tuple[str, ...], base.Experiment]]:
     """Returns rows under `_OPEN_HEADER` of what does not hold, failures first; the experiment stands apart."""
     claims = [(claim, experiment) for experiment, found in sections for claim in found]
-    rows = []
+    rows: list[tuple[tuple[str, ...], base.Experiment]] = []
     for verdict in (claims_lib.FAILS, claims_lib.UNDECIDED):
         for claim, experiment in claims:
             if claim.verdict == verdict:
