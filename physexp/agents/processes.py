@@ -8,7 +8,7 @@ import signal
 import threading
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-"""Ctrl-C, what schedulers and containers send, and a terminal that is gone: requests to end."""
+"""Requests to end, from Ctrl-C, from schedulers and containers, and from a terminal that is gone."""
 
 _DEATH_SECONDS = 5.0  # For the system to take away what was killed.
 

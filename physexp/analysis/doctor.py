@@ -12,7 +12,7 @@ from packaging import requirements
 from physexp import extras
 
 OK, MISSING, BROKEN = "ok", "missing", "broken"
-"""Verdicts: fine; something that some commands or some speed need; the environments themselves do not work."""
+"""Verdicts, which mean fine; some commands or some speed need it; the environments themselves do not work."""
 
 _CORE = ("numpy", "scipy", "mujoco", "dm_control", "torch", "pyarrow", "rerun")
 _PYTHON = ((3, 11), (3, 12))  # The first and the last that are tested.

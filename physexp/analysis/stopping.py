@@ -12,7 +12,7 @@ import time
 from physexp.agents import processes
 
 TOGETHER_SECONDS = 1.0
-"""Requests that come this close are one: many a sender writes to a process and then to its whole group."""
+"""Requests that come this close are one, since many a sender writes to a process and then to its whole group."""
 
 _signals: tuple[signal.Signals, ...] = processes.STOP_SIGNALS  # Those that are requests, in this process.
 

@@ -83,7 +83,7 @@ class Towers(task.QuestionTask):
 
     @property
     def bounds(self):
-        """Returns the room; a centre comes no nearer to its walls than by the part of an edge that contacts give way."""
+        """Returns the room; a centre is no nearer to its walls than the part of an edge that contacts give way."""
         corner = np.array([WALL_DISTANCE, WALL_DISTANCE, CEILING])
         return {name: (corner * [-1, -1, 0], corner) for name in self.sensors}
 

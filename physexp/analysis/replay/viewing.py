@@ -14,7 +14,7 @@ import rerun.blueprint as rrb
 import rerun_cli
 
 PROGRAM = Path(rerun_cli.__file__).with_name("rerun")
-"""Rerun's own program: its viewer, and its tools for files."""
+"""Rerun's own program, with its viewer and its tools for files."""
 
 _LOOPBACK = "127.0.0.1"
 _DATA_PORT, _WEB_PORT = 9876, 9090  # Rerun's own, which others expect; where they are taken, any free one.
