@@ -226,9 +226,9 @@ class _Recorder:
             raise ValueError(
                 f"the checkpoint is of {task}, the run of {self._config.task_name}; put back the run's own"
             )
-        if type(episodes) is not int or not 0 <= episodes < 2**63:
+        if not isinstance(episodes, int) or isinstance(episodes, bool) or not 0 <= episodes < 2**63:
             raise ValueError("the checkpoint's `episodes` is no count; put back the run's own")
-        if type(seconds) not in (int, float) or not 0 <= seconds < 2**63:
+        if not isinstance(seconds, (int, float)) or isinstance(seconds, bool) or not 0 <= seconds < 2**63:
             raise ValueError("the checkpoint's `seconds` is no duration; put back the run's own")
 
     def add(self, update: agent_lib.Update) -> None:
