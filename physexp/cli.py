@@ -549,9 +549,9 @@ def _problem(event: tyro_errors.ParseErrorEvent, command: str, arguments: list[s
             return f"{_name(argument)} is {value!r}; choose from {', '.join(choices)}"
         case tyro_errors.BadValue(argument=argument):
             return f"{_name(argument)} needs a value: {argument.lowered.metavar}"
-        case tyro_errors.InstantiationFailure(argument=None, message=message):
-            return message
-        case tyro_errors.InstantiationFailure(argument=argument):
+        case tyro_errors.InstantiationFailure(argument=argument, message=message):
+            if argument is None:
+                return message
             return f"{_name(argument)} is {_value(_name(argument), arguments)!r}; give {argument.lowered.metavar}"
         case _:
             return f"these arguments do not go together ({type(event).__name__})"
