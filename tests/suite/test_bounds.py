@@ -9,8 +9,8 @@ from physexp import suite
 from physexp.suite import gymnasium as adapter
 
 FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
-TIMESTEPS = {"which_is_heavier": (0.025, 0.1, 1.0), "towers": (0.005, 0.1, 1.0)}  # s
-SECONDS = {"which_is_heavier": 20.0, "towers": 2.0}
+TIMESTEPS = {"which_is_heavier": (0.025, 0.1, 1.0), "towers": (0.02, 0.1, 1.0)}  # s
+SECONDS = {"which_is_heavier": 10.0, "towers": 2.0}
 
 
 def _stubborn(rng, num_actions, size):
@@ -31,7 +31,7 @@ def test_no_play_takes_an_observation_out_of_its_bounds(seed, domain_name, task_
     options = {"random": seed, "control_timestep": timestep, "time_limit": SECONDS[domain_name]}
     if domain_name == "which_is_heavier":
         options["difficulty"] = 1e6  # One block has all the mass, and the others the least.
-    size = 32
+    size = 16
     batch = suite.load_batch(domain_name, task_name, size, options)
     spec = batch.observation_spec()
     assert all(isinstance(bounded, dm_env.specs.BoundedArray) for bounded in spec.values())
