@@ -89,7 +89,7 @@ def test_features_are_float32_of_the_stated_shapes(env, domain_name, task_name):
 
 
 @every_task
-def test_a_flat_observation_is_the_others_in_a_row(domain_name, task_name):
+def test_a_flat_observation_is_the_others_in_a_row_sorted_by_name(domain_name, task_name):
     """As `dm_control.suite.load` has it with the same argument, of features and of images."""
     flat, named = (
         suite.load(domain_name, task_name, {"random": 0}, {"flat_observation": flat}) for flat in (True, False)
@@ -100,7 +100,7 @@ def test_a_flat_observation_is_the_others_in_a_row(domain_name, task_name):
                               strict=True):  # fmt: skip
         assert each[:3] == expected[:3] and list(each.observation) == ["observations"] == [spec.name]
         spec.validate(each.observation["observations"])
-        row = np.concatenate([value.ravel() for value in expected.observation.values()])
+        row = np.concatenate([value.ravel() for _, value in sorted(expected.observation.items())])
         assert each.observation["observations"].tobytes() == row.tobytes()
     flat.close(), named.close()
 
