@@ -862,13 +862,13 @@ def test_two_thousand_environments_opened_and_closed_leave_nothing(size):
     assert len(os.listdir("/proc/self/fd")) == files
 
 
-def test_forty_environments_draw_in_turn_while_all_are_open_and_leave_no_file(load):
+def test_a_dozen_environments_draw_in_turn_while_all_are_open_and_leave_no_file(load):
     """Each has a context of its own."""
     files = len(os.listdir("/proc/self/fd"))
-    environments = [load(*HEAVIER, number) for number in range(40)]
+    environments = [load(*HEAVIER, number) for number in range(12)]
     first = [_image(environment.reset()) for environment in environments]
     poked = [_image(environment.step(0)) for environment in environments]
-    for number in (0, 20, 39):
+    for number in (0, 6, 11):
         np.testing.assert_array_equal(first[number], first[0])
         assert (poked[number] != first[number]).any()
     for environment in environments:
