@@ -34,8 +34,8 @@ tasks = st.sampled_from(FEATURES) | st.tuples(anything, anything)
 
 
 def in_one_line(error: Exception) -> bool:
-    """Whether a message is one line that says something."""
-    return bool(str(error).strip())
+    """Whether a message is one line that says something, and not a page."""
+    return bool(str(error).strip()) and "\n" not in str(error) and len(str(error)) < 500
 
 
 @QUICKLY

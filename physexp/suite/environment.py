@@ -27,8 +27,8 @@ class Environment(composer.Environment):
           task: a `QuestionTask`.
           raise_exception_on_physics_error: raise when the simulation diverges, instead of ending that episode
             with a warning.
-          flat_observation: observe one vector, `observations`, as dm_control's own suite does, instead of arrays by
-            name.
+          flat_observation: observe one vector, `observations`, of all arrays sorted by name, as dm_control's own
+            suite does.
 
         Raises:
           ValueError: for an argument that is neither true nor false.

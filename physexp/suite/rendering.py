@@ -225,8 +225,9 @@ def _make_context(size: int):
         module = backend if backend in ("egl", "osmesa") else "glfw"
         return importlib.import_module(f"mujoco.{module}").GLContext(size, size)
     except Exception as error:  # Whatever the driver raises is what the user wants to read.
+        why = " ".join(str(error).split())  # In one line.
         raise RuntimeError(
-            f"the GL backend {backend} (MUJOCO_GL) does not work here: {error}; install {DEBIAN_PACKAGES}, "
+            f"the GL backend {backend} (MUJOCO_GL) does not work here: {why}; install {DEBIAN_PACKAGES}, "
             "or set MUJOCO_GL to egl, osmesa or glfw"
         ) from error
 

@@ -1,5 +1,7 @@
 """Bad input is refused with what was given and what is allowed; the environment stays usable, also when it diverges."""
 
+import decimal
+import fractions
 import logging
 import re
 
@@ -7,6 +9,8 @@ import numpy as np
 import pytest
 
 from physexp import suite
+from physexp.suite import gymnasium as gymnasium_lib
+from physexp.suite import stable_baselines
 
 FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
 every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_TASKS)
@@ -55,26 +59,41 @@ def test_an_unknown_task_kwarg_is_refused_with_the_allowed_ones(load):
 
 
 def test_an_unknown_environment_kwarg_is_refused_with_the_allowed_ones():
-    with _refuses("flat_observation", "raise_exception_on_physics_error"):
-        suite.load(*HEAVIER, environment_kwargs={"flat_observation": True})
+    with _refuses("flat_observations", "raise_exception_on_physics_error", "flat_observation"):
+        suite.load(*HEAVIER, environment_kwargs={"flat_observations": True})
+    for name in ("flat_observation", "raise_exception_on_physics_error"):
+        with _refuses(name, "'yes'", "True or False"):
+            suite.load(*HEAVIER, environment_kwargs={name: "yes"})
 
 
-@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 0.999, 0, -5, "5", None, True, 5j, [5], np.float32("nan")])
+def test_keyword_arguments_whose_names_are_no_words_are_refused():
+    for key in (3, None, (1, 2), "two words", "two\nlines"):
+        with _refuses("task_kwargs has", repr(key), "difficulty") as refused:
+            suite.load(*HEAVIER, {key: 1})
+        assert "\n" not in str(refused.value)
+
+
+NO_NUMBERS = [np.nan, np.inf, -np.inf, "0.5", None, True, np.bool_(True), 5j, [5], np.array([5.0]), np.float32("nan"),
+              10**400, np.timedelta64(5), np.complex64(5), decimal.Decimal(5), fractions.Fraction(5)]  # fmt: skip
+
+
+@pytest.mark.parametrize("value", [*NO_NUMBERS, 0.999, 0, -5])
 def test_a_difficulty_that_is_not_a_finite_number_from_one_up_is_refused(value):
-    with _refuses("difficulty", repr(value), ">= 1"):
+    with _refuses("difficulty", repr(value)[:100], ">= 1") as refused:
         suite.load(*HEAVIER, {"difficulty": value})
+    assert len(str(refused.value)) < 300
 
 
-@pytest.mark.parametrize("value", [1, 1.0, np.float32(3), np.int64(7), 1e300])
+@pytest.mark.parametrize("value", [1, 1.0, np.float32(3), np.int64(7), 10**25, 1e300])
 def test_any_finite_difficulty_from_one_up_is_played(value):
     assert suite.load(*HEAVIER, {"difficulty": value}).reset().first()
 
 
 @every_feature_task
 @pytest.mark.parametrize("name", ["control_timestep", "time_limit"])
-@pytest.mark.parametrize("value", [0, 0.0, -0.1, np.nan, np.inf, "0.1", None, False, [0.1]])
+@pytest.mark.parametrize("value", [*NO_NUMBERS, 0, 0.0, -0.1, False])
 def test_a_time_that_is_not_a_finite_positive_number_is_refused(domain_name, task_name, name, value):
-    with _refuses(name, repr(value), "> 0"):
+    with _refuses(name, repr(value)[:100], "> 0"):
         suite.load(domain_name, task_name, {name: value})
 
 
@@ -86,7 +105,8 @@ def test_a_control_step_that_is_no_multiple_of_the_physics_step_is_refused(domai
         suite.load(domain_name, task_name, {"control_timestep": value})
 
 
-@pytest.mark.parametrize("value", [-1, 2**63, 1.0, "1", True, [1], np.float64(3), np.random.default_rng(0)])
+@pytest.mark.parametrize("value", [-1, 2**63, 1.0, "1", True, [1], np.float64(3), np.timedelta64(3),
+                                   np.random.default_rng(0)])  # fmt: skip
 def test_a_seed_that_is_none_is_refused(value):
     with _refuses("random", repr(value), "[0, 2**63)", "RandomState", "None"):
         suite.load(*HEAVIER, {"random": value})
@@ -94,11 +114,43 @@ def test_a_seed_that_is_none_is_refused(value):
         suite.load_batch(*HEAVIER, 2, {"random": value})
 
 
-@pytest.mark.parametrize("value", [0, -1, 1.5, 2.0, "2", None, True, [2]])
+NO_INDICES = [-1, -(2**70), 1.5, 2.0, np.float64(2), "2", None, True, np.bool_(False), [2], 2**70,
+              np.timedelta64(2), pytest.param(10**5000, id="5001 digits")]  # fmt: skip
+
+
+@pytest.mark.parametrize("value", NO_INDICES)
+def test_a_seed_and_an_index_from_which_another_seed_follows_are_integers_of_63_bits(value):
+    for name, arguments in (("seed", (value, 0)), ("index", (0, value))):
+        with _refuses(f"{name} is", ">= 0", "< 2**63") as refused:
+            suite.environment_seed(*arguments)
+        assert "\n" not in str(refused.value) and len(str(refused.value)) < 300
+    with _refuses("seed is"):
+        suite.environment_seed(2**63, 0)
+
+
+@pytest.mark.parametrize("value", [*NO_INDICES, 2**62, 2**63 - 1])
+def test_the_next_episode_is_an_index_that_others_can_follow(value):
+    env = suite.load(*HEAVIER, {"random": 0})
+    with _refuses("next_episode is", ">= 0", "< 2**62"):
+        env.task.next_episode = value
+    env.reset()
+    assert env.task.episode == 0
+
+
+def test_after_the_last_episode_that_can_be_chosen_come_others():
+    env = suite.load(*HEAVIER, {"random": 0})
+    batch = suite.load_batch(*HEAVIER, 2, {"random": 0})
+    env.task.next_episode = 2**62 - 1
+    env.reset(), batch.reset(episode=2**62 - 1)
+    env.reset(), batch.reset()
+    assert env.task.episode == 2**62 and batch.episodes.tolist() == [2**62] * 2
+
+
+@pytest.mark.parametrize("value", [*NO_INDICES, 0])
 def test_numbers_of_environments_and_threads_are_positive_integers(value):
-    with _refuses("num_environments", repr(value), ">= 1"):
+    with _refuses("num_environments is", ">= 1"):
         suite.load_batch(*HEAVIER, value)
-    with _refuses("num_threads", repr(value), ">= 1"):
+    with _refuses("num_threads is", ">= 1"):
         suite.load_batch(*HEAVIER, 2, num_threads=value)
 
 
@@ -208,13 +260,42 @@ def test_environments_are_given_as_increasing_indices(bad):
     np.testing.assert_array_equal(batch.step([0, 1, 2]).step_type, [1, 1, 1])
 
 
-@pytest.mark.parametrize("bad", [-1, 1.5, True, "1", np.nan, 2**63])
+@pytest.mark.parametrize("bad", [*(value for value in NO_INDICES if value is not None), np.nan, 2**62, 2**63 - 1])
 def test_an_episode_is_given_as_an_index(bad):
     batch = suite.load_batch(*HEAVIER, 2, {"random": 0})
     batch.reset()
-    with _refuses("episode", repr(bad)):
+    with _refuses("episode is", ">= 0", "< 2**62"):
         batch.reset(episode=bad)
     np.testing.assert_array_equal(batch.episodes, [0, 0])
+
+
+# Whatever steps.
+
+
+NO_ACTIONS = [2.7, 3.0, True, "3", None, np.float64(3), np.bool_(True), 2**70, np.timedelta64(1), [[0], [0, 1]],
+              np.zeros(40), np.full((2, 30), "a" * 50), "two\nlines"]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def all_that_steps():
+    """Every way to step an environment, each with how one action is given to it."""
+    single, batch = suite.load(*HEAVIER), suite.load_batch(*HEAVIER, 2)
+    gym, vector = gymnasium_lib.Environment(*HEAVIER), gymnasium_lib.VectorEnvironment(*HEAVIER, num_envs=2)
+    sb3 = stable_baselines.VecEnv(*HEAVIER, num_envs=2)
+    return {"dm_env": (single, False), "batch": (batch, True), "gymnasium": (gym, False), "vector": (vector, True),
+            "stable_baselines": (sb3, True)}  # fmt: skip
+
+
+@pytest.mark.parametrize("which", ["dm_env", "batch", "gymnasium", "vector", "stable_baselines"])
+@pytest.mark.parametrize("bad", NO_ACTIONS, ids=lambda bad: type(bad).__name__)
+def test_a_bad_action_is_refused_alike_whatever_steps(all_that_steps, which, bad):
+    environment, many = all_that_steps[which]
+    environment.reset()
+    for given in (bad, [bad, bad]) if many else (bad, [bad]):
+        with _refuses("action is ", "give integers of shape (2,)" if many else "give integers of shape ()") as refused:
+            environment.step(given)
+        assert "\n" not in str(refused.value) and len(str(refused.value)) < 300
+    environment.step([np.int64(1)] * 2 if many else np.int64(1))
 
 
 # Closed environments.

@@ -89,6 +89,23 @@ def test_features_are_float32_of_the_stated_shapes(env, domain_name, task_name):
 
 
 @every_task
+def test_a_flat_observation_is_the_others_in_a_row_sorted_by_name(domain_name, task_name):
+    """As `dm_control.suite.load` has it with the same argument, of features and of images."""
+    flat, named = (
+        suite.load(domain_name, task_name, {"random": 0}, {"flat_observation": flat}) for flat in (True, False)
+    )
+    (spec,) = flat.observation_spec().values()
+    actions = [0, flat.task.num_interactions, 0, 1]  # The second one ends the episode, the third starts the next.
+    for each, expected in zip([flat.reset(), *map(flat.step, actions)], [named.reset(), *map(named.step, actions)],
+                              strict=True):  # fmt: skip
+        assert each[:3] == expected[:3] and list(each.observation) == ["observations"] == [spec.name]
+        spec.validate(each.observation["observations"])
+        row = np.concatenate([value.ravel() for _, value in sorted(expected.observation.items())])
+        assert each.observation["observations"].tobytes() == row.tobytes()
+    flat.close(), named.close()
+
+
+@every_task
 def test_only_the_right_label_earns_one_and_the_others_lose_one(env, task_name):
     interactions, labels, _ = NUMBERS[task_name]
     for label in range(labels):

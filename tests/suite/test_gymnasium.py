@@ -120,13 +120,92 @@ def test_an_image_for_people_is_larger_than_what_agents_see():
     assert image.shape == (480, 480, 3) and len(np.unique(image.reshape(-1, 3), axis=0)) > 10
 
 
+@pytest.mark.parametrize("name", ["physexp/towers-fist_features-v0", "physexp/which_is_heavier-pixels-v0"])
+def test_a_vector_environment_draws_what_each_environment_behind_it_draws(name, seed):
+    vector = gymnasium.make_vec(name, num_envs=3, vectorization_mode="vector_entry_point", render_mode="rgb_array")
+    singles = [
+        gymnasium.make(name, random=suite.environment_seed(seed, i), render_mode="rgb_array").unwrapped
+        for i in range(3)
+    ]  # fmt: skip
+    vector.reset(seed=seed)
+    for single in singles:
+        single.reset()
+    for step in range(4):
+        actions = np.array([0, 1, single.dm_env.task.num_interactions if step == 1 else 3])
+        vector.step(actions)
+        for single, action in zip(singles, actions, strict=True):
+            if single._playing:
+                single.step(int(action))
+            else:
+                single.reset()
+        images = vector.render()
+        assert isinstance(images, tuple) and len(images) == vector.num_envs
+        for image, single in zip(images, singles, strict=True):
+            np.testing.assert_array_equal(image, single.render())
+    assert vector.metadata["render_fps"] == singles[0].metadata["render_fps"] == 10
+    vector.close()
+    for single in singles:
+        single.close()
+
+
+def test_images_of_many_environments_fit_into_a_square_of_1920_pixels():
+    vector = adapter.VectorEnvironment("which_is_heavier", "features", 65, render_mode="rgb_array")
+    vector.reset(seed=0)
+    images = vector.render()
+    assert len(images) == 65 and images[0].shape == (213, 213, 3)  # 9 by 9 of them: 1920 / 9 = 213.3.
+    vector.close()
+
+
+def test_without_a_render_mode_nothing_is_drawn():
+    assert adapter.VectorEnvironment("towers", "fist_features", 2).render() is None
+    assert adapter.Environment("towers", "fist_features").render() is None
+
+
+@pytest.mark.parametrize("size", [None, 2])
+def test_a_step_without_an_episode_says_that_a_reset_is_needed(size):
+    kwargs = {} if size is None else {"num_envs": size}
+    environment = (adapter.VectorEnvironment if size else adapter.Environment)("which_is_heavier", "features", **kwargs)
+    action = 4 if size is None else np.full(2, 4)
+    with pytest.raises(gymnasium.error.ResetNeeded, match=r"reset\(\)"):
+        environment.step(action)
+    environment.reset()
+    assert np.all(environment.step(action)[2])
+    if size is None:  # A vector environment starts the next episode by itself.
+        with pytest.raises(gymnasium.error.ResetNeeded, match=r"reset\(\)"):
+            environment.step(action)
+        environment.reset()
+    environment.step(action)
+
+
+@pytest.mark.parametrize("make", [adapter.Environment, adapter.VectorEnvironment])
+def test_a_closed_environment_says_so_and_is_closed_twice(make):
+    environment = make("which_is_heavier", "features", render_mode="rgb_array")
+    environment.reset(seed=0, options={"unknown": 1})
+    environment.close()
+    environment.close()
+    action = 0 if make is adapter.Environment else [0]
+    for use in (environment.reset, environment.render, lambda: environment.step(action)):
+        with pytest.raises(RuntimeError, match=r"^the (environment|batch) is closed; load another$"):
+            use()
+
+
+@pytest.mark.parametrize("make", [adapter.Environment, adapter.VectorEnvironment])
+@pytest.mark.parametrize("seed", [-1, 2**63, 1.5, "1", True, [1, 2], np.float64(1)])
+def test_a_seed_that_is_none_is_refused_and_changes_nothing(make, seed):
+    environment = make("which_is_heavier", "features", random=5)
+    with pytest.raises(ValueError, match=r"^seed is .*; give an integer >= 0 and < 2\*\*63$"):
+        environment.reset(seed=seed)
+    environment.reset(seed=np.int64(3))
+
+
 @pytest.mark.parametrize(
     ("make", "message"),
     [
         (lambda: adapter.Environment("towers", "features"), "task_name is 'features'"),
         (lambda: adapter.Environment("towers", "fist_features", render_mode="human"), "render_mode is 'human'"),
-        (lambda: adapter.VectorEnvironment("towers", "fist_features", 0), "num_environments is 0"),
-        (lambda: adapter.VectorEnvironment("towers", "fist_features", 2).reset(seed=[1, 2]), "seed is"),
+        (lambda: adapter.VectorEnvironment("towers", "fist_features", 0), "num_envs is 0"),
+        (lambda: adapter.VectorEnvironment("towers", "fist_features", 2.0), r"num_envs is 2\.0"),
+        (lambda: adapter.VectorEnvironment("towers", "fist_features", 2, render_mode=3), "render_mode is 3"),
     ],
 )
 def test_what_makes_no_sense_is_refused(make, message):

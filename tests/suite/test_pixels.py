@@ -4,6 +4,7 @@ from concurrent import futures
 import functools
 import gc
 import itertools
+import os
 import re
 
 import dm_env
@@ -841,3 +842,35 @@ def test_environments_that_are_gone_give_their_memory_back(end):
 
     grown = memory.growth(play, 3, num_warm_up=3)
     assert grown < 7_000_000, f"{grown} bytes"
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("size", [None, 2], ids=["environment", "batch"])
+def test_two_thousand_environments_opened_and_closed_leave_nothing(size):
+    """Neither memory nor open files; 2 kB of each would be 4 MB in all."""
+
+    def play():
+        environment = suite.load(*HEAVIER) if size is None else suite.load_batch(*HEAVIER, size)
+        environment.reset()
+        environment.step(0 if size is None else np.zeros(size, int))
+        environment.close()
+
+    play()
+    files = len(os.listdir("/proc/self/fd"))
+    grown = memory.growth(play, 2000, num_warm_up=20)
+    assert grown < 4_000_000, f"{grown} bytes"
+    assert len(os.listdir("/proc/self/fd")) == files
+
+
+def test_a_dozen_environments_draw_in_turn_while_all_are_open_and_leave_no_file(load):
+    """Each has a context of its own."""
+    files = len(os.listdir("/proc/self/fd"))
+    environments = [load(*HEAVIER, number) for number in range(12)]
+    first = [_image(environment.reset()) for environment in environments]
+    poked = [_image(environment.step(0)) for environment in environments]
+    for number in (0, 6, 11):
+        np.testing.assert_array_equal(first[number], first[0])
+        assert (poked[number] != first[number]).any()
+    for environment in environments:
+        environment.close()
+    assert len(os.listdir("/proc/self/fd")) <= files + 1

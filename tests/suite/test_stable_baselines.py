@@ -1,6 +1,8 @@
 """Our batches under Stable-Baselines3: its conventions, and a learner of sb3-contrib that learns on them."""
 
+import gymnasium
 import numpy as np
+import pytest
 from sb3_contrib import RecurrentPPO
 from stable_baselines3.common import vec_env
 
@@ -32,6 +34,26 @@ def test_an_episode_that_ends_is_followed_by_the_next_in_the_same_step(seed):
                 np.testing.assert_array_equal(observation["heights"][row], expected.observation["heights"][row])
         if dones.any():
             batch.reset(np.flatnonzero(dones))
+
+
+def test_rendering_lays_the_images_of_all_environments_side_by_side(seed):
+    vector = stable_baselines.VecEnv("which_is_heavier", "features", 3, random=seed, render_mode="rgb_array")
+    vector.reset()
+    vector.step(np.arange(3))
+    images, together = vector.get_images(), vector.render()
+    assert together.shape == (960, 960, 3) and together.dtype == np.uint8  # Two by two of 480 pixels.
+    for number, image in enumerate(images):
+        row, column = divmod(number, 2)
+        np.testing.assert_array_equal(together[480 * row :, 480 * column :][:480, :480], image)
+        assert image.std() > 10
+    assert vector.metadata["render_fps"] == 10
+    vector.close()
+
+
+def test_a_step_before_the_first_reset_says_that_a_reset_is_needed():
+    vector = stable_baselines.VecEnv("which_is_heavier", "features", 2)
+    with pytest.raises(gymnasium.error.ResetNeeded, match=r"reset\(\)"):
+        vector.step(np.zeros(2, int))
 
 
 def test_recurrent_ppo_of_sb3_contrib_learns_to_beat_chance(tmp_path, monkeypatch):

@@ -1,0 +1,97 @@
+"""A simulation is for one thread at a time: another one is refused, and what the first does goes on as if alone."""
+
+import copy
+import pickle
+import threading
+
+import numpy as np
+import pytest
+
+from physexp import suite
+
+TASK = ("towers", "fist_features")
+
+
+class Busy:
+    """Keeps an environment or a batch busy in another thread: from within a step, until it is left."""
+
+    def __init__(self, environment, monkeypatch, action):
+        stepping, done = threading.Event(), threading.Event()
+        judge = type(environment.task.rules).judge
+
+        def waiting(*args):
+            stepping.set()
+            done.wait()
+            return judge(*args)
+
+        monkeypatch.setattr(type(environment.task.rules), "judge", waiting)
+        self._done, self.timestep = done, None
+        self._thread = threading.Thread(target=self._play, args=(environment, action))
+        self._thread.start()
+        stepping.wait()
+
+    def _play(self, environment, action):
+        self.timestep = environment.step(action)
+
+    def finish(self):
+        self._done.set()
+        self._thread.join()
+        return self.timestep
+
+
+def _environments():
+    single = suite.load(*TASK, {"random": 0})
+    batch = suite.load_batch(*TASK, 2, {"random": 0})
+    return [(single, 0), (batch, np.zeros(2, int))]
+
+
+@pytest.mark.parametrize("which", [0, 1], ids=["environment", "batch"])
+def test_a_second_thread_is_refused_in_one_line_and_the_first_goes_on(which, monkeypatch):
+    environment, action = _environments()[which]
+    twin, _ = _environments()[which]
+    environment.reset(), twin.reset()
+    with monkeypatch.context() as patch:
+        busy = Busy(environment, patch, action)
+        uses = [environment.reset, lambda: environment.step(action), environment.render, environment.close]
+        uses += [lambda: environment.reseed(1)] if which else []
+        for use in uses:
+            with pytest.raises(RuntimeError, match=r"^another thread is using this .*load_batch.*$") as refused:
+                use()
+            assert "\n" not in str(refused.value)
+        timestep = busy.finish()
+    expected = twin.step(action)
+    for _ in range(3):
+        for name, value in expected.observation.items():
+            np.testing.assert_array_equal(timestep.observation[name], value)
+        timestep, expected = environment.step(action), twin.step(action)
+
+
+def test_two_threads_that_step_one_environment_at_once_end_no_process():
+    """They take turns as it happens, or are refused."""
+    environment = suite.load(*TASK, {"random": 0})
+    environment.reset()
+    steps, refused = [], []
+
+    def play():
+        for i in range(300):
+            try:
+                steps.append(environment.step(i % 4))
+            except RuntimeError as error:
+                refused.append(str(error))
+
+    threads = [threading.Thread(target=play) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(steps) + len(refused) == 600 and len(steps) > 0
+    assert all(message.startswith("another thread") for message in refused)
+    assert environment.reset().first()
+
+
+@pytest.mark.parametrize("which", [0, 1], ids=["environment", "batch"])
+@pytest.mark.parametrize("duplicate", [copy.deepcopy, pickle.dumps])
+def test_a_copy_is_refused_with_what_to_do_instead(which, duplicate):
+    environment, _ = _environments()[which]
+    with pytest.raises(TypeError, match="neither copied nor pickled; load another"):
+        duplicate(environment)
