@@ -126,6 +126,9 @@ def save(pictures: Sequence[Image.Image], durations: Sequence[int], path: Path) 
     """Writes an animation whose frames share their colours, so that what stays takes no space."""
     samples = pictures[:: max(1, len(pictures) // 6)]
     colors = Image.fromarray(np.concatenate([np.asarray(picture) for picture in samples])).quantize(COLORS)
+    table = np.reshape(colors.getpalette(), (-1, 3))
+    table[table.min(axis=1) > 245] = 255  # The ground is the page's white, not a mean of what is nearly white.
+    colors.putpalette(table.ravel().tolist())
     plain = [picture.quantize(palette=colors, dither=Image.Dither.NONE) for picture in pictures]
     plain[0].save(path, save_all=True, append_images=plain[1:], duration=list(durations), loop=0, optimize=True)
 
