@@ -331,7 +331,7 @@ def test_a_process_killed_while_writing_leaves_the_earlier_episodes_readable(tmp
     path = tmp_path / "replay.rrd"
     program = f"""
 import sys, time
-sys.path.insert(0, {str(Path(__file__).parent)!r})
+sys.path[:0] = {[str(Path(__file__).parent), str(Path(__file__).parents[1])]!r}
 from pathlib import Path
 import test_replay
 from physexp.analysis.replay import writing
