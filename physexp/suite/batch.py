@@ -184,7 +184,8 @@ class BatchEnvironment:
                 if self._renderer is None or self._renderer.size != size:
                     self._close_renderer()
                     self._renderer = rendering.Renderer(group.kit.model, size=size)
-                self._renderer.render(*group.poses(rows), rows, images)
+                positions, rotations = group.poses(rows)
+                self._renderer.render(positions, rotations, rows, images)
             return images
 
     def close(self) -> None:

@@ -80,7 +80,7 @@ class Environment(composer.Environment):
         """
         with self._guard:
             self._check_open()
-            return self._physics.render(_RENDER_SIZE, _RENDER_SIZE, camera_id="observer")
+            return self.physics.render(_RENDER_SIZE, _RENDER_SIZE, camera_id="observer")
 
     def close(self) -> None:
         """Frees the simulations. Closing twice does nothing.

@@ -31,6 +31,8 @@ def observation_space(spec) -> spaces.Dict:
     """Images are bounded by their type, features by what the task knows of them."""
     boxes: dict[str, spaces.Space] = {}
     for name, array in spec.items():
+        low: Any
+        high: Any
         if isinstance(array, dm_env.specs.BoundedArray):
             low, high = (np.broadcast_to(side, array.shape) for side in (array.minimum, array.maximum))
         else:

@@ -39,16 +39,16 @@ class Rules:
         """
         try:
             array = np.asarray(actions)
-        except ValueError:  # Lists of different lengths.
-            array, kind = None, "no array"
+        except ValueError:
+            kind = "lists of different lengths"
         else:
+            if array.shape == shape and array.dtype.kind in "iu":
+                return array
             kind = f"shape {array.shape}, {array.dtype}"
-        if array is None or array.shape != shape or array.dtype.kind not in "iu":
-            raise ValueError(
-                f"action is {checks.shown(actions)} ({kind}); "
-                f"give integers of shape {shape} from 0 to {self.num_actions - 1}"
-            )
-        return array
+        raise ValueError(
+            f"action is {checks.shown(actions)} ({kind}); "
+            f"give integers of shape {shape} from 0 to {self.num_actions - 1}"
+        )
 
     def check_range(self, actions: np.ndarray) -> None:
         """Raises ValueError unless every action is one of `num_actions`."""

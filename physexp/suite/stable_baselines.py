@@ -1,7 +1,7 @@
 """A batch of environments for Stable-Baselines3 (and sb3-contrib), whose vector environments reset at once."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, cast
 
 from physexp import extras, suite
 
@@ -35,7 +35,7 @@ class VecEnv(base_vec_env.VecEnv):
         self.render_mode = render_mode
         super().__init__(num_envs, gymnasium_lib.observation_space(self._batch.observation_spec()),
                          spaces.Discrete(self._batch.action_spec().num_values))  # fmt: skip
-        self.metadata["render_fps"] = gymnasium_lib.frames_per_second(self._batch.task)
+        cast(Any, self.metadata)["render_fps"] = gymnasium_lib.frames_per_second(self._batch.task)
 
     def reset(self):
         if self._seeds[0] is not None:  # `seed` has been called: it takes effect with the next reset.
