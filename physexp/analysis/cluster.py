@@ -72,11 +72,18 @@ def _join(address: str, stack: contextlib.ExitStack) -> None:
 
 
 def _check_health(address: str) -> None:
+    """Raises ValueError where there is no head, or one that does not let this process in."""
     command = [sys.executable, "-m", "ray.scripts.scripts", "health-check", "--skip-version-check"]
     try:
-        subprocess.run([*command, "--address", address], timeout=HEALTH_SECONDS, capture_output=True, check=False)
-    except subprocess.TimeoutExpired:
-        raise ValueError(f"no head of Ray answers there within {HEALTH_SECONDS:.0f} s") from None
+        said = subprocess.run(
+            [*command, "--address", address], timeout=HEALTH_SECONDS, capture_output=True, check=False
+        ).stderr
+    except subprocess.TimeoutExpired as error:
+        said = error.stderr or b""
+        if b"InvalidAuthToken" not in said:
+            raise ValueError(f"no head of Ray answers there within {HEALTH_SECONDS:.0f} s") from None
+    if b"InvalidAuthToken" in said:
+        raise ValueError("it demands another token: set RAY_AUTH_MODE=token, and copy its ~/.ray/auth_token to here")
 
 
 @contextlib.contextmanager

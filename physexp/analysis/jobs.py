@@ -12,6 +12,7 @@ from physexp.agents import processes
 from physexp.analysis import stopping
 
 _BEAT_SECONDS = 1.0  # Between two signs of life of a job.
+_LEAVE_SECONDS = 30.0  # For a process that has said its last word.
 
 
 class Failed(RuntimeError):
@@ -67,9 +68,9 @@ class Processes:
         theirs.close()
         try:
             self._follow(f"{name} (process {process.pid})", ours)
-            process.join(_BEAT_SECONDS)
+            process.join(_LEAVE_SECONDS)
         except (EOFError, OSError):
-            process.join(_BEAT_SECONDS)
+            process.join(_LEAVE_SECONDS)
             raise Failed(f"its process died without a word (exit code {process.exitcode})") from None
         finally:
             processes.kill(process)

@@ -1,14 +1,19 @@
 """Training on a cluster of Ray, two nodes on this machine, whoever dies meanwhile."""
 
+import contextlib
 import functools
+import math
 import os
 from pathlib import Path
 import signal
+import socket
 import subprocess
 import sys
 import threading
 import time
+import types
 
+import psutil
 import pytest
 import ray
 from ray import cluster_utils
@@ -171,11 +176,11 @@ def test_a_machine_with_other_versions_is_refused_in_one_line_that_names_both(no
 def test_a_loss_that_is_not_a_number_stops_training_and_leaves_the_batch(nodes, tmp_path):
     run = trainers.create(tmp_path / "run", frames=10**9)
     tensors = training.make_agent(run.config).save()
-    tensors["network/policy.bias"][0] = float("nan")
+    tensors["network/value.bias"][0] = 3e38  # Finite, but not its square.
     run.checkpointer.save(
         tensors, {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
     )
-    with pytest.raises(RuntimeError, match="worker 0: loss nan.*failed_batch.npz.*last checkpoint"):
+    with pytest.raises(RuntimeError, match="worker 0: loss -?(inf|nan).*failed_batch.npz.*last checkpoint"):
         training.train(run, on_cluster=True)
     assert (run.path / "failed_batch.npz").exists()
 
@@ -236,13 +241,89 @@ def test_a_sweep_gathers_what_the_cluster_made_and_survives_a_killed_task(nodes,
     assert lines[0] == "3 of 3 agents are done"
 
 
-def test_the_command_trains_on_a_cluster_that_it_starts_itself(tmp_path):
-    command = [PHYSEXP, "train", "which_is_heavier", "features", "--frames", "20000", "--envs-per-worker", "32",
+def test_training_ends_without_workers_that_find_no_room_and_says_how_many(nodes, tmp_path):
+    config = trainers.create(tmp_path / "run", frames=500, num_workers=3, envs_per_worker=8).config
+    lines = []
+    agent = distributed.DistributedA3C(
+        functools.partial(training.make_environment, config), config.agent, run_lib.versions, lines.append,
+        distributed.Patience(room=0.0),
+    )  # fmt: skip
+    assert sum(update is not None for update in agent.updates()) == int(agent.save()["updates"])
+    assert agent.frames >= 500
+    # Two processors, three workers: the two that are placed were without room for as long as they took to start.
+    assert "1 of 3 workers find no room on the cluster, which has 2 processors; they join when there is some" in lines
+
+
+def test_stopped_processes_of_a_cluster_hang_nobody(nodes, tmp_path):
+    config = trainers.create(tmp_path / "run", frames=10**9, num_workers=1, envs_per_worker=2).config
+    lines = []
+    patience = types.SimpleNamespace(room=math.inf, silent=math.inf, stop=math.inf, answer=150.0)
+    agent = distributed.DistributedA3C(
+        functools.partial(training.make_environment, config), config.agent, run_lib.versions, lines.append, patience
+    )
+    updates = agent.updates(poll_seconds=0.05)
+    assert any(update is not None for update in updates)
+    (worker,) = nodes.processes("Worker")
+    os.kill(worker, signal.SIGSTOP)
+    patience.silent = patience.stop = 0.3
+    assert any("worker 0 has been silent for 0 s" in line for _ in updates for line in lines)
+    agent.stop()
+    list(updates)
+    assert lines[-1] == "worker 0 did not end within 0 s: killed"
+    wait_until(lambda: not Path(f"/proc/{worker}").exists(), 60, "the end of a stopped worker")
+
+
+def test_a_parameter_server_that_does_not_answer_counts_as_dead(nodes, tmp_path):
+    config = trainers.create(tmp_path / "run", frames=10**9, num_workers=1, envs_per_worker=2).config
+    patience = types.SimpleNamespace(room=math.inf, silent=math.inf, stop=math.inf, answer=150.0)
+    agent = distributed.DistributedA3C(
+        functools.partial(training.make_environment, config), config.agent, run_lib.versions, patience=patience
+    )
+    updates = agent.updates(poll_seconds=0.05)
+    assert any(update is not None for update in updates)
+    (server,) = nodes.processes("ParameterServer")
+    os.kill(server, signal.SIGSTOP)
+    patience.answer = 0.3
+    with pytest.raises(agent_lib.VariablesLostError, match="the parameter server has not answered for 0 s"):
+        list(updates)
+    wait_until(lambda: not Path(f"/proc/{server}").exists(), 60, "the end of a stopped server")
+
+
+def listening(leader):
+    """The addresses on which a process and its descendants listen."""
+    addresses = set()
+    with contextlib.suppress(psutil.NoSuchProcess):
+        parent = psutil.Process(leader)
+        for process in (parent, *parent.children(recursive=True)):
+            with contextlib.suppress(psutil.NoSuchProcess, psutil.AccessDenied):
+                addresses |= {c.laddr.ip for c in process.net_connections("tcp") if c.status == psutil.CONN_LISTEN}
+    return addresses
+
+
+def test_the_command_trains_on_a_cluster_that_it_starts_itself_and_that_only_this_machine_reaches(tmp_path):
+    command = [PHYSEXP, "train", "which_is_heavier", "features", "--frames", "2000", "--envs-per-worker", "32",
                "--run-dir", tmp_path / "run", "--cluster", "local"]  # fmt: skip
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=180, check=False)
-    assert done.returncode == 0, done.stderr
-    assert done.stdout.splitlines()[-1] == str(tmp_path / "run")
+    addresses = set()
+    environment = {**os.environ, "HOME": str(tmp_path)}
+    with subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, text=True, env=environment) as process:
+        while process.poll() is None:
+            addresses |= listening(process.pid)
+            time.sleep(0.1)
+        output = process.stdout.read()
+    assert process.returncode == 0
+    assert output.splitlines()[-1] == str(tmp_path / "run")
     assert run_lib.Run(tmp_path / "run").is_finished
+    assert addresses and addresses <= {"127.0.0.1", "::1", "::ffff:127.0.0.1"}
+    assert (tmp_path / ".ray" / "auth_token").stat().st_mode & 0o077 == 0
+
+
+def test_a_head_that_does_not_answer_is_one_readable_line(monkeypatch):
+    monkeypatch.setattr(cluster, "HEALTH_SECONDS", 3.0)
+    with socket.create_server(("127.0.0.1", 0)) as mute:
+        address = f"127.0.0.1:{mute.getsockname()[1]}"
+        message = f"cannot join the cluster {address}: no head of Ray answers there within 3 s"
+        with pytest.raises(ValueError, match=message), cluster.joined(address):
+            pass
 
 
 @pytest.mark.parametrize("address, words", [("127.0.0.1:1", "refused"), ("nowhere", "give HOST:PORT, auto or local")])

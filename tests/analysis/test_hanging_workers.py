@@ -95,16 +95,19 @@ def stop_while_it_holds_the_lock(agent):
         time.sleep(0.001)
 
 
-@pytest.mark.parametrize("waiting", ["for updates", "to save"])
-def test_a_worker_that_is_stopped_with_the_shared_variables_ends_training(waiting, tmp_path):
+@pytest.mark.parametrize("waiting, is_killed", [("for updates", False), ("to save", False), ("to save", True)])
+def test_a_worker_that_dies_or_is_stopped_with_the_shared_variables_ends_training(waiting, is_killed, tmp_path):
     agent, patience = make_agent(tmp_path, 1, pytest.fail)
     with training_of(agent) as updates:
         iterate_until(updates, lambda _: agent.frames > 0)
         victim = stop_while_it_holds_the_lock(agent)
-        patience.locked = 0.3
-        with pytest.raises(
-            a3c.WorkerError, match=rf"worker 0 \(process {victim}\) has kept the others from the shared"
-        ):
+        if is_killed:
+            os.kill(victim, signal.SIGKILL)
+            message = r"worker 0 died without a word \(exit code -9\)"
+        else:
+            patience.locked = 0.3
+            message = rf"worker 0 \(process {victim}\) has kept the others from the shared variables"
+        with pytest.raises(a3c.WorkerError, match=message):
             agent.save() if waiting == "to save" else list(updates)
     assert not Path(f"/proc/{victim}").exists()
     with pytest.raises(a3c.WorkerError, match="killed in the middle of an update"):

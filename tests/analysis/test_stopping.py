@@ -1,6 +1,5 @@
 """Whatever stops a run, it says so clearly, and nothing before the last checkpoint is lost."""
 
-import contextlib
 import dataclasses
 import os
 import re
@@ -8,8 +7,6 @@ import resource
 import shlex
 import signal
 import subprocess
-import sys
-import textwrap
 
 import numpy as np
 import pytest
@@ -25,12 +22,12 @@ FOR_EVER = 400  # s; what takes longer hangs.
 
 
 def save_first_checkpoint(run, poison=False):
-    """Writes the checkpoint of an untrained agent, with a NaN among its weights if asked for."""
+    """Writes the checkpoint of an untrained agent, with a weight too large to learn with if asked for."""
     config = run.config
     agent = training.make_agent(config)
     tensors = agent.save()
     if poison:
-        tensors["network/policy.bias"][0] = float("nan")
+        tensors["network/value.bias"][0] = 3e38  # Finite, but not its square.
     facts = {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
     return run.checkpointer.save(tensors, facts)
 
@@ -50,7 +47,7 @@ def test_a_loss_that_is_not_a_number_stops_training_and_leaves_the_batch(tmp_pat
     run = trainers.create(tmp_path / "run", frames=ENDLESS)
     checkpoint = save_first_checkpoint(run, poison=True)
     content = checkpoint.read_bytes()
-    with pytest.raises(RuntimeError, match="worker 0.*nan.*failed_batch.npz.*last checkpoint") as caught:
+    with pytest.raises(RuntimeError, match="worker 0.*loss -?(inf|nan).*failed_batch.npz.*last checkpoint") as caught:
         training.train(run)
     path = re.search(r"\S+failed_batch\.npz", str(caught.value)).group()
     assert path == str(run.path / "failed_batch.npz")
@@ -86,59 +83,6 @@ def both_have_played(run):
     except OSError:  # Replaced while it was read.
         return False
     return found is not None and bool((found[0]["rounds"] > 0).all())
-
-
-KILL_WHILE_IT_HOLDS_THE_LOCK = """
-    import os, pathlib, signal, sys, threading, time
-    from physexp.agents.a3c import agent as agent_lib
-    from physexp.analysis import run as run_lib, training
-
-    config = run_lib.Run(pathlib.Path(sys.argv[1])).config
-    agent = training.make_agent(config)
-
-    def kill():
-        while agent.frames == 0:
-            time.sleep(0.05)
-        pid = agent._workers[0].pid
-        while True:
-            os.kill(pid, signal.SIGSTOP)
-            time.sleep(0.001)
-            if not agent.shared.lock.acquire(timeout=0.05):  # Only the stopped worker can be holding it.
-                print("killed", flush=True)
-                os.kill(pid, signal.SIGKILL)
-                return
-            agent.shared.lock.release()
-            os.kill(pid, signal.SIGCONT)
-            time.sleep(0.005)
-
-    killer = threading.Thread(target=kill)
-    killer.start()
-    try:
-        for update in agent.updates():
-            if not killer.is_alive():
-                agent.save()  # As a checkpoint does.
-    except agent_lib.WorkerError as error:
-        print("stopped:", error, flush=True)
-"""
-
-
-def test_a_worker_killed_in_the_middle_of_its_update_does_not_hang_the_trainer(tmp_path):
-    run = trainers.create(tmp_path / "run", frames=ENDLESS, envs_per_worker=2)
-    script = textwrap.dedent(KILL_WHILE_IT_HOLDS_THE_LOCK)
-    process = subprocess.Popen(
-        [sys.executable, "-c", script, run.path], stdout=subprocess.PIPE, text=True, start_new_session=True
-    )
-    try:
-        assert process.stdout.readline() == "killed\n"
-        output, _ = process.communicate(timeout=FOR_EVER)
-    except subprocess.TimeoutExpired:
-        pytest.fail("the trainer hangs on the lock of a dead worker")
-    finally:
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
-        process.stdout.close()
-    assert output.startswith("stopped: worker 0 died"), output
 
 
 def test_workers_do_not_outlive_a_killed_trainer(tmp_path):
