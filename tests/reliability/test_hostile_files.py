@@ -146,8 +146,9 @@ CONTENTS = {
     "published card": DOCUMENTS,
     "records": TABLES,
 }
-ACCEPTED = {("metrics.csv", "empty"), ("metrics.csv", "one byte"), ("metrics.csv", "one long line")}
-"""What reads as a file without rows: nothing that ends a line."""
+NO_ROWS = ("empty", "one byte", "one long line", "NUL bytes", "pickle", "truncated")
+ACCEPTED = {("metrics.csv", kind) for kind in NO_ROWS}
+"""What ends no line reads as no rows, and a row that is torn as none."""
 
 
 @pytest.fixture(scope="module")

@@ -190,7 +190,7 @@ JOB = sweep.Job(
 
 
 def sweep_one(folder):
-    sweep._work(JOB, base.Results(folder))
+    sweep._work(print, JOB, base.Results(folder))
 
 
 def swept(folder):
