@@ -10,7 +10,7 @@ import subjects
 import torch
 
 from physexp.agents import checkpointing
-from physexp.analysis import evaluation, records, sweep
+from physexp.analysis import evaluation, records, sweep, training
 from physexp.analysis import run as run_lib
 from physexp.analysis.experiments import base
 from physexp.analysis.replay import recording, writing
@@ -190,6 +190,7 @@ JOB = sweep.Job(
 
 
 def sweep_one(folder):
+    training.ROW_SECONDS = -1.0  # A row for each update, however long they take.
     sweep._work(print, JOB, base.Results(folder))
 
 
