@@ -108,8 +108,9 @@ class _UnknownError(ValueError):
 
 def _check(card: dict[str, Any], base: str) -> None:
     """Refuses a card that was changed since it was written, or belongs to another agent."""
-    checksum = card.get("card_sha256")
-    if checksum not in (None, checkpointing.json_digest({**card, "card_sha256": None})):
+    if ("card_sha256" in card) != ("sha256" in card):  # The oldest cards have neither.
+        raise ValueError("one of its two checksums is missing")
+    if card.get("card_sha256") not in (None, checkpointing.json_digest({**card, "card_sha256": None})):
         raise ValueError("its checksum differs")
     if (found := name(card["domain"], card["task"], card["difficulty"])) != base:
         raise ValueError(f"it is of {found}")
@@ -157,20 +158,24 @@ def save(network: networks.RecurrentActorCritic, card: Mapping[str, Any], folder
     waiting = path.with_suffix(_WAITING)
     with files.locked(folder):
         _put_in_place(path)  # What the last writer was killed over.
-        files.write_atomically(waiting, weights)
-        files.write_atomically(path, content)  # From here on, the agent is the new one.
-        _put_in_place(path)
+        try:
+            files.write_atomically(waiting, weights)
+            files.write_atomically(path, content)  # From here on, the agent is the new one.
+        finally:
+            _put_in_place(path)
+            waiting.unlink(missing_ok=True)  # Where the card could not be written.
     return path
 
 
 def _put_in_place(card_path: Path) -> None:
     """Gives the weights that a card is about their name, where they wait for it."""
     waiting = card_path.with_suffix(_WAITING)
-    with contextlib.suppress(
-        FileNotFoundError, ValueError
-    ):  # Without a card, or with a damaged one, they are nobody's.
+    # Without a card, or with one that is damaged or older than checksums, they are nobody's.
+    with contextlib.suppress(FileNotFoundError, ValueError, KeyError, TypeError):
         wanted = checkpointing.read_json(card_path)["sha256"]
-        if hashlib.sha256(waiting.read_bytes()).hexdigest() == wanted:
+        with files.open_plain(waiting) as file:
+            found = hashlib.file_digest(file, "sha256").hexdigest()
+        if found == wanted:
             os.replace(waiting, card_path.with_suffix(".safetensors"))
 
 

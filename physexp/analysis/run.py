@@ -39,6 +39,7 @@ FORMAT = 1
 _FOLDERS = ("checkpoints", "episodes.parquet", "replays", "tensorboard")
 _RECORDS = ("metrics.csv", "failed_batch.npz", "agent.safetensors", *_FOLDERS)
 _LARGEST_CONFIG = 2**20  # Bytes.
+_LARGEST_METRICS = 2**28  # Bytes: rows of a hundred days.
 
 METRICS = {
     "frames": "environment steps trained on",
@@ -89,12 +90,14 @@ class Run:
         """What was asked for.
 
         Raises:
-          ValueError: if the folder holds no run, or one of another format.
+          ValueError: if the folder holds no run, or one of another format, or what was asked for makes no sense.
         """
+        facts = self.facts
         try:
-            return config_lib.TrainConfig.from_json(self.facts["train"])
-        except (KeyError, TypeError, AttributeError) as error:
-            raise ValueError(f"{self.path}/config.json is not what was written: {error!r}") from None
+            return config_lib.TrainConfig.from_json(facts["train"])
+        except (KeyError, TypeError, AttributeError, ValueError) as error:
+            what = str(error) if isinstance(error, ValueError) else repr(error)
+            raise ValueError(f"{self.path}/config.json is not what was written: {what}") from None
 
     @property
     def facts(self) -> dict[str, Any]:
@@ -238,7 +241,7 @@ class Run:
         Raises:
           ValueError: if there are none yet, or they do not fit.
         """
-        if self.agent_path.exists():
+        if os.path.lexists(self.agent_path):  # A link to nowhere is refused as any other is.
             return checkpointing.read_agent(self.agent_path, like)
 
         def accept(tensors, facts):
@@ -299,8 +302,7 @@ class Run:
     def _lines(self) -> tuple[list[str], list[str]]:
         """The names of the columns of `metrics.csv`, and its whole lines, without their ends."""
         try:
-            with files.open_plain(self.path / "metrics.csv", "rb") as file:
-                content = file.read().decode(errors="replace")
+            content = files.read_plain(self.path / "metrics.csv", _LARGEST_METRICS).decode(errors="replace")
         except FileNotFoundError:
             content = ""
         header, *lines = (content[: content.rfind("\n") + 1] or _HEADER).splitlines()

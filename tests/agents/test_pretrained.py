@@ -1,6 +1,7 @@
 """The agents that come with the package."""
 
 import contextlib
+import errno
 import hashlib
 import json
 import os
@@ -13,7 +14,7 @@ import pytest
 import torch
 
 from physexp import agents, suite
-from physexp.agents import checkpointing, core, environment_loop, networks, pretrained
+from physexp.agents import checkpointing, core, environment_loop, files, networks, pretrained
 
 CARDS = sorted(pretrained.FOLDER.glob("*.json"))
 
@@ -247,6 +248,50 @@ def test_files_of_an_agent_that_are_no_files_are_refused_without_waiting(suffix,
         with pytest.raises(ValueError, match=f"{path.name} is {kind}; put a regular file in its place"):
             pretrained.load("towers", "some", folder=tmp_path)
         path.rmdir() if kind == "a folder" else path.unlink()
+
+
+def test_an_agent_takes_the_place_of_one_from_before_there_were_checksums(small, tmp_path):
+    network, card = small
+    path = pretrained.save(network, card, tmp_path)
+    path.write_text(json.dumps({name: value for name, value in card_of(path).items() if "sha256" not in name}))
+    torch.nn.init.uniform_(network.policy.weight)
+    pretrained.save(network, card, tmp_path)
+    assert is_same(pretrained.load("towers", "some", folder=tmp_path).network, weights_of(network))
+
+
+def test_a_card_that_has_lost_one_of_its_checksums_is_refused(small, tmp_path):
+    network, card = small
+    path = pretrained.save(network, card, tmp_path)
+    path.write_text(path.read_text().replace('"card_sha256"', '"cqrd_sha256"'))
+    with pytest.raises(ValueError, match="one of its two checksums is missing"):
+        pretrained.load("towers", "some", folder=tmp_path)
+
+
+def test_an_agent_that_cannot_be_written_leaves_the_old_one_and_nothing_else(small, tmp_path, monkeypatch):
+    network, card = small
+    path = pretrained.save(network, card, tmp_path)
+    before = {item.name: item.read_bytes() for item in tmp_path.iterdir()}
+    write = files.write_atomically
+
+    def no_room_for_cards(target, content):
+        if target == path:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(target))
+        write(target, content)
+
+    monkeypatch.setattr(files, "write_atomically", no_room_for_cards)
+    torch.nn.init.uniform_(network.policy.weight)
+    with pytest.raises(OSError, match="No space left"):
+        pretrained.save(network, card, tmp_path)
+    assert {item.name: item.read_bytes() for item in tmp_path.iterdir()} == before
+
+
+def test_a_pipe_where_weights_wait_keeps_nobody_waiting(small, tmp_path):
+    network, card = small
+    path = pretrained.save(network, card, tmp_path)
+    os.mkfifo(path.with_suffix(".next.safetensors"))
+    pretrained.save(network, {**card, "seed": 2}, tmp_path)
+    assert pretrained.load("towers", "some", folder=tmp_path).card["seed"] == 2
+    assert sorted(item.name for item in tmp_path.iterdir()) == ["towers-some.json", "towers-some.safetensors"]
 
 
 def test_importing_the_agents_package_imports_no_torch():

@@ -269,7 +269,28 @@ def test_damaged_metrics_are_named_in_one_line_and_left_alone(content, words, ru
     assert (run.path / "metrics.csv").read_bytes() == damaged
 
 
+def test_metrics_that_are_too_large_for_any_run_are_refused_before_they_are_read(run):
+    with open(run.path / "metrics.csv", "wb") as file:
+        file.truncate(2**40)  # A terabyte of zeros that takes no room.
+    with pytest.raises(ValueError, match=r"metrics\.csv is larger than"):
+        run.metrics()
+
+
+def test_a_configuration_that_makes_no_sense_is_refused_with_its_file_named(run):
+    path = run.path / "config.json"
+    path.write_text(path.read_text().replace('"lstm_units": 100', '"lstm_units": -100'))
+    with pytest.raises(ValueError, match=r"config\.json is not what was written: lstm_units is -100") as caught:
+        _ = run.config
+    assert str(caught.value).startswith(str(run.path)) and "\n" not in str(caught.value)
+
+
 # Links.
+
+
+def test_an_agent_that_is_a_link_to_nowhere_is_refused_as_a_link(run):
+    (run.path / "agent.safetensors").symlink_to("nowhere")
+    with pytest.raises(ValueError, match=r"agent\.safetensors is a symbolic link"):
+        run.variables({})
 
 
 @pytest.mark.parametrize("name", FOLDERS)

@@ -1,0 +1,93 @@
+"""What is attacked: small runs, agents and records, of which one can tell at a glance whether they are whole."""
+
+import numpy as np
+import pyarrow
+from pyarrow import parquet
+import torch
+
+from physexp.agents import agent as agent_lib
+from physexp.agents import networks, pretrained
+from physexp.agents.ppo import config as ppo
+from physexp.analysis import config as config_lib
+from physexp.analysis import records, training
+from physexp.analysis import run as run_lib
+
+SMALL = ppo.PPOConfig(num_threads=1, num_environments=4, num_minibatches=2, num_epochs=1, lstm_units=8, frames=60,
+                      checkpoint_seconds=1e-9)  # fmt: skip
+"""One process, and a checkpoint after each of its few updates."""
+
+
+def config(**agent) -> config_lib.TrainConfig:
+    return config_lib.TrainConfig(
+        domain="which_is_heavier", task="features", difficulty=10.0, agent=SMALL.replace(**agent)
+    )
+
+
+def words(run: run_lib.Run) -> list:
+    """The command that continues a run."""
+    return ["train", "which_is_heavier", "features", "--agent", "ppo", "--run-dir", run.path, "--resume"]
+
+
+OPTIONS = ["--agent", "ppo", "--difficulty", 10, "--replay-every", 0, "--num-threads", 1, "--num-environments", 4,
+           "--num-minibatches", 2, "--num-epochs", 1, "--lstm-units", 8, "--frames", SMALL.frames,
+           "--checkpoint-seconds", SMALL.checkpoint_seconds]  # fmt: skip
+"""`config` as the command line has it, except for the task's preset."""
+
+
+def train(path) -> None:
+    """Trains a run to its end, from the start if it has no checkpoint, with a row of metrics for each update."""
+    training.ROW_SECONDS = -1.0
+    run = run_lib.Run(path)
+    training.train(run, start=None if run.checkpointer.paths() else config())
+
+
+def contents(run: run_lib.Run):
+    """What training has made, apart from what depends on time: rows, episodes and the last checkpoint's tensors."""
+    timed = {"seconds", "frames_per_second"}
+    rows = [{name: value for name, value in row.items() if name not in timed} for row in run.metrics()]
+    episodes = parquet.read_table(run.path / "episodes.parquet").to_pylist()
+    tensors, facts = run.checkpointer.latest()
+    return rows, episodes, {name: value.numpy().tobytes() for name, value in tensors.items()}, facts["episodes"]
+
+
+def network(number: float) -> networks.RecurrentActorCritic:
+    """A network of the small agent, of which every variable is a number."""
+    made = agent_lib.make_network(training.make_environment(config(), 0, 1, 1), SMALL)
+    with torch.no_grad():
+        for value in made.state_dict().values():
+            value.fill_(number)
+    return made
+
+
+def card(number: int) -> dict:
+    """A card of such a network."""
+    environment = training.make_environment(config(), 0, 1, 1)
+    observations = {
+        name: [list(spec.shape), np.dtype(spec.dtype).name] for name, spec in environment.observation_spec().items()
+    }
+    num_actions = environment.action_spec().num_values
+    environment.close()
+    return {"domain": "which_is_heavier", "task": "features", "difficulty": 10.0, "frames": number,
+            "agent": config().to_json()["agent"],
+            "network": {"observations": observations, "num_actions": num_actions,
+                        "hyperparameters": agent_lib.hyperparameters(SMALL)}}  # fmt: skip
+
+
+def publish(folder, number: int) -> None:
+    pretrained.save(network(number), card(number), folder)
+
+
+def published(folder) -> int:
+    """The number of the agent in a folder, weights and card alike."""
+    agent = pretrained.load("which_is_heavier", "features", 10.0, folder)
+    numbers = {float(value) for tensor in agent.network.state_dict().values() for value in tensor.flatten()}
+    assert numbers == {float(agent.card["frames"])}
+    return agent.card["frames"]
+
+
+def rows(number: int) -> pyarrow.Table:
+    """Records of one episode more than the number."""
+    made = {name: [None] * (number + 1) for name in records.SCHEMA.names}
+    made["seed"] = made["episode"] = list(range(number + 1))
+    made["actions"] = [[0, 1, 2]] * (number + 1)
+    return pyarrow.table(made, records.SCHEMA)

@@ -1,0 +1,83 @@
+"""Of two trainers that are started together on one folder, one trains and the other is refused."""
+
+import time
+
+import attacks
+import pytest
+import subjects
+
+from physexp.analysis import run as run_lib
+
+pytestmark = pytest.mark.long
+
+
+def start(go, delay, *words):
+    """A command, as soon as both are ready, or a moment after that."""
+    go.wait()
+    time.sleep(delay)
+    attacks.command(*words)
+
+
+def race(generator, *commands):
+    go = attacks.barrier(len(commands))
+    children = [
+        attacks.Child(start, go, generator.choice([0.0, generator.uniform(0, 0.5)]), *words) for words in commands
+    ]
+    return [child.end() for child in children]
+
+
+def new(path, seed):
+    return ["train", "which_is_heavier", "features", "--run-dir", path, "--seed", seed, *subjects.OPTIONS]
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    """What each of the two leaves where nobody disturbs it."""
+    found = []
+    for seed in (1, 2):
+        path = tmp_path_factory.mktemp("undisturbed") / "run"
+        end = attacks.run(attacks.command, *new(path, seed))
+        assert end.code == 0, end.said
+        found.append(subjects.contents(run_lib.Run(path)))
+    return found
+
+
+def learned(contents):
+    """What does not depend on when rows are written: the tensors, and how many episodes they have seen."""
+    return contents[2:]
+
+
+def test_of_two_new_runs_in_one_folder_one_wins_and_all_there_is_is_its_own(undisturbed, tmp_path):
+    generator = attacks.generator()
+    with attacks.Tally("race, train") as tally:
+        for attack in range(attacks.repetitions(4, share=0.25)):
+            run = run_lib.Run(tmp_path / str(attack))
+            ends = race(generator, new(run.path, 1), new(run.path, 2))
+            assert sorted(end.code for end in ends) == [0, 2], ends
+            loser = next(end for end in ends if end.code)
+            loser.assert_refused(str(run.path))
+            winner = ends.index(next(end for end in ends if not end.code))
+            assert run.config.agent.seed == winner + 1, ends
+            assert learned(subjects.contents(run)) == learned(undisturbed[winner])
+            seeds = {row["seed"] for row in subjects.contents(run)[1]}
+            assert seeds == {row["seed"] for row in undisturbed[winner][1]}
+            tally[f"the {'first' if winner == 0 else 'second'} won"] += 1
+
+
+def test_of_two_that_resume_one_run_one_trains_and_the_other_is_refused_or_finds_it_done(undisturbed, tmp_path):
+    generator = attacks.generator()
+    with attacks.Tally("race, resume") as tally:
+        for attack in range(attacks.repetitions(4, share=0.25)):
+            run = run_lib.Run(tmp_path / str(attack))
+            run.create(subjects.config())
+            expected = tmp_path / "expected"
+            if not expected.exists():
+                run_lib.Run(expected).create(subjects.config())
+                assert attacks.run(subjects.train, expected).code == 0
+            ends = race(generator, subjects.words(run), subjects.words(run))
+            assert 0 in [end.code for end in ends] and {end.code for end in ends} <= {0, 2}, ends
+            for end in ends:
+                if end.code:
+                    end.assert_refused(str(run.path))
+            assert learned(subjects.contents(run)) == learned(subjects.contents(run_lib.Run(expected)))
+            tally["one was refused" if any(end.code for end in ends) else "one after the other"] += 1
