@@ -39,6 +39,7 @@ FORMAT = 1
 _FOLDERS = ("checkpoints", "episodes.parquet", "replays", "tensorboard")
 _RECORDS = ("metrics.csv", "failed_batch.npz", "agent.safetensors", *_FOLDERS)
 _LARGEST_CONFIG = 2**20  # Bytes.
+_GIT_SECONDS = 60.0
 _LARGEST_METRICS = 2**28  # Bytes: rows of a hundred days.
 
 METRICS = {
@@ -359,14 +360,20 @@ def renderer(config: config_lib.TrainConfig) -> str:
 
 
 def commit() -> str:
-    """The commit of the source that is running, with `+` where files differ from it; `unknown` outside a checkout."""
+    """Returns the commit of the source that is running, with `+` where files differ from it.
+
+    `unknown` outside a checkout, and where git does not answer.
+    """
     if shutil.which("git") is None:
         return "unknown"
     git = ["git", "-C", str(Path(__file__).parent)]
-    found = subprocess.run([*git, "rev-parse", "HEAD"], capture_output=True, text=True, check=False)
-    if found.returncode:
+    try:
+        found = subprocess.run([*git, "rev-parse", "HEAD"], capture_output=True, text=True, timeout=_GIT_SECONDS)
+        if found.returncode:
+            return "unknown"
+        changed = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", ".."], timeout=_GIT_SECONDS).returncode
+    except subprocess.TimeoutExpired:  # A network's file system, for one: no reason not to train.
         return "unknown"
-    changed = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", ".."], check=False).returncode
     return found.stdout.strip() + ("+" if changed else "")
 
 
