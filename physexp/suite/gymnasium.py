@@ -7,6 +7,7 @@ Importing this module registers every task, so that Gymnasium finds them by name
                        vectorization_mode="vector_entry_point")
 """
 
+from collections.abc import Sequence
 import math
 from typing import Any
 
@@ -41,10 +42,11 @@ def observation_space(spec) -> spaces.Dict:
     return spaces.Dict(boxes)
 
 
-def check_render_mode(render_mode: str | None) -> None:
+def check_render_mode(render_mode: str | None, known: tuple[str, ...] = ("rgb_array",)) -> None:
     """Raises ValueError for a way to render that there is not."""
-    if render_mode not in (None, "rgb_array"):
-        raise ValueError(f"render_mode is {checks.shown(render_mode)}; choose None or 'rgb_array'")
+    if render_mode is not None and render_mode not in known:
+        choices = " or ".join(map(repr, (None, *known)))
+        raise ValueError(f"render_mode is {checks.shown(render_mode)}; choose {choices}")
 
 
 def check_num_envs(num_envs: int) -> int:
@@ -59,6 +61,15 @@ def images(batch: suite.BatchEnvironment) -> tuple[np.ndarray, ...]:
     """
     a_side = math.ceil(math.sqrt(batch.num_environments))
     return tuple(batch.render(min(_LARGEST_IMAGE, _LARGEST_GRID // a_side)))
+
+
+def grid(drawn: Sequence[np.ndarray]) -> np.ndarray:
+    """Returns images [size, size, 3] as one, row by row in a square; places that are left over are black."""
+    a_side, size = math.ceil(math.sqrt(len(drawn))), len(drawn[0])
+    rows = math.ceil(len(drawn) / a_side)
+    tiles = np.zeros((rows * a_side, *drawn[0].shape), np.uint8)
+    tiles[: len(drawn)] = drawn
+    return tiles.reshape(rows, a_side, size, size, 3).swapaxes(1, 2).reshape(rows * size, a_side * size, 3)
 
 
 class Environment(gymnasium.Env):
@@ -139,7 +150,10 @@ class VectorEnvironment(vector_env.VectorEnv):
     (`AutoresetMode.NEXT_STEP`).
     """
 
-    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "autoreset_mode": vector_env.AutoresetMode.NEXT_STEP}
+    metadata: dict[str, Any] = {
+        "render_modes": ["rgb_array", "rgb_array_grid"],
+        "autoreset_mode": vector_env.AutoresetMode.NEXT_STEP,
+    }
 
     def __init__(self, domain: str, task: str, num_envs: int = 1, num_threads: int = 1,
                  render_mode: str | None = None, **task_kwargs: Any):  # fmt: skip
@@ -149,12 +163,13 @@ class VectorEnvironment(vector_env.VectorEnv):
           domain, task, task_kwargs: as for `suite.load`.
           num_envs: how many.
           num_threads: threads that simulate.
-          render_mode: `rgb_array`, or None.
+          render_mode: `rgb_array` for an image of each environment, as Gymnasium's wrappers want them, `rgb_array_grid`
+            for one image of all, or None.
 
         Raises:
           ValueError: for an unknown name or a bad argument.
         """
-        check_render_mode(render_mode)
+        check_render_mode(render_mode, ("rgb_array", "rgb_array_grid"))
         num_envs = check_num_envs(num_envs)
         self._batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
         self._seeded = "random" in task_kwargs
@@ -205,11 +220,11 @@ class VectorEnvironment(vector_env.VectorEnv):
         return dict(timestep.observation), timestep.reward, ended & ~lost, lost, info
 
     def render(self):
-        """Returns one image for each environment, for people (see `images`); None without a render mode.
-
-        Wrappers that record or show a vector environment lay them out side by side.
-        """
-        return None if self.render_mode is None else images(self._batch)
+        """Returns images for people (see `images`), as the render mode says: a tuple, or one; None without a mode."""
+        if self.render_mode is None:
+            return None
+        drawn = images(self._batch)
+        return drawn if self.render_mode == "rgb_array" else grid(drawn)
 
     def close_extras(self, **kwargs: Any) -> None:
         self._batch.close()

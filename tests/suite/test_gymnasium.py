@@ -156,6 +156,18 @@ def test_images_of_many_environments_fit_into_a_square_of_1920_pixels():
     vector.close()
 
 
+def test_a_grid_has_the_images_row_by_row_and_black_where_there_is_none():
+    vector = adapter.VectorEnvironment("which_is_heavier", "features", 3, random=0, render_mode="rgb_array_grid")
+    vector.reset()
+    vector.step(np.array([0, 1, 2]))
+    grid = vector.render()
+    one, two, three = vector.batch.render(480)
+    assert grid.shape == (960, 960, 3) and grid.dtype == np.uint8
+    np.testing.assert_array_equal(grid, np.block([[[one], [two]], [[three], [np.zeros_like(one)]]]))
+    assert not np.array_equal(one, two)
+    vector.close()
+
+
 def test_without_a_render_mode_nothing_is_drawn():
     assert adapter.VectorEnvironment("towers", "fist_features", 2).render() is None
     assert adapter.Environment("towers", "fist_features").render() is None
