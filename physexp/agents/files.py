@@ -46,6 +46,15 @@ def write_atomically(path: Path, content: bytes) -> None:
         os.close(folder)
 
 
+def remove_litter(folder: Path) -> None:
+    """Removes the temporary files in a folder whose writers were killed."""
+    opened = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+    try:
+        _clean(opened)
+    finally:
+        os.close(opened)
+
+
 def open_plain(path: Path, mode: str = "rb", **options: Any) -> IO[Any]:
     """Opens a regular file, as `open` does; never follows a link and never waits for somebody at the other end.
 

@@ -204,6 +204,8 @@ class Run:
             return None
         folder = self._make_superseded()
         for path in recorded:
+            if path.is_dir() and not path.is_symlink():
+                files.remove_litter(path)  # Nobody writes there any more who would.
             path.rename(folder / path.name)
         with contextlib.suppress(FileNotFoundError):
             (self.path / "config.json").rename(folder / "config.json")

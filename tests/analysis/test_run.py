@@ -284,6 +284,14 @@ def test_a_configuration_that_makes_no_sense_is_refused_with_its_file_named(run)
     assert str(caught.value).startswith(str(run.path)) and "\n" not in str(caught.value)
 
 
+def test_what_a_killed_writer_left_is_not_moved_aside(run):
+    (run.path / "checkpoints").mkdir()
+    (run.path / "checkpoints" / "000000000000001.json").write_text("{}")
+    (run.path / "checkpoints" / f".000000000000001.safetensors.{'0' * 16}.tmp").write_bytes(b"half")
+    moved = run.create(make_config())
+    assert [path.name for path in (moved / "checkpoints").iterdir()] == ["000000000000001.json"]
+
+
 # Links.
 
 
