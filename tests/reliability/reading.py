@@ -11,7 +11,7 @@ import subjects
 from physexp.agents import pretrained
 from physexp.analysis import evaluation, records, tables
 from physexp.analysis import run as run_lib
-from physexp.analysis.replay import recording, writing
+from physexp.analysis.replay import recording, viewing, writing
 
 
 def make(folder: Path) -> None:
@@ -69,11 +69,15 @@ def read_episodes(folder):
 
 
 def read_replay(folder):
-    done = subprocess.run([writing.PROGRAM, "rrd", "verify", folder / "run" / "replays" / "0.rrd"],
-                          capture_output=True, text=True, check=False, timeout=60)  # fmt: skip
+    verify(folder / "run" / "replays" / "0.rrd")
+
+
+def verify(path):
+    """Has the viewer's own program read a recording; raises ValueError where it finds a fault."""
+    command = [viewing.PROGRAM, "rrd", "verify", path]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
     if done.returncode:
-        raise ValueError(f"0.rrd: {done.stderr.strip().splitlines()[0]}")
-    return None
+        raise ValueError(f"{path}: {done.stderr.strip().splitlines()[0]}")
 
 
 def _network(path):

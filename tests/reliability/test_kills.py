@@ -6,6 +6,7 @@ import subprocess
 
 import attacks
 import pytest
+import reading
 import subjects
 import torch
 
@@ -130,14 +131,9 @@ def write_replay(folder, number):
     )
 
 
-def assert_whole(path):
-    done = subprocess.run([writing.PROGRAM, "rrd", "verify", path], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-
-
 def test_a_killed_replay_leaves_a_whole_file_and_the_next_one_cleans_up(tmp_path):
     write_replay(tmp_path, 2)
-    assert_whole(tmp_path / "replay.rrd")
+    reading.verify(tmp_path / "replay.rrd")
     extent = attacks.measure(write_replay, tmp_path, 2)
     generator = attacks.generator()
     with attacks.Tally("kill, replay") as tally:
@@ -145,7 +141,7 @@ def test_a_killed_replay_leaves_a_whole_file_and_the_next_one_cleans_up(tmp_path
             death = extent.draw(generator)
             end = attacks.run(write_replay, tmp_path, 2, first=death)
             assert end.was_killed or end.code == 0, (death, end.said)
-            assert_whole(tmp_path / "replay.rrd")
+            reading.verify(tmp_path / "replay.rrd")
             tally["whole" if end.was_killed else "not killed"] += 1
             write_replay(tmp_path, 0)
             assert attacks.litter(tmp_path) == [], death
