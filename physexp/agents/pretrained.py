@@ -174,7 +174,7 @@ def _put_in_place(card_path: Path) -> None:
     with contextlib.suppress(FileNotFoundError, ValueError, KeyError, TypeError):
         wanted = checkpointing.read_json(card_path)["sha256"]
         with files.open_plain(waiting) as file:
-            found = hashlib.file_digest(file, "sha256").hexdigest()
+            found = hashlib.sha256(file.read()).hexdigest()
         if found == wanted:
             os.replace(waiting, card_path.with_suffix(".safetensors"))
 
