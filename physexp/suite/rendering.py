@@ -8,6 +8,7 @@ import ctypes.util
 import functools
 import glob
 import importlib
+import importlib.util
 import os
 import warnings
 import weakref
@@ -30,6 +31,7 @@ def choose_backend() -> str:
     """
     # Mesa's software renderer hands small images to threads at a greater cost than drawing them.
     os.environ.setdefault("LP_NUM_THREADS", "0")
+    _load_triton()
     if not os.environ.get("MUJOCO_GL"):
         egl, osmesa = (ctypes.util.find_library(name) for name in ("EGL", "OSMesa"))
         if egl and _egl_works(egl):
@@ -37,6 +39,19 @@ def choose_backend() -> str:
         else:
             os.environ["MUJOCO_GL"] = "osmesa" if osmesa else "disable"
     return os.environ["MUJOCO_GL"].lower().strip()  # As MuJoCo reads it.
+
+
+@functools.cache
+def _load_triton() -> None:
+    """Loads the library of triton, which torch's CUDA builds bring, before GL's.
+
+    Mesa draws with LLVM, of which triton's library has a copy. Loaded after Mesa's, as by torch's optimizers, it ends
+    the process with a segmentation fault (seen with triton of torch 2.13 and Mesa 22.3).
+    """
+    spec = importlib.util.find_spec("triton")
+    for folder in (spec and spec.submodule_search_locations) or ():
+        for library in glob.glob(os.path.join(folder, "_C", "libtriton*.so")):
+            ctypes.CDLL(library)
 
 
 def _egl_works(library: str) -> bool:

@@ -1,8 +1,10 @@
 """Importing the suite costs nothing it need not: no torch, no GL context, no process, no thread."""
 
+import _ctypes
 import ctypes.util
 import json
 import os
+import shutil
 import subprocess
 import sys
 
@@ -110,6 +112,24 @@ found["backend"] = os.environ["MUJOCO_GL"]
 """
     found = _run(code, MUJOCO_GL=None)
     assert found["settled"] == [found["backend"]]
+
+
+def test_triton_is_loaded_before_gl_since_after_mesa_it_ends_the_process(tmp_path):
+    """Torch's CUDA builds bring it, and its LLVM and Mesa's bear each other in this order only."""
+    (tmp_path / "triton" / "_C").mkdir(parents=True)
+    (tmp_path / "triton" / "__init__.py").write_text("raise AssertionError('this takes half a second: not yet')")
+    shutil.copy(_ctypes.__file__, tmp_path / "triton" / "_C" / "libtriton.so")  # Any library is like it.
+    code = f"""
+import sys
+sys.path.insert(0, {str(tmp_path)!r})
+opened = []
+sys.addaudithook(lambda event, arguments: event == "ctypes.dlopen" and opened.append(str(arguments[0])))
+import physexp.suite
+found["opened"] = [name for name in opened if any(word in name for word in ("libtriton", "EGL", "OSMesa"))]
+"""
+    opened = _run(code, MUJOCO_GL=None)["opened"]
+    assert opened[0].endswith("triton/_C/libtriton.so")
+    assert len(opened) > 1, "a library of GL is here too"
 
 
 def test_the_suite_works_from_any_folder(tmp_path):
