@@ -1,11 +1,19 @@
 """Fixtures of all tests."""
 
+import signal
+
 import pytest
 
 from physexp.agents.a3c import config as a3c
 from physexp.analysis import config as config_lib
 from physexp.analysis import run as run_lib
 from physexp.analysis import training
+
+# Who starts the tests in the background may have them ignore what ends a process, and processes that they start ignore
+# it too, as after `nohup`; but those are to be ended.
+for _number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    if signal.getsignal(_number) is signal.SIG_IGN:
+        signal.signal(_number, signal.default_int_handler if _number == signal.SIGINT else signal.SIG_DFL)
 
 
 @pytest.fixture
