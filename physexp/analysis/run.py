@@ -306,7 +306,7 @@ class Run:
         """The names of the columns of `metrics.csv`, and its whole lines, without their ends."""
         try:
             content = files.read_plain(self.path / "metrics.csv", _LARGEST_METRICS).decode(errors="replace")
-        except FileNotFoundError:
+        except (FileNotFoundError, NotADirectoryError):
             content = ""
         header, *lines = (content[: content.rfind("\n") + 1] or _HEADER).splitlines()
         names = header.split(",")

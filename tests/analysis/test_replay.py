@@ -416,10 +416,12 @@ def test_the_viewer_opens_a_file_and_shows_it(tmp_path):
     episode, _, _ = record("towers", "fist_features")
     path = writing.write(tmp_path / "one.rrd", [lambda: [episode]])
     picture = tmp_path / "viewer.png"
-    command = ["xvfb-run", "-a", writing.PROGRAM, path, "--screenshot-to", picture, "--window-size", "1280x800"]
+    # The pointer is in the middle of the screen; beside the window, it covers nothing with what it points to.
+    screen = ["xvfb-run", "-a", "--server-args=-screen 0 3000x2000x24"]
+    command = [*screen, writing.PROGRAM, path, "--screenshot-to", picture, "--window-size", "1280x800"]
     environment = {"HOME": str(tmp_path), "PATH": "/usr/bin:/bin"}
     subprocess.run([writing.PROGRAM, "analytics", "disable"], env=environment, check=True, capture_output=True)
-    subprocess.run(command, env=environment, check=True, capture_output=True, timeout=120)
+    subprocess.run(command, env=environment, check=True, capture_output=True, timeout=400)
     pixels = np.asarray(Image.open(picture).convert("RGB"))
     colors, counts = np.unique(pixels.reshape(-1, 3), axis=0, return_counts=True)
     assert len(colors) > 200  # Text, curves, shaded cubes: much more than a background.

@@ -60,10 +60,10 @@ def test_sigterm_to_all_processes_writes_a_checkpoint(tmp_path):
     run = trainers.create(tmp_path / "run", frames=ENDLESS, checkpoint_seconds=3600.0)
     with trainers.trainer(run) as process:
         # No checkpoint is due: what is there in the end was written because of the signal.
-        wait_until(lambda: any(signal.SIGTERM in ignored(worker.pid) for worker in trainers.workers(process)), 120,
-                   "a worker at work")  # fmt: skip
+        wait_until(run.metrics, 400, "a row of metrics, and so something to keep")
+        assert all(signal.SIGTERM in ignored(worker.pid) for worker in trainers.workers(process))
         os.killpg(process.pid, signal.SIGTERM)
-        _, errors = process.communicate(timeout=120)
+        _, errors = process.communicate(timeout=400)
     assert process.returncode == 128 + signal.SIGTERM, errors
     assert errors.splitlines()[-1] == "physexp: interrupted" and "Traceback" not in errors
     assert run.checkpointer.latest() is not None
