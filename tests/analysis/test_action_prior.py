@@ -19,6 +19,7 @@ def _first_policy(run):
     return torch.softmax(logits[0], 0).numpy()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("algorithm", trainers.SMALL)
 @pytest.mark.parametrize("relative", [True, False])
 def test_a_large_bonus_makes_the_policy_the_priors_or_uniform(algorithm, relative, tmp_path):

@@ -31,6 +31,8 @@ from physexp.analysis import cluster, evaluation, reproduce, training
 from physexp.analysis import run as run_lib
 from physexp.analysis.experiments import EXPERIMENTS, base
 
+pytestmark = pytest.mark.long
+
 QUICK = {"envs_per_worker": 64, "entropy_cost": 0.15, "final_entropy_cost": 0.03, "checkpoint_seconds": 1.0}
 LEARNED = 0.6  # Chance is 0.25: 1000 guesses stay below 0.33.
 

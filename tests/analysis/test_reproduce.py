@@ -129,6 +129,7 @@ def test_a_report_of_nothing_says_what_to_do(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.long
 def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
     frames = 150_000
     with subprocess.Popen(command(tmp_path, frames, "--jobs", 1), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
