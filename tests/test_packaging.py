@@ -208,8 +208,8 @@ def test_older_names_of_extras_bring_what_they_did(distribution):
     ],
 )
 def test_make_installs_what_a_target_needs_and_no_more(distribution, target, without):
-    commands = subprocess.run(["make", "--dry-run", "--always-make", target], cwd=ROOT, capture_output=True, text=True,
-                              check=True).stdout  # fmt: skip
+    command = ["make", "--dry-run", "--always-make", "--no-print-directory", target]
+    commands = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
     (extra,) = set(re.findall(r"-e '\.\[(\w+)\]'", commands))
     assert closure(distribution, extra).isdisjoint(without)
     if target in ("demo", "test"):
