@@ -16,7 +16,6 @@ from safetensors import torch as safetensors
 import torch
 
 from physexp.agents import files
-from physexp.agents.files import write_atomically
 
 FORMAT = 1
 """Of checkpoints."""
@@ -46,7 +45,7 @@ def write_agent(path: Path, variables: Mapping[str, torch.Tensor]) -> None:
     Raises:
       ValueError: as `agent_bytes`; the old file is untouched.
     """
-    write_atomically(path, agent_bytes(variables))
+    files.write_atomically(path, agent_bytes(variables))
 
 
 def read_agent(path: Path, like: Mapping[str, torch.Tensor], sha256: str | None = None) -> dict[str, torch.Tensor]:
@@ -86,13 +85,12 @@ def read_json(path: Path) -> Any:
 
     Raises:
       OSError: if it cannot be read.
-      ValueError: if it is no JSON, or has numbers that are not finite.
+      ValueError: if it is no JSON, has numbers that are not finite, or is larger than any of ours.
     """
+    content = files.read_plain(path, _MOST_JSON)
     try:
-        return json.loads(files.read_plain(path, _MOST_JSON), parse_constant=_refuse_constant)
+        return json.loads(content, parse_constant=_refuse_constant)
     except (ValueError, RecursionError) as error:
-        if str(path) in str(error):
-            raise
         raise ValueError(f"{path} is no JSON: {' '.join(str(error).split())}; put back what was written") from None
 
 
@@ -189,8 +187,8 @@ class Checkpointer:
         card = {"format": FORMAT, "sha256": hashlib.sha256(content).hexdigest(), "facts": dict(facts),
                 "facts_sha256": json_digest(dict(facts))}  # fmt: skip
         # The JSON comes first: a checkpoint is there once its tensors are.
-        write_atomically(path.with_suffix(".json"), (json.dumps(card, indent=1) + "\n").encode())
-        write_atomically(path, content)
+        files.write_atomically(path.with_suffix(".json"), (json.dumps(card, indent=1) + "\n").encode())
+        files.write_atomically(path, content)
         for old in self.paths()[: -self._keep]:
             old.unlink()
             old.with_suffix(".json").unlink(missing_ok=True)

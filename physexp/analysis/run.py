@@ -38,7 +38,6 @@ FORMAT = 1
 
 _FOLDERS = ("checkpoints", "episodes.parquet", "replays", "tensorboard")
 _RECORDS = ("metrics.csv", "failed_batch.npz", "agent.safetensors", *_FOLDERS)
-_LARGEST_CONFIG = 2**20  # Bytes.
 _GIT_SECONDS = 60.0
 _LARGEST_METRICS = 2**28  # Bytes: rows of a hundred days.
 
@@ -108,13 +107,9 @@ class Run:
           ValueError: as `config`.
         """
         try:
-            content = files.read_plain(self.path / "config.json", _LARGEST_CONFIG)
+            fields = checkpointing.read_json(self.path / "config.json")
         except (FileNotFoundError, NotADirectoryError):
             raise ValueError(f"{self.path} holds no run (no config.json); give the folder of a run") from None
-        try:
-            fields = json.loads(content)
-        except (ValueError, RecursionError) as error:
-            raise ValueError(f"{self.path}/config.json is no JSON: {error}") from None
         form = fields.get("format") if isinstance(fields, dict) else None
         if form != FORMAT:
             raise ValueError(f"{self.path}/config.json has format {form!r}; this version reads format {FORMAT}")
@@ -290,7 +285,9 @@ class Run:
         Raises:
           ValueError: if there is something else in it.
         """
-        header, lines = self._lines()
+        return self._rows(*self._lines())
+
+    def _rows(self, header: list[str], lines: list[str]) -> list[dict[str, float]]:
         rows = []
         for number, line in enumerate(lines, 2):
             try:
@@ -333,7 +330,7 @@ class Run:
         header, lines = self._lines()
         if header != list(METRICS):
             raise ValueError(f"{self.path}/metrics.csv has the columns of an earlier version; resume it with that")
-        is_kept = [row["frames"] <= frames for row in self.metrics()]
+        is_kept = [row["frames"] <= frames for row in self._rows(header, lines)]
         kept = list(itertools.compress(lines, is_kept))
         later = [line for line, keep in zip(lines, is_kept, strict=True) if not keep]
         parts = (self.path / "episodes.parquet").glob(f"part-{'[0-9]' * 15}.parquet")

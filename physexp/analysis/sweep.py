@@ -9,9 +9,9 @@ from pathlib import Path
 import tempfile
 import time
 
-from physexp.agents import checkpointing
+from physexp.agents import files
 from physexp.analysis import config as config_lib
-from physexp.analysis import jobs as jobs_here
+from physexp.analysis import jobs as jobs_lib
 from physexp.analysis import progress, records, stopping, training, verdict
 from physexp.analysis import run as run_lib
 from physexp.analysis.experiments import base
@@ -84,7 +84,7 @@ def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report
     failures = []
     with contextlib.ExitStack() as stack:
         if submit is None:
-            here = stack.enter_context(jobs_here.Processes(_work, num_processes, report))
+            here = stack.enter_context(jobs_lib.Processes(_work, num_processes, report))
             interruption = stack.enter_context(stopping.Interruption(here.stop))
             pending = {here.submit(job.config.name, job, results): job for job in todo}
         else:
@@ -102,7 +102,7 @@ def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report
                     continue
                 for name, content in (future.result() or {}).items():
                     (results.path / name).parent.mkdir(parents=True, exist_ok=True)
-                    checkpointing.write_atomically(results.path / name, content)
+                    files.write_atomically(results.path / name, content)
                 problem = verdict.of_run(results.run(job.config))
                 report(f"done: {job.config.name}" + (f", but {problem}" if problem else ""))
             if pending and not interruption.happened and (done or time.monotonic() - reported > _REPORT_SECONDS):

@@ -13,7 +13,7 @@ from typing import Any
 import pyarrow
 from pyarrow import parquet
 
-from physexp.agents import checkpointing, files
+from physexp.agents import files
 
 _MARK = b"physexp sha256 "
 _MOST_BYTES = 2**28  # Of a file; the largest of ours has less than a million.
@@ -38,7 +38,7 @@ def write(path: Path, table: pyarrow.Table, **options: Any) -> None:
     content = sink.getvalue()
     end = len(content) - 8 - int.from_bytes(content[-8:-4], "little")  # Where the description starts.
     mark = _MARK + hashlib.sha256(content).hexdigest().encode()
-    checkpointing.write_atomically(path, content[:end] + mark + content[end:])
+    files.write_atomically(path, content[:end] + mark + content[end:])
 
 
 def read(path: Path, schema: pyarrow.Schema, columns: Sequence[str] | None = None) -> pyarrow.Table:

@@ -167,7 +167,7 @@ class BatchEnvironment:
         all_rewards[~starting] = rewards
         return self._time_step(chosen, step_types, all_rewards, np.where(step_types == _LAST, 0.0, 1.0))
 
-    def render(self, size: int = 480) -> np.ndarray:
+    def render(self, size: int = rendering.SIZE_FOR_PEOPLE) -> np.ndarray:
         """Returns images for people of all environments, uint8 [B, size, size, 3].
 
         Raises:

@@ -9,9 +9,7 @@ import dm_env
 from dm_env import specs
 import numpy as np
 
-from physexp.suite import checks, guard
-
-_RENDER_SIZE = 480  # Pixels, for people.
+from physexp.suite import checks, guard, rendering
 
 
 class Environment(composer.Environment):
@@ -80,7 +78,8 @@ class Environment(composer.Environment):
         """
         with self._guard:
             self._check_open()
-            return self.physics.render(_RENDER_SIZE, _RENDER_SIZE, camera_id="observer")
+            size = rendering.SIZE_FOR_PEOPLE
+            return self.physics.render(size, size, camera_id="observer")
 
     def close(self) -> None:
         """Frees the simulations. Closing twice does nothing.

@@ -15,7 +15,7 @@ import dm_env
 
 from physexp import extras, suite
 from physexp.suite import batch as batch_lib
-from physexp.suite import checks, seeding
+from physexp.suite import checks, rendering, seeding
 
 extras.require("gymnasium")
 
@@ -25,7 +25,7 @@ from gymnasium.vector import utils as vector_utils  # noqa: E402
 from gymnasium.vector import vector_env  # noqa: E402
 import numpy as np  # noqa: E402
 
-_LARGEST_IMAGE, _LARGEST_GRID = 480, 1920  # Pixels, for people: of one environment, and of many side by side.
+_LARGEST_GRID = 1920  # Pixels, of the images of many environments side by side.
 
 
 def observation_space(spec) -> spaces.Dict:
@@ -60,7 +60,7 @@ def images(batch: suite.BatchEnvironment) -> tuple[np.ndarray, ...]:
     Side by side they fit into a square of 1920 pixels: up to 16 environments are drawn with 480 pixels, 64 with 240.
     """
     a_side = math.ceil(math.sqrt(batch.num_environments))
-    return tuple(batch.render(min(_LARGEST_IMAGE, _LARGEST_GRID // a_side)))
+    return tuple(batch.render(min(rendering.SIZE_FOR_PEOPLE, _LARGEST_GRID // a_side)))
 
 
 def grid(drawn: Sequence[np.ndarray]) -> np.ndarray:

@@ -16,6 +16,7 @@ import weakref
 import numpy as np
 
 SIZE = 84  # pixels, the edge of an image (paper, Section 4)
+SIZE_FOR_PEOPLE = 480  # pixels
 DEBIAN_PACKAGES = "Debian's libegl1 and libgl1-mesa-dri, or libosmesa6"
 
 _PLATFORM_DEVICE = 0x313F  # EGL_PLATFORM_DEVICE_EXT

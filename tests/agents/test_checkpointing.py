@@ -7,6 +7,7 @@ import subprocess
 import sys
 import textwrap
 
+import bits
 from dm_env import specs
 import numpy as np
 import pytest
@@ -58,17 +59,17 @@ def test_a_shared_tensor_that_is_not_contiguous_is_saved_as_it_looks(tmp_path):
 
 WRITE_TOO_MUCH = """
     import pathlib, resource, sys
-    from physexp.agents import checkpointing
+    from physexp.agents import files
 
     path = pathlib.Path(sys.argv[1])
     resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))  # The kernel refuses what goes beyond.
     try:
-        checkpointing.write_atomically(path, b"new" * 1000)
+        files.write_atomically(path, b"new" * 1000)
     except OSError as error:
         print(type(error).__name__, error)
     else:
         print("written")
-    checkpointing.write_atomically(path.with_name("small"), b"fits")
+    files.write_atomically(path.with_name("small"), b"fits")
 """
 
 
@@ -85,11 +86,11 @@ def test_a_write_that_fails_leaves_the_old_file_and_no_litter(tmp_path):
 
 WRITE_FOR_EVER = """
     import itertools, pathlib, sys
-    from physexp.agents import checkpointing
+    from physexp.agents import files
 
     path = pathlib.Path(sys.argv[1])
     for number in itertools.count():
-        checkpointing.write_atomically(path, bytes([number % 256]) * 1_000_000)
+        files.write_atomically(path, bytes([number % 256]) * 1_000_000)
 """
 
 
@@ -170,9 +171,7 @@ def test_every_bit_of_the_facts_counts(small, tmp_path):
     card = checkpointer.save(small.save(), facts).with_suffix(".json")
     content = card.read_bytes()
     for bit in range(8 * len(content)):
-        flipped = bytearray(content)
-        flipped[bit // 8] ^= 1 << bit % 8
-        card.write_bytes(flipped)
+        card.write_bytes(bits.flipped(content, bit))
         try:
             assert checkpointer.latest()[1] == facts
         except ValueError as error:
@@ -237,9 +236,7 @@ def test_every_bit_of_an_agent_counts(tmp_path):
     checkpointing.write_agent(path, weights)
     content = path.read_bytes()
     for bit in range(8 * len(content)):
-        flipped = bytearray(content)
-        flipped[bit // 8] ^= 1 << bit % 8
-        path.write_bytes(flipped)
+        path.write_bytes(bits.flipped(content, bit))
         try:
             found = checkpointing.read_agent(path, weights)
         except ValueError as error:

@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 
+import bits
 from dm_env import specs
 import numpy as np
 import pytest
@@ -180,9 +181,7 @@ def test_every_bit_of_a_card_counts(small, tmp_path):
     seed = int(np.random.SeedSequence().generate_state(1)[0])
     print("seed", seed)
     for bit in np.random.default_rng(seed).choice(8 * len(content), 1000, replace=False):
-        flipped = bytearray(content)
-        flipped[bit // 8] ^= 1 << bit % 8
-        path.write_bytes(flipped)
+        path.write_bytes(bits.flipped(content, bit))
         try:
             found = pretrained.load("towers", "some", folder=tmp_path)
         except ValueError as error:

@@ -4,6 +4,7 @@ import io
 import os
 import random
 
+import bits
 import pandas as pd
 import pyarrow
 from pyarrow import parquet
@@ -48,9 +49,7 @@ def test_any_bit_of_a_table_counts(tmp_path):
     tables.write(path, TABLE, compression="zstd")
     content = path.read_bytes()
     for bit in generator.sample(range(8 * len(content)), 1500):
-        flipped = bytearray(content)
-        flipped[bit // 8] ^= 1 << bit % 8
-        path.write_bytes(flipped)
+        path.write_bytes(bits.flipped(content, bit))
         try:
             assert tables.read(path, SCHEMA).equals(TABLE)
         except ValueError as error:

@@ -3,20 +3,13 @@
 import json
 
 import attacks
+import bits
 import pytest
 import reading
 
 pytestmark = pytest.mark.long
 
 MEMORY = 2 << 30  # Bytes beyond those of the imports.
-
-
-@pytest.fixture(scope="module")
-def made(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("made")
-    end = attacks.run(reading.make, folder)
-    assert end.code == 0, end.said
-    return folder
 
 
 def flip(name, folder, seed, count):
@@ -30,9 +23,7 @@ def flip(name, folder, seed, count):
     for _ in range(count):
         bit = generator.randrange(8 * len(content))
         print(f"{path.name}: bit {bit}", flush=True)
-        flipped = bytearray(content)
-        flipped[bit // 8] ^= 1 << bit % 8
-        path.write_bytes(flipped)
+        path.write_bytes(bits.flipped(content, bit))
         try:
             came_of.append((bit, reading.outcome(file, path, folder, expected)))
         except Exception as error:  # Of whatever kind: it is reported with the bit, and the others are tried.
@@ -64,9 +55,7 @@ def test_a_flipped_bit_in_a_replay_crashes_nothing(made):
     with attacks.Tally("bit flip, replay") as tally:
         for _ in range(attacks.repetitions(5, share=0.25)):
             bit = generator.randrange(8 * len(content))
-            flipped = bytearray(content)
-            flipped[bit // 8] ^= 1 << bit % 8
-            path.write_bytes(flipped)
+            path.write_bytes(bits.flipped(content, bit))
             try:
                 reading.read_replay(made)
                 tally["read"] += 1

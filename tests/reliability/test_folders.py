@@ -1,5 +1,6 @@
 """What happens to a run's folder under a trainer: it ends with one line, and nothing that was there is lost."""
 
+import functools
 import itertools
 import os
 import shutil
@@ -104,14 +105,9 @@ def remove(path):
     shutil.rmtree(path)
 
 
-def protect(path):
+def set_mode(path, mode):
     for folder in [path, *(item for item in path.rglob("*") if item.is_dir())]:
-        folder.chmod(0o555)
-
-
-def unprotect(path):
-    for folder in [path, *(item for item in path.rglob("*") if item.is_dir())]:
-        folder.chmod(0o755)
+        folder.chmod(mode)
 
 
 @pytest.mark.parametrize("act", [move, replace], ids=lambda act: act.__name__)
@@ -145,8 +141,10 @@ def test_a_folder_that_turns_read_only_stops_training_and_goes_on_once_it_is_not
         for attack in range(attacks.repetitions(2, share=0.1)):
             run = new_run(tmp_path / str(attack) / "run")
             number = generator.randint(1, len(expected[0]) - 1)
-            end = attacks.run(train_disturbed, run.path, number, protect, first=attacks.Bound())
-            unprotect(run.path)
+            end = attacks.run(
+                train_disturbed, run.path, number, functools.partial(set_mode, mode=0o555), first=attacks.Bound()
+            )
+            set_mode(run.path, 0o755)
             end.assert_refused(str(run.path))
             assert_goes_on(run, expected)
             tally["one line; resumed"] += 1

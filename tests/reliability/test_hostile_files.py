@@ -151,14 +151,6 @@ ACCEPTED = {("metrics.csv", kind) for kind in NO_ROWS}
 """What ends no line reads as no rows, and a row that is torn as none."""
 
 
-@pytest.fixture(scope="module")
-def made(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("made")
-    end = attacks.run(reading.make, folder)
-    assert end.code == 0, end.said
-    return folder
-
-
 def put(name, kind, folder):
     """Puts something hostile in the place of a file, with its checksum where that is kept beside; returns the path."""
     path = reading.FILES[name].find(folder)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 import json
 from typing import Any
 
-from physexp.agents import checkpointing
+from physexp.agents import checkpointing, files
 from physexp.analysis.experiments import base, conditions
 from physexp.analysis.ideal import towers
 
@@ -21,7 +21,7 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
             path.parent.mkdir(parents=True, exist_ok=True)
             resolutions = RESOLUTIONS[conditions.observations(condition)]
             rows = towers.curve(condition.task, resolutions, condition.agent.discount)
-            checkpointing.write_atomically(path, (json.dumps(rows, indent=1) + "\n").encode())
+            files.write_atomically(path, (json.dumps(rows, indent=1) + "\n").encode())
 
 
 def read(results: base.Results) -> dict[str, list[dict]]:

@@ -24,7 +24,7 @@ import rerun as rr
 from scipy.spatial import transform
 
 from physexp import suite
-from physexp.agents import checkpointing
+from physexp.agents import files
 from physexp.analysis.replay import beliefs, layout, palette, recording, words
 from physexp.analysis.replay.layout import TIMELINE
 from physexp.analysis.replay.viewing import PROGRAM, last_line
@@ -58,7 +58,7 @@ def write(path: Path, groups: Sequence[Callable[[], Sequence[recording.Episode]]
         episodes = list(group())
         newest = _recording(episodes)
         written = _merge(written + newest) if written else newest
-        checkpointing.write_atomically(path, written)
+        files.write_atomically(path, written)
         report(f"{number + 1} of {len(groups)}: {words.name(episodes[0])}")
     return path
 

@@ -1,0 +1,8 @@
+"""Damage to files, in tests."""
+
+
+def flipped(content: bytes, bit: int) -> bytes:
+    """Returns a content with one of its bits changed."""
+    changed = bytearray(content)
+    changed[bit // 8] ^= 1 << bit % 8
+    return bytes(changed)
