@@ -28,8 +28,16 @@ def model(**visual):
         if name == "floor":
             task.root_entity.floor.set_attributes(type=value, pos=[0, 0, -0.005])
         elif name == "skybox":
-            root.asset.add("texture", name="sky", type="skybox", builtin="gradient", rgb1=[0.4, 0.6, 0.8],
-                           rgb2=[0, 0, 0], width=128, height=128)  # fmt: skip
+            root.asset.add(
+                "texture",
+                name="sky",
+                type="skybox",
+                builtin="gradient",
+                rgb1=[0.4, 0.6, 0.8],
+                rgb2=[0, 0, 0],
+                width=128,
+                height=128,
+            )
         elif name == "lamp":
             root.find("light", "lamp").castshadow = value
         else:

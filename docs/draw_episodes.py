@@ -94,8 +94,10 @@ def drawn(episode: recording.Episode, frame: Frame, scene: np.ndarray) -> Image.
     task = suite.load_task(episode.domain, episode.task, episode.task_kwargs)
     names = [palette.short(label, episode.things) for label in task.label_names]
     things = [name.replace(" ", "_") for name in names]
-    colors = [np.array(palette.of_thing(episode.things, thing)) / 255 if thing in episode.things.names else LABEL_COLOR
-              for thing in things]  # fmt: skip
+    colors = [
+        np.array(palette.of_thing(episode.things, thing)) / 255 if thing in episode.things.names else LABEL_COLOR
+        for thing in things
+    ]
     width, height = SIZE
     picture = figure.Figure((width / 100 / SCALE, height / 100 / SCALE), dpi=100 * SCALE, facecolor="white")
     canvas = backend_agg.FigureCanvasAgg(picture)

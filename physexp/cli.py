@@ -61,11 +61,21 @@ class Tasks:
         rows = []
         for domain, name in suite.ALL_TASKS:
             task = suite.load_task(domain, name)
-            observations = {key: {"shape": list(blank.shape[1:]), "dtype": str(blank.dtype)}
-                            for key, blank in task.blank_observations(1).items()}  # fmt: skip
-            rows.append({"domain": domain, "task": name, "interactions": task.num_interactions,
-                         "labels": task.num_labels, "step_limit": task.rules.step_limit,
-                         "observations": observations, "question": task.question})  # fmt: skip
+            observations = {
+                key: {"shape": list(blank.shape[1:]), "dtype": str(blank.dtype)}
+                for key, blank in task.blank_observations(1).items()
+            }
+            rows.append(
+                {
+                    "domain": domain,
+                    "task": name,
+                    "interactions": task.num_interactions,
+                    "labels": task.num_labels,
+                    "step_limit": task.rules.step_limit,
+                    "observations": observations,
+                    "question": task.question,
+                }
+            )
         if self.json:
             _show_rows(rows, as_json=True)
             return
@@ -73,10 +83,18 @@ class Tasks:
             of_domain = [row for row in rows if row["domain"] == domain]
             print(f"{domain}: {of_domain[0]['question']}")
             shown = ("task", "interactions", "labels", "step_limit")
-            _show_rows([{**{name: row[name] for name in shown},
-                         "observations": ", ".join(f"{key} {array['dtype']} {array['shape']}"
-                                                   for key, array in row["observations"].items())}
-                        for row in of_domain], as_json=False)  # fmt: skip
+            _show_rows(
+                [
+                    {
+                        **{name: row[name] for name in shown},
+                        "observations": ", ".join(
+                            f"{key} {array['dtype']} {array['shape']}" for key, array in row["observations"].items()
+                        ),
+                    }
+                    for row in of_domain
+                ],
+                as_json=False,
+            )
             print()
 
 
@@ -118,9 +136,13 @@ class Train(Generic[Config]):
         from physexp.analysis import run as run_lib
 
         config = config_lib.TrainConfig(
-            domain=self.domain, task=self.task, difficulty=self.difficulty, control_timestep=self.control_timestep,
-            replay_every=self.replay_every, agent=self.config,
-        )  # fmt: skip
+            domain=self.domain,
+            task=self.task,
+            difficulty=self.difficulty,
+            control_timestep=self.control_timestep,
+            replay_every=self.replay_every,
+            agent=self.config,
+        )
         run = run_lib.Run(self.run_dir or Path("runs") / config.name)
         if self.resume:
             config = run.config
@@ -196,8 +218,9 @@ class Evaluate:
         network, config = evaluation.find_agent(self.target, self.difficulty)
         seed = evaluation.SEED if self.seed is None else self.seed
         with progress.bar("episodes", self.episodes) as show:
-            played = evaluation.play(network, config, self.episodes, self.interaction, self.greedy, seed,
-                                     device=self.device, report=show)  # fmt: skip
+            played = evaluation.play(
+                network, config, self.episodes, self.interaction, self.greedy, seed, device=self.device, report=show
+            )
         _show(played.summary(config.agent.discount), self.json)
 
 
@@ -237,8 +260,9 @@ class Replay:
             replay.check_display()
         seed = evaluation.SEED if self.seed is None else self.seed
         targets = [self.target] if self.compare is None else [self.target, self.compare]
-        path = replay.replay(targets, self.episodes, self.output, self.interaction, self.select, seed, _tell,
-                             self.difficulty)  # fmt: skip
+        path = replay.replay(
+            targets, self.episodes, self.output, self.interaction, self.select, seed, _tell, self.difficulty
+        )
         print(path)
         if self.view or self.web:
             replay.view(path, self.web, _tell)
@@ -369,10 +393,15 @@ class Reproduce:
                 stack.enter_context(cluster.joined(self.cluster))
                 submit = cluster.submit
             reproduce.run(
-                experiments, base.Results(self.results_dir),
+                experiments,
+                base.Results(self.results_dir),
                 observations=conditions.OBSERVATIONS if self.observations == "all" else (self.observations,),
-                num_seeds=self.seeds, num_processes=self.jobs, frames=self.frames, submit=submit, report=_tell,
-            )  # fmt: skip
+                num_seeds=self.seeds,
+                num_processes=self.jobs,
+                frames=self.frames,
+                submit=submit,
+                report=_tell,
+            )
 
 
 @dataclasses.dataclass
@@ -498,9 +527,20 @@ def _run(arguments: list[str]) -> None:
         sys.exit(1)
 
 
-_COMMANDS = {"tasks": Tasks, "train": Train, "evaluate": Evaluate, "replay": Replay, "play": Play,
-             "publish": Publish, "ideal": Ideal, "reproduce": Reproduce, "report": Report, "bench": Bench,
-             "doctor": Doctor, "demo": Demo}  # fmt: skip
+_COMMANDS = {
+    "tasks": Tasks,
+    "train": Train,
+    "evaluate": Evaluate,
+    "replay": Replay,
+    "play": Play,
+    "publish": Publish,
+    "ideal": Ideal,
+    "reproduce": Reproduce,
+    "report": Report,
+    "bench": Bench,
+    "doctor": Doctor,
+    "demo": Demo,
+}
 
 
 def _parse(arguments: list[str]):

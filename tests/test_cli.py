@@ -125,8 +125,9 @@ def test_tasks_lists_every_task_with_its_numbers_question_and_observations(run):
     assert numbers["towers", "fist_features"] == (4, 5, 26)
     for (domain, task), row in by_name.items():
         spec = suite.load(domain, task).observation_spec()
-        assert row["observations"] == {name: {"shape": list(array.shape), "dtype": str(array.dtype)}
-                                       for name, array in spec.items()}  # fmt: skip
+        assert row["observations"] == {
+            name: {"shape": list(array.shape), "dtype": str(array.dtype)} for name, array in spec.items()
+        }
         assert row["question"].endswith("?")
 
 
@@ -147,8 +148,21 @@ def test_doctor_names_versions_renderer_threads_and_gpu(run):
     done = run("doctor", "--json")
     assert done.returncode == 0, done.stderr
     facts = json.loads(done.stdout)
-    for name in ("python", "physexp", "mujoco", "dm-control", "torch", "numpy", "machine", "processors",
-                 "torch_threads", "omp_num_threads", "gpu", "gl_backend", "gl_renderer"):  # fmt: skip
+    for name in (
+        "python",
+        "physexp",
+        "mujoco",
+        "dm-control",
+        "torch",
+        "numpy",
+        "machine",
+        "processors",
+        "torch_threads",
+        "omp_num_threads",
+        "gpu",
+        "gl_backend",
+        "gl_renderer",
+    ):
         assert facts[name], name
     for check in facts["checks"]:
         assert bool(check["advice"]) == (check["verdict"] != doctor.OK), check
@@ -164,9 +178,12 @@ def test_doctor_says_which_extra_is_missing_and_how_to_install_it(run, monkeypat
     monkeypatch.setitem(sys.modules, "tensorboard", None)  # Cannot be imported, nor found.
     status, checks = verdicts(run)
     assert status == 0
-    assert checks["extra tensorboard"] == {"check": "extra tensorboard", "verdict": "missing",
-                                           "found": "without tensorboard",
-                                           "advice": "pip install 'physexp[tensorboard]'"}  # fmt: skip
+    assert checks["extra tensorboard"] == {
+        "check": "extra tensorboard",
+        "verdict": "missing",
+        "found": "without tensorboard",
+        "advice": "pip install 'physexp[tensorboard]'",
+    }
     assert checks["extra figures"]["verdict"] == "ok"
 
 
@@ -218,26 +235,40 @@ def test_what_cannot_be_done_is_refused_in_one_line(run, arguments, words):
         (["train"], "train needs DOMAIN TASK; see physexp train --help"),
         (["train", "towers"], "train needs TASK; see physexp train --help"),
         (["evaluate", "a", "b"], "evaluate does not take 'b'; see physexp evaluate --help"),
-        (["evaluate", "a", "--sed=3"],
-         "--sed=3 is not an option of evaluate; perhaps --seed; see physexp evaluate --help"),
-        (["train", "towers", "fist_features", "--clop", "1", "--agent", "ppo"],
-         "--clop is not an option of train; perhaps --clip; see physexp train --help"),
+        (
+            ["evaluate", "a", "--sed=3"],
+            "--sed=3 is not an option of evaluate; perhaps --seed; see physexp evaluate --help",
+        ),
+        (
+            ["train", "towers", "fist_features", "--clop", "1", "--agent", "ppo"],
+            "--clop is not an option of train; perhaps --clip; see physexp train --help",
+        ),
         (["train", "towers", "fist_features", "--ZZ", "1"], "--ZZ is not an option of train; see physexp train --help"),
         (["evaluate", "a", "--episodes", "many"], "--episodes is 'many'; give INT; see physexp evaluate --help"),
         (["ideal", "towers", "--discount=low"], "--discount is 'low'; give FLOAT; see physexp ideal --help"),
-        (["train", "towers", "fist_features", "--max_staleness", "x"],
-         "--max-staleness is 'x'; give INT; see physexp train --help"),
+        (
+            ["train", "towers", "fist_features", "--max_staleness", "x"],
+            "--max-staleness is 'x'; give INT; see physexp train --help",
+        ),
         (["evaluate", "a", "--seed"], "--seed needs a value: INT; see physexp evaluate --help"),
-        (["evaluate", "a", "--interaction", "x"],
-         "--interaction is 'x'; choose from learned, random; see physexp evaluate --help"),
-        (["train", "towers", "fist_features", "--discount", "2"],
-         "discount is 2.0; give a number in (0, 1]; see physexp train --help"),
-        (["train", "towers", "fist_features", "--num-workers", "0"],
-         "num_workers is 0; give an integer >= 1 and <= 10000; see physexp train --help"),
-        (["train", "towers", "fist_features", "--learning-rate", "nan"],
-         "learning_rate is nan; give a finite number > 0; see physexp train --help"),
+        (
+            ["evaluate", "a", "--interaction", "x"],
+            "--interaction is 'x'; choose from learned, random; see physexp evaluate --help",
+        ),
+        (
+            ["train", "towers", "fist_features", "--discount", "2"],
+            "discount is 2.0; give a number in (0, 1]; see physexp train --help",
+        ),
+        (
+            ["train", "towers", "fist_features", "--num-workers", "0"],
+            "num_workers is 0; give an integer >= 1 and <= 10000; see physexp train --help",
+        ),
+        (
+            ["train", "towers", "fist_features", "--learning-rate", "nan"],
+            "learning_rate is nan; give a finite number > 0; see physexp train --help",
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_mistyped_command_line_is_one_line_that_says_what_was_given_and_what_is_allowed(run, arguments, line):
     done = run(*arguments)
     assert (done.returncode, done.stdout, done.stderr) == (2, "", f"physexp: {line}\n")
@@ -251,11 +282,14 @@ def test_a_mistyped_command_line_is_one_line_that_says_what_was_given_and_what_i
         (["report"], ["matplotlib"], "matplotlib is not installed; pip install 'physexp[figures]'"),
         (["demo"], ["matplotlib"], "matplotlib is not installed; pip install 'physexp[figures]'"),
         (["bench"], ["gymnasium", "ray"], "gymnasium and ray are not installed; pip install 'physexp[gymnasium,ray]'"),
-        (["bench", "peers"], ["stable_baselines3", "sb3_contrib"],
-         "stable_baselines3 and sb3_contrib are not installed; pip install 'physexp[sb3]'"),
+        (
+            ["bench", "peers"],
+            ["stable_baselines3", "sb3_contrib"],
+            "stable_baselines3 and sb3_contrib are not installed; pip install 'physexp[sb3]'",
+        ),
         (["bench", "learning"], ["pandas"], "pandas is not installed; pip install 'physexp[analysis]'"),
     ],
-)  # fmt: skip
+)
 def test_a_missing_extra_is_named_before_any_work(run, monkeypatch, arguments, without, line):
     for module in without:
         monkeypatch.setitem(sys.modules, module, None)  # Cannot be imported, nor found.
@@ -300,8 +334,15 @@ def test_evaluate_prints_exactly_its_figures_as_json(run, untrained):
         done = run("evaluate", untrained.path, "--episodes", 40, "--json", *extra)
         assert done.returncode == 0, done.stderr
         figures = json.loads(done.stdout)
-        assert set(figures) == {"episodes", "success_rate", "success_interval", "mean_return", "mean_interactions",
-                                "median_interactions", "timeouts"}  # fmt: skip
+        assert set(figures) == {
+            "episodes",
+            "success_rate",
+            "success_interval",
+            "mean_return",
+            "mean_interactions",
+            "median_interactions",
+            "timeouts",
+        }
         assert figures["episodes"] == 40
         low, high = figures["success_interval"]
         assert 0 <= low <= figures["success_rate"] <= high <= 1
@@ -313,14 +354,23 @@ def test_evaluate_prints_exactly_its_figures_as_json(run, untrained):
 def test_evaluate_without_json_prints_the_same_names(run, untrained):
     lines = run("evaluate", untrained.path, "--episodes", 20).stdout.splitlines()
     assert [line.split()[0] for line in lines] == [
-        "episodes", "success_rate", "success_interval", "mean_return", "mean_interactions", "median_interactions",
+        "episodes",
+        "success_rate",
+        "success_interval",
+        "mean_return",
+        "mean_interactions",
+        "median_interactions",
         "timeouts",
-    ]  # fmt: skip
+    ]
 
 
 def test_evaluate_finds_the_agents_of_each_difficulty(run):
-    returns = [json.loads(run("evaluate", "which_is_heavier/features", "--difficulty", difficulty, "--episodes", 200,
-                              "--json").stdout)["mean_return"] for difficulty in (3, 10)]  # fmt: skip
+    returns = [
+        json.loads(
+            run("evaluate", "which_is_heavier/features", "--difficulty", difficulty, "--episodes", 200, "--json").stdout
+        )["mean_return"]
+        for difficulty in (3, 10)
+    ]
     # The cards of the two: 0.80 and 0.87; the means of 200 returns of standard deviation 0.3 are off by 0.02.
     assert returns[0] + 0.02 < returns[1]
     assert_refused(run("evaluate", "which_is_heavier/features", "--difficulty", 4), "4")

@@ -39,8 +39,9 @@ def test_what_a_page_says_of_the_tree_is_there(page):
             assert (DOCS.parent / name).exists(), f"{page.name} speaks of {name}"
 
 
-PYTHON = [(page.name, block) for page in sorted(DOCS.glob("*.md")) for block in blocks.of(page)
-          if block.language == "python"]  # fmt: skip
+PYTHON = [
+    (page.name, block) for page in sorted(DOCS.glob("*.md")) for block in blocks.of(page) if block.language == "python"
+]
 
 
 @pytest.mark.parametrize("page, block", PYTHON, ids=[f"{name}-{number}" for number, (name, _) in enumerate(PYTHON)])
@@ -127,8 +128,9 @@ def test_an_agent_of_ours_learns_the_example_task():
 def test_the_example_experiment_runs_from_nothing_to_a_verdict(tmp_path):
     lines = []
     results = base.Results(tmp_path)
-    reproduce.run([patience.EXPERIMENT], results, observations=("features",), num_seeds=2, frames=20_000,
-                  report=lines.append)  # fmt: skip
+    reproduce.run(
+        [patience.EXPERIMENT], results, observations=("features",), num_seeds=2, frames=20_000, report=lines.append
+    )
     assert (tmp_path / "figures" / "patience.svg").exists()
     (verdict,) = [line for line in lines if "An agent that is in a hurry" in line]
     assert verdict.split()[0] in ("holds", "fails", "undecided")

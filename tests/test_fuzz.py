@@ -19,8 +19,9 @@ from physexp.analysis import config as config_lib
 from physexp.analysis import run as run_lib
 
 FEATURES = [names for names in suite.ALL_TASKS if names[1].endswith("features")]
-QUICKLY = hypothesis.settings(max_examples=150, deadline=None, suppress_health_check=list(hypothesis.HealthCheck),
-                              print_blob=True)  # fmt: skip
+QUICKLY = hypothesis.settings(
+    max_examples=150, deadline=None, suppress_health_check=list(hypothesis.HealthCheck), print_blob=True
+)
 
 anything = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5) | st.binary(max_size=5),
@@ -117,9 +118,17 @@ def changed(fields: dict, path: list[str], value) -> dict:
 
 
 paths = st.sampled_from(
-    [["format"], ["train"], ["train", "domain"], ["train", "difficulty"], ["train", "agent"], ["train", "extra"],
-     *(["train", "agent", name] for name in CONFIG["agent"]), ["train", "agent", "extra"]]
-)  # fmt: skip
+    [
+        ["format"],
+        ["train"],
+        ["train", "domain"],
+        ["train", "difficulty"],
+        ["train", "agent"],
+        ["train", "extra"],
+        *(["train", "agent", name] for name in CONFIG["agent"]),
+        ["train", "agent", "extra"],
+    ]
+)
 
 
 @QUICKLY
@@ -150,9 +159,32 @@ def test_a_config_file_may_be_no_json(tmp_path_factory, content):
 
 def words():
     """Words that a command line may have: names that are known, numbers, and noise; none that starts long work."""
-    known = ["tasks", "evaluate", "ideal", "replay", "report", "train", "towers", "which_is_heavier", "features",
-             "fist_features", "--json", "--help", "--episodes", "--difficulty", "--discount", "--seed", "--resume",
-             "--agent", "ppo", "a3c", "--num-workers", "--run-dir", "--control-timestep", "--frames"]  # fmt: skip
+    known = [
+        "tasks",
+        "evaluate",
+        "ideal",
+        "replay",
+        "report",
+        "train",
+        "towers",
+        "which_is_heavier",
+        "features",
+        "fist_features",
+        "--json",
+        "--help",
+        "--episodes",
+        "--difficulty",
+        "--discount",
+        "--seed",
+        "--resume",
+        "--agent",
+        "ppo",
+        "a3c",
+        "--num-workers",
+        "--run-dir",
+        "--control-timestep",
+        "--frames",
+    ]
     return st.lists(st.sampled_from(known) | st.text(max_size=6) | numbers.map(str), max_size=5)
 
 

@@ -45,8 +45,16 @@ def elsewhere(tmp_path, monkeypatch):
 
 def test_the_readme_has_blocks_of_python_and_shell_and_nothing_else():
     assert {block.language for block in BLOCKS} == {"python", "sh"}
-    tested = ("make", *TRAINING, "physexp tasks", "physexp doctor", "physexp replay", "physexp ideal",
-              "physexp reproduce", "physexp report")  # fmt: skip
+    tested = (
+        "make",
+        *TRAINING,
+        "physexp tasks",
+        "physexp doctor",
+        "physexp replay",
+        "physexp ideal",
+        "physexp reproduce",
+        "physexp report",
+    )
     assert all(line.startswith(tested) for line in COMMANDS), "every command has a test below"
 
 
@@ -59,8 +67,13 @@ def test_the_make_commands_are_targets_of_the_makefile():
 
 def test_the_first_snippets_print_what_the_readme_shows_on_a_machine_without_graphics():
     for block in (FIRST, BATCH):
-        printed = subprocess.run([sys.executable, "-c", block.code], env={**os.environ, "MUJOCO_GL": "disabled"},
-                                 capture_output=True, text=True, check=True).stdout  # fmt: skip
+        printed = subprocess.run(
+            [sys.executable, "-c", block.code],
+            env={**os.environ, "MUJOCO_GL": "disabled"},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
         assert printed == block.shown
     assert "heaviest: right" in FIRST.shown
 
@@ -115,9 +128,12 @@ def test_the_trained_agent_is_right_in_19_of_20_episodes_and_beats_its_own_rando
     evaluations = []
     for command in (line for line in COMMANDS if line.startswith(TRAINING)):
         as_json = " --json" if "evaluate" in command and "--json" not in command else ""
-        done = subprocess.run([sys.executable, "-c", "from physexp import cli; cli.main()",
-                               *shlex.split(command + as_json)[1:]],
-                              capture_output=True, text=True, check=True)  # fmt: skip
+        done = subprocess.run(
+            [sys.executable, "-c", "from physexp import cli; cli.main()", *shlex.split(command + as_json)[1:]],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
         if "evaluate" in command:
             evaluations.append(json.loads(done.stdout))
     learned, random = evaluations

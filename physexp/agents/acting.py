@@ -63,11 +63,13 @@ class Round:
         places = self.played.ravel().cumsum().reshape(self.played.shape) - 1
         steps = torch.from_numpy(places[:longest, episodes][self.played[:longest, episodes]])
         return Round(
-            self.actions[:longest, episodes], self.rewards[:longest, episodes], self.lengths[episodes],
+            self.actions[:longest, episodes],
+            self.rewards[:longest, episodes],
+            self.lengths[episodes],
             self.answers[episodes],
             None if self.inputs is None else self.inputs[steps.to(self.inputs.device)],
             self.transcript and self.transcript.select(steps),
-        )  # fmt: skip
+        )
 
     def record(self) -> "Round":
         """The same round, to be looked at but not to be learned from."""
@@ -118,9 +120,16 @@ def sample(logits: torch.Tensor, generator: np.random.Generator) -> np.ndarray:
 
 
 @torch.no_grad()
-def play_round(network: networks.RecurrentActorCritic, environment, episode: int, generator: np.random.Generator,
-               greedy: bool = False, action_override: ActionOverride | None = None, differentiable: bool = False,
-               transcribe: bool = False) -> Round:  # fmt: skip
+def play_round(
+    network: networks.RecurrentActorCritic,
+    environment,
+    episode: int,
+    generator: np.random.Generator,
+    greedy: bool = False,
+    action_override: ActionOverride | None = None,
+    differentiable: bool = False,
+    transcribe: bool = False,
+) -> Round:
     """Plays one whole episode in each environment of a batch.
 
     Args:

@@ -184,8 +184,12 @@ class Checkpointer:
         self._folder.mkdir(parents=True, exist_ok=True)
         path = self._folder / f"{int(tensors['frames']):015d}.safetensors"
         content = safetensors.save({name: value.detach().contiguous() for name, value in tensors.items()})
-        card = {"format": FORMAT, "sha256": hashlib.sha256(content).hexdigest(), "facts": dict(facts),
-                "facts_sha256": json_digest(dict(facts))}  # fmt: skip
+        card = {
+            "format": FORMAT,
+            "sha256": hashlib.sha256(content).hexdigest(),
+            "facts": dict(facts),
+            "facts_sha256": json_digest(dict(facts)),
+        }
         # The JSON comes first: a checkpoint is there once its tensors are.
         files.write_atomically(path.with_suffix(".json"), (json.dumps(card, indent=1) + "\n").encode())
         files.write_atomically(path, content)
@@ -198,9 +202,12 @@ class Checkpointer:
         """The checkpoints, oldest first."""
         return sorted(path for path in self._folder.glob("*.safetensors") if _is_number(path.stem))
 
-    def latest(self, tell: Callable[[str], None] = lambda line: None,
-               accept: Callable[[dict[str, torch.Tensor], dict[str, Any]], None] = lambda tensors, facts: None,
-               most: int | None = None) -> tuple[dict[str, torch.Tensor], dict[str, Any]] | None:  # fmt: skip
+    def latest(
+        self,
+        tell: Callable[[str], None] = lambda line: None,
+        accept: Callable[[dict[str, torch.Tensor], dict[str, Any]], None] = lambda tensors, facts: None,
+        most: int | None = None,
+    ) -> tuple[dict[str, torch.Tensor], dict[str, Any]] | None:
         """The tensors and facts of the newest checkpoint that is whole, or None where there is none at all.
 
         Args:

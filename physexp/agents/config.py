@@ -55,11 +55,16 @@ class AgentConfig:
     checkpoint_seconds: float = 60.0
 
     _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {  # With what they are at least and at most.
-        "frames": (1, LARGEST), "seed": (0, LARGEST), "lstm_units": (1, 65_536)
-    }  # fmt: skip
+        "frames": (1, LARGEST),
+        "seed": (0, LARGEST),
+        "lstm_units": (1, 65_536),
+    }
     _POSITIVE: ClassVar[tuple[str, ...]] = (
-        "learning_rate", "max_gradient_norm", "observation_scale", "checkpoint_seconds"
-    )  # fmt: skip
+        "learning_rate",
+        "max_gradient_norm",
+        "observation_scale",
+        "checkpoint_seconds",
+    )
 
     def replace(self, **changes) -> Self:
         """A copy with some values changed."""

@@ -125,8 +125,9 @@ def targets(episodes: acting.Round, values: torch.Tensor, discount: float, trace
     return returns[played], advantages[played]
 
 
-def clipped_gradients(network: networks.RecurrentActorCritic, loss: torch.Tensor, max_norm: float,
-                      episodes: acting.Round) -> tuple[list[torch.Tensor], float]:  # fmt: skip
+def clipped_gradients(
+    network: networks.RecurrentActorCritic, loss: torch.Tensor, max_norm: float, episodes: acting.Round
+) -> tuple[list[torch.Tensor], float]:
     """The gradient of a loss for each parameter, scaled down to a norm, and the norm it had.
 
     Raises:

@@ -47,8 +47,14 @@ def generalized_advantages(rewards: torch.Tensor, discounts: torch.Tensor, value
     return advantages
 
 
-def actor_critic_losses(logits: torch.Tensor, values: torch.Tensor, actions: torch.Tensor, returns: torch.Tensor,
-                        advantages: torch.Tensor, prior: Sequence[float] = ()):  # fmt: skip
+def actor_critic_losses(
+    logits: torch.Tensor,
+    values: torch.Tensor,
+    actions: torch.Tensor,
+    returns: torch.Tensor,
+    advantages: torch.Tensor,
+    prior: Sequence[float] = (),
+):
     """The three losses of advantage actor-critic (Mnih et al., 2016, Section 4), averaged over all leading axes.
 
     Args:
@@ -68,9 +74,16 @@ def actor_critic_losses(logits: torch.Tensor, values: torch.Tensor, actions: tor
     return policy_loss, _baseline_loss(values, returns), _entropy(log_probabilities, prior)
 
 
-def clipped_losses(logits: torch.Tensor, values: torch.Tensor, actions: torch.Tensor, behaviour: torch.Tensor,
-                   returns: torch.Tensor, advantages: torch.Tensor, clip: float,
-                   prior: Sequence[float] = ()):  # fmt: skip
+def clipped_losses(
+    logits: torch.Tensor,
+    values: torch.Tensor,
+    actions: torch.Tensor,
+    behaviour: torch.Tensor,
+    returns: torch.Tensor,
+    advantages: torch.Tensor,
+    clip: float,
+    prior: Sequence[float] = (),
+):
     """The three losses of PPO (Schulman et al., 2017, equations 7 and 9), averaged over all leading axes.
 
     Args:

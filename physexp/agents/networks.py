@@ -48,8 +48,14 @@ class PixelTorso(nn.Module):
         ((self._name, spec),) = observation_spec.items()
         height, width, channels = spec.shape
         self._scale = scale / 255
-        layers = nn.Sequential(nn.Conv2d(channels, 32, 8, 4), nn.ReLU(), nn.Conv2d(32, 64, 4, 2), nn.ReLU(),
-                               nn.Conv2d(64, 64, 3), nn.ReLU())  # fmt: skip
+        layers = nn.Sequential(
+            nn.Conv2d(channels, 32, 8, 4),
+            nn.ReLU(),
+            nn.Conv2d(32, 64, 4, 2),
+            nn.ReLU(),
+            nn.Conv2d(64, 64, 3),
+            nn.ReLU(),
+        )
         self.convolutions = layers.to(memory_format=torch.channels_last)  # type: ignore[call-overload]
         self.register_buffer("reference", torch.zeros(height, width, channels, dtype=torch.uint8))
         with torch.no_grad():
@@ -81,8 +87,14 @@ def _distinct(images: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
 class RecurrentActorCritic(nn.Module):
     """Torso, LSTM, and two linear heads: the policy's logits and the value."""
 
-    def __init__(self, observation_spec: Mapping[str, specs.Array], num_actions: int, *, lstm_units: int,
-                 observation_scale: float):  # fmt: skip
+    def __init__(
+        self,
+        observation_spec: Mapping[str, specs.Array],
+        num_actions: int,
+        *,
+        lstm_units: int,
+        observation_scale: float,
+    ):
         """Builds the network; its weights follow torch's global seed.
 
         Args:

@@ -19,15 +19,25 @@ from dm_control import composer  # isort: skip
 BATCH = 256
 THREADS = 2
 REPETITIONS = 5
-TASKS = {"heavier": ("which_is_heavier", "features"), "direct": ("towers", "direct_features"),
-         "fist": ("towers", "fist_features")}  # fmt: skip
+TASKS = {
+    "heavier": ("which_is_heavier", "features"),
+    "direct": ("towers", "direct_features"),
+    "fist": ("towers", "fist_features"),
+}
 
 
 def row(figure: str, value: float, unit: str, target: float, at_most: bool = False, **absolute: float) -> dict:
     """One figure: its value and unit, what it must reach, whether it does, and the absolute figures behind it."""
     reached = value <= target if at_most else value >= target
-    return {"figure": figure, "value": value, "unit": unit, "target": target, "at_most": at_most, "reached": reached,
-            **absolute}  # fmt: skip
+    return {
+        "figure": figure,
+        "value": value,
+        "unit": unit,
+        "target": target,
+        "at_most": at_most,
+        "reached": reached,
+        **absolute,
+    }
 
 
 def line(figure: dict) -> str:
@@ -94,10 +104,17 @@ def _batch() -> Iterator[dict]:
         batch, loop, recompiling = rates(
             random_batch(TASKS[name]), random_loop(_environment(name)), random_loop(_recompiling(name))
         )
-        yield row(f"batch of {BATCH} / loop over suite.load: {name}", batch / loop, "x", loop_target, batch=batch,
-                  loop=loop)  # fmt: skip
-        yield row(f"batch of {BATCH} / composer that recompiles: {name}", batch / recompiling, "x", recompile_target,
-                  batch=batch, recompiling=recompiling)  # fmt: skip
+        yield row(
+            f"batch of {BATCH} / loop over suite.load: {name}", batch / loop, "x", loop_target, batch=batch, loop=loop
+        )
+        yield row(
+            f"batch of {BATCH} / composer that recompiles: {name}",
+            batch / recompiling,
+            "x",
+            recompile_target,
+            batch=batch,
+            recompiling=recompiling,
+        )
         batch, bare = rates(random_batch(TASKS[name], only_interactions=True), bare_batch(name), seconds=3.0)
         yield row(f"batch / bare mujoco Batch.step: {name}", batch / bare, "x", bare_target, batch=batch, bare=bare)
 
@@ -182,8 +199,14 @@ def bare_batch(name: str) -> Callable[[], int]:
 def _training() -> Iterator[dict]:
     for name, target in (("heavier", 0.35), ("direct", 0.8), ("fist", 0.8)):
         trained, random = training_rate(TASKS[name], 20.0), rates(random_batch(TASKS[name]), seconds=2.0)[0]
-        yield row(f"training / random policy in the batch: {name}", trained / random, "x", target, training=trained,
-                  random=random)  # fmt: skip
+        yield row(
+            f"training / random policy in the batch: {name}",
+            trained / random,
+            "x",
+            target,
+            training=trained,
+            random=random,
+        )
 
 
 def training_rate(task: tuple[str, str], seconds: float) -> float:
@@ -241,5 +264,13 @@ def _distributed() -> Iterator[dict]:
     yield from bench_distributed.run()
 
 
-_SECTIONS = {"reset": _reset, "batch": _batch, "training": _training, "peers": _peers, "pixels": _pixels,
-             "pretrained": _pretrained, "replay": _replay, "distributed": _distributed}  # fmt: skip
+_SECTIONS = {
+    "reset": _reset,
+    "batch": _batch,
+    "training": _training,
+    "peers": _peers,
+    "pixels": _pixels,
+    "pretrained": _pretrained,
+    "replay": _replay,
+    "distributed": _distributed,
+}

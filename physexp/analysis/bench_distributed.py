@@ -29,18 +29,43 @@ def run() -> Iterator[dict]:
             ours.append(_measure(2)[0])
             theirs.append(bench.training_rate(_TASK, _SECONDS))
             ratios.append(ours[-1] / theirs[-1])
-        yield bench.row("2 workers on a cluster / 2 processes: heavier", statistics.median(ratios), "x", 0.7,
-                        cluster=statistics.median(ours), processes=statistics.median(theirs))  # fmt: skip
+        yield bench.row(
+            "2 workers on a cluster / 2 processes: heavier",
+            statistics.median(ratios),
+            "x",
+            0.7,
+            cluster=statistics.median(ours),
+            processes=statistics.median(theirs),
+        )
         rate, traffic, frames = _measure(1)
-        yield bench.row("a killed worker is back, with an update", statistics.median(_recovery() for _ in range(3)),
-                        "s", 5, at_most=True)  # fmt: skip
+        yield bench.row(
+            "a killed worker is back, with an update",
+            statistics.median(_recovery() for _ in range(3)),
+            "s",
+            5,
+            at_most=True,
+        )
         returns = [_final_return(on_cluster) for on_cluster in (True, False)]
-        yield bench.row("final return, 2 workers on a cluster / 2 processes: heavier", returns[0] / returns[1], "x",
-                        0.98, cluster=returns[0], processes=returns[1])  # fmt: skip
+        yield bench.row(
+            "final return, 2 workers on a cluster / 2 processes: heavier",
+            returns[0] / returns[1],
+            "x",
+            0.98,
+            cluster=returns[0],
+            processes=returns[1],
+        )
     seconds = traffic.busy_seconds / traffic.updates
     moved = (traffic.bytes_in + traffic.bytes_out) / traffic.updates
-    yield bench.row("parameter server, time for an update", 1e3 * seconds, "ms", 5, at_most=True, kilobytes=moved / 1e3,
-                    frames_per_update=frames, frames_per_second_of_a_worker=rate)  # fmt: skip
+    yield bench.row(
+        "parameter server, time for an update",
+        1e3 * seconds,
+        "ms",
+        5,
+        at_most=True,
+        kilobytes=moved / 1e3,
+        frames_per_update=frames,
+        frames_per_second_of_a_worker=rate,
+    )
     for workers in _WORKERS:
         limits = {"workers": workers * rate, "server": frames / seconds, "gigabit network": frames * _GIGABIT / moved}
         bound = min(limits, key=limits.__getitem__)

@@ -22,8 +22,14 @@ def run(results_dir: Path) -> Iterator[dict]:
         if conditions.observations(condition) == "features":
             yield from _reached(results, condition)
     seconds = [results.run(job.config).metrics()[-1]["seconds"] for job in features]
-    yield bench.row("training all agents of the experiments on features, two at a time", sum(seconds) / 2 / 3600, "h",
-                    HOURS, at_most=True, agents=len(seconds))  # fmt: skip
+    yield bench.row(
+        "training all agents of the experiments on features, two at a time",
+        sum(seconds) / 2 / 3600,
+        "h",
+        HOURS,
+        at_most=True,
+        agents=len(seconds),
+    )
     yield bench.timed("physexp report from stored data", ["report", "--results-dir", str(results_dir)], 60)
     yield bench.timed("physexp ideal which_is_heavier", ["ideal", "which_is_heavier", "--difficulty", "3"], 20)
 
@@ -34,8 +40,13 @@ def _reached(results: base.Results, condition) -> Iterator[dict]:
         "training_seed"
     )
     returns, success = agents.agent_return.mean().to_numpy(), agents.right.mean().to_numpy()
-    absolute = {"agents": len(returns), "worst_return": returns.min(), "best_return": returns.max(),
-                "right": success.mean(), "million_frames": condition.agent.frames / 1e6}  # fmt: skip
+    absolute = {
+        "agents": len(returns),
+        "worst_return": returns.min(),
+        "best_return": returns.max(),
+        "right": success.mean(),
+        "million_frames": condition.agent.frames / 1e6,
+    }
     reached = ideal_gap.median_of_top_half
     name = frame.condition.iloc[0]
     if condition.domain == "towers":
@@ -43,5 +54,10 @@ def _reached(results: base.Results, condition) -> Iterator[dict]:
         return
     best = ideal.solve(condition.difficulty, condition.agent.discount).value
     yield bench.row(f"return: {name}", reached(returns), "", RETURN[condition.difficulty], **absolute)
-    yield bench.row(f"return / ideal experimenter's: {name}", reached(returns) / best, "x",
-                    ideal_gap.LEAST[condition.difficulty], ideal=best)  # fmt: skip
+    yield bench.row(
+        f"return / ideal experimenter's: {name}",
+        reached(returns) / best,
+        "x",
+        ideal_gap.LEAST[condition.difficulty],
+        ideal=best,
+    )

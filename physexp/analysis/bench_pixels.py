@@ -14,8 +14,11 @@ from dm_control import composer, mjcf  # isort: skip
 import mujoco  # isort: skip
 
 BATCH = 64
-TASKS = {"heavier": ("which_is_heavier", "pixels"), "direct": ("towers", "direct_pixels"),
-         "fist": ("towers", "fist_pixels")}  # fmt: skip
+TASKS = {
+    "heavier": ("which_is_heavier", "pixels"),
+    "direct": ("towers", "direct_pixels"),
+    "fist": ("towers", "fist_pixels"),
+}
 _ROUND_STEPS = 6
 _SECONDS = 20.0  # Of training, or of the bare network, for one rate.
 
@@ -24,17 +27,30 @@ def rendering_figures() -> Iterator[dict]:
     """Frames per second of a batch, against what MuJoCo needs to draw the same scene, and a composer scene."""
     for name in TASKS:
         drawn, bare = bench.rates(_batch_drawing(name), bare_rendering(name))
-        yield bench.row(f"batched drawing / bare mjr_render and mjr_readPixels: {name}", drawn / bare, "x", 0.85,
-                        batched=drawn, bare=bare)  # fmt: skip
+        yield bench.row(
+            f"batched drawing / bare mjr_render and mjr_readPixels: {name}",
+            drawn / bare,
+            "x",
+            0.85,
+            batched=drawn,
+            bare=bare,
+        )
     ours, theirs = bench.rates(bare_rendering("direct"), composer_rendering())
-    yield bench.row("a frame of our scene / of composer's default arena: direct", ours / theirs, "x cheaper", 20,
-                    our_microseconds=1e6 / ours, composer_microseconds=1e6 / theirs)  # fmt: skip
+    yield bench.row(
+        "a frame of our scene / of composer's default arena: direct",
+        ours / theirs,
+        "x cheaper",
+        20,
+        our_microseconds=1e6 / ours,
+        composer_microseconds=1e6 / theirs,
+    )
     for name, task in TASKS.items():
         environment = suite.load(*task, task_kwargs={"random": 0})
         batch, loop = bench.rates(bench.random_batch(task, BATCH), bench.random_loop(environment))
         environment.close()
-        yield bench.row(f"pixel batch of {BATCH} / loop over suite.load: {name}", batch / loop, "x", 10, batch=batch,
-                        loop=loop)  # fmt: skip
+        yield bench.row(
+            f"pixel batch of {BATCH} / loop over suite.load: {name}", batch / loop, "x", 10, batch=batch, loop=loop
+        )
 
 
 def training_figures() -> Iterator[dict]:
@@ -42,8 +58,14 @@ def training_figures() -> Iterator[dict]:
     for name in ("fist", "heavier"):
         trained = bench.training_rate(TASKS[name], _SECONDS)
         bare = bare_network_rate(TASKS[name])
-        yield bench.row(f"pixel training / bare network acting and training: {name}", trained / bare, "x", 0.7,
-                        training=trained, bare=bare)  # fmt: skip
+        yield bench.row(
+            f"pixel training / bare network acting and training: {name}",
+            trained / bare,
+            "x",
+            0.7,
+            training=trained,
+            bare=bare,
+        )
 
 
 def _batch_drawing(name: str) -> Callable[[], int]:

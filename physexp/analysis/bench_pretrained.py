@@ -31,6 +31,14 @@ def run() -> Iterator[dict]:
             for greedy in (False, True)
         )
         name = pretrained.name(domain, task, difficulty)
-        yield bench.row(f"{figure}: {name}", drawn[figure], "", target, greedy=greedy[figure],
-                        right=drawn["success_rate"], interactions=drawn["mean_interactions"],
-                        million_frames=agent.card["frames"] / 1e6, minutes=agent.card["seconds"] / 60)  # fmt: skip
+        yield bench.row(
+            f"{figure}: {name}",
+            drawn[figure],
+            "",
+            target,
+            greedy=greedy[figure],
+            right=drawn["success_rate"],
+            interactions=drawn["mean_interactions"],
+            million_frames=agent.card["frames"] / 1e6,
+            minutes=agent.card["seconds"] / 60,
+        )

@@ -42,8 +42,15 @@ def _recording(name: str, task: tuple[str, str]) -> dict:
             seconds[pair, side] = time.process_time() - start
     plain, recorded = seconds.sum(axis=0).tolist()
     added = float(np.median(seconds[:, 1] / seconds[:, 0])) - 1
-    return bench.row(f"what recording adds to evaluation: {name}", added, "", 0.03, at_most=True,
-                     recorded_seconds=recorded, plain_seconds=plain)  # fmt: skip
+    return bench.row(
+        f"what recording adds to evaluation: {name}",
+        added,
+        "",
+        0.03,
+        at_most=True,
+        recorded_seconds=recorded,
+        plain_seconds=plain,
+    )
 
 
 def _replay_in_training(name: str, task: tuple[str, str]) -> dict:
@@ -59,5 +66,12 @@ def _replay_in_training(name: str, task: tuple[str, str]) -> dict:
             seconds.append(time.process_time() - start)
     steps = config_lib.REPLAY_EVERY
     training = bench.THREADS * steps / bench.training_rate(task, 10.0)
-    return bench.row(f"a replay / training for {steps:,} steps: {name}", seconds[-1] / training, "", 0.02,
-                     at_most=True, replay_seconds=seconds[-1], training_seconds=training)  # fmt: skip
+    return bench.row(
+        f"a replay / training for {steps:,} steps: {name}",
+        seconds[-1] / training,
+        "",
+        0.02,
+        at_most=True,
+        replay_seconds=seconds[-1],
+        training_seconds=training,
+    )

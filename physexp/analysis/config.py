@@ -21,16 +21,35 @@ ALGORITHMS: dict[str, type[agent_config.AgentConfig]] = {
 DISCOUNT = {"which_is_heavier": 0.95, "towers": 0.98}
 """The agents' gamma in each domain."""
 
-_HEAVIER = a3c.A3CConfig(discount=DISCOUNT["which_is_heavier"], envs_per_worker=128, trace=0.98,
-                         observation_scale=80.0)  # fmt: skip
+_HEAVIER = a3c.A3CConfig(discount=DISCOUNT["which_is_heavier"], envs_per_worker=128, trace=0.98, observation_scale=80.0)
 # Simulation is what a tower costs, not learning: smaller updates and more of them. Blocks move by their own size.
-_TOWERS = a3c.A3CConfig(discount=DISCOUNT["towers"], envs_per_worker=32, learning_rate=3e-3, trace=0.5,
-                        entropy_cost=0.01, final_entropy_cost=0.001, observation_scale=10.0)  # fmt: skip
+_TOWERS = a3c.A3CConfig(
+    discount=DISCOUNT["towers"],
+    envs_per_worker=32,
+    learning_rate=3e-3,
+    trace=0.5,
+    entropy_cost=0.01,
+    final_entropy_cost=0.001,
+    observation_scale=10.0,
+)
 # Every frame passes the convolutions, which is what pixels cost: small updates, and no frame more than is needed.
-_HEAVIER_PIXELS = a3c.A3CConfig(discount=DISCOUNT["which_is_heavier"], frames=500_000, envs_per_worker=64,
-                                learning_rate=1e-3, trace=0.9, observation_scale=8.0)  # fmt: skip
-_TOWERS_PIXELS = a3c.A3CConfig(discount=DISCOUNT["towers"], envs_per_worker=32, learning_rate=1e-3, trace=0.5,
-                               entropy_cost=0.01, final_entropy_cost=0.001, observation_scale=16.0)  # fmt: skip
+_HEAVIER_PIXELS = a3c.A3CConfig(
+    discount=DISCOUNT["which_is_heavier"],
+    frames=500_000,
+    envs_per_worker=64,
+    learning_rate=1e-3,
+    trace=0.9,
+    observation_scale=8.0,
+)
+_TOWERS_PIXELS = a3c.A3CConfig(
+    discount=DISCOUNT["towers"],
+    envs_per_worker=32,
+    learning_rate=1e-3,
+    trace=0.5,
+    entropy_cost=0.01,
+    final_entropy_cost=0.001,
+    observation_scale=16.0,
+)
 
 
 def _prior(num_interactions: int, label: float) -> tuple[float, ...]:

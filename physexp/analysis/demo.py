@@ -40,7 +40,9 @@ def run(folder: Path) -> None:
     for interaction in evaluation.INTERACTIONS:
         figures = evaluation.evaluate(demo, EPISODES, interaction).summary(wanted.agent.discount)
         half = (figures["success_interval"][1] - figures["success_interval"][0]) / 2
-        print(f"{interaction:14} {figures['success_rate']:8.1%} +-{half:5.1%} {figures['mean_interactions']:8.2f} "
-              f"{figures['mean_return']:8.3f}")  # fmt: skip
+        print(
+            f"{interaction:14} {figures['success_rate']:8.1%} +-{half:5.1%} {figures['mean_interactions']:8.2f} "
+            f"{figures['mean_return']:8.3f}"
+        )
     print(f"\nlearning curve: {curves.draw(demo, folder / 'learning_curve.png')}")
     print(f"the run:        {folder}   (physexp evaluate {folder} --greedy)")

@@ -112,11 +112,16 @@ def _hardware(facts: dict) -> Iterator[dict]:
 
     backend, renderer = facts["gl_backend"], facts["gl_renderer"]
     if renderer.startswith("none"):
-        yield _check("OpenGL", renderer, MISSING,
-                     f"features need none; for pixels, install {rendering.DEBIAN_PACKAGES}")  # fmt: skip
+        yield _check(
+            "OpenGL", renderer, MISSING, f"features need none; for pixels, install {rendering.DEBIAN_PACKAGES}"
+        )
     elif rendering.is_software(renderer) and rendering.gpu_is_present():
-        yield _check("OpenGL", f"{backend}: {renderer}", MISSING,
-                     "pixels are drawn by the processor: install the GPU's EGL driver")  # fmt: skip
+        yield _check(
+            "OpenGL",
+            f"{backend}: {renderer}",
+            MISSING,
+            "pixels are drawn by the processor: install the GPU's EGL driver",
+        )
     else:
         yield _check("OpenGL", f"{backend}: {renderer}")
     if facts["gpu"] == "none" and rendering.gpu_is_present():

@@ -106,8 +106,9 @@ def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
     return network.eval()
 
 
-def find_agent(target: str, difficulty: float | None = None
-               ) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:  # fmt: skip
+def find_agent(
+    target: str, difficulty: float | None = None
+) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
     """A trained agent's network, and what it plays.
 
     Args:
@@ -125,8 +126,10 @@ def find_agent(target: str, difficulty: float | None = None
             agent = pretrained.load_named(target)
             _check_difficulty(target, config_of(agent), difficulty)
             return _with_config(agent)
-        raise ValueError(f"{target} holds no run (no config.json); give the folder of a run or a trained agent: "
-                         f"{', '.join(pretrained.names())}")  # fmt: skip
+        raise ValueError(
+            f"{target} holds no run (no config.json); give the folder of a run or a trained agent: "
+            f"{', '.join(pretrained.names())}"
+        )
     run = run_lib.Run(Path(target))
     _check_difficulty(target, run.config, difficulty)
     return load_network(run), run.config
@@ -159,8 +162,11 @@ def network_facts(config: config_lib.TrainConfig) -> dict[str, Any]:
     }
     num_actions = environment.action_spec().num_values
     environment.close()
-    return {"observations": observations, "num_actions": num_actions,
-            "hyperparameters": agent_lib.hyperparameters(config.agent)}  # fmt: skip
+    return {
+        "observations": observations,
+        "num_actions": num_actions,
+        "hyperparameters": agent_lib.hyperparameters(config.agent),
+    }
 
 
 def config_of(agent: pretrained.Pretrained) -> config_lib.TrainConfig:
@@ -170,22 +176,38 @@ def config_of(agent: pretrained.Pretrained) -> config_lib.TrainConfig:
       ValueError: if its card does not say so.
     """
     try:
-        return config_lib.TrainConfig.from_json({name: agent.card[name] for name in ("domain", "task", "difficulty",
-                                                                                     "agent")})  # fmt: skip
+        return config_lib.TrainConfig.from_json(
+            {name: agent.card[name] for name in ("domain", "task", "difficulty", "agent")}
+        )
     except (KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"an agent's card is not what was written: {error!r}; publish the agent again") from None
 
 
-def evaluate(run: run_lib.Run, num_episodes: int, interaction: str = "learned", greedy: bool = False,
-             seed: int = SEED, num_threads: int = 2, device: str = "auto") -> Episodes:  # fmt: skip
+def evaluate(
+    run: run_lib.Run,
+    num_episodes: int,
+    interaction: str = "learned",
+    greedy: bool = False,
+    seed: int = SEED,
+    num_threads: int = 2,
+    device: str = "auto",
+) -> Episodes:
     """Plays episodes with the agent of a run that has a checkpoint; otherwise as `play`."""
     return play(load_network(run), run.config, num_episodes, interaction, greedy, seed, num_threads, device)
 
 
-def play(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig, num_episodes: int,
-         interaction: str = "learned", greedy: bool = False, seed: int = SEED, num_threads: int = 2,
-         device: str = "auto", num_steps: int = 0,
-         report: Callable[[int], None] | None = None) -> Episodes:  # fmt: skip
+def play(
+    network: networks.RecurrentActorCritic,
+    config: config_lib.TrainConfig,
+    num_episodes: int,
+    interaction: str = "learned",
+    greedy: bool = False,
+    seed: int = SEED,
+    num_threads: int = 2,
+    device: str = "auto",
+    num_steps: int = 0,
+    report: Callable[[int], None] | None = None,
+) -> Episodes:
     """Plays episodes with a network.
 
     Args:
@@ -210,8 +232,9 @@ def play(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig,
         raise ValueError(f"episodes is {num_episodes}; give a number >= 1")
     torch.set_num_threads(1)
     network.to(devices.choose(device, network.sees_images))
-    environment = training.make_environment(config, seed, _BATCH if num_steps else min(num_episodes, _BATCH),
-                                            num_threads)  # fmt: skip
+    environment = training.make_environment(
+        config, seed, _BATCH if num_steps else min(num_episodes, _BATCH), num_threads
+    )
     num_interactions = environment.task.num_interactions
     action_override = functools.partial(randomize, num_interactions) if interaction == "random" else None
     rounds: list[Episodes] = []

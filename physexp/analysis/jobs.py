@@ -25,8 +25,14 @@ class Processes:
     A job that is asked to end gets stopping.Interrupted, or a call where it has an Interruption.
     """
 
-    def __init__(self, work: Callable, num_processes: int, report: Callable[[str], None],
-                 silent_seconds: float = 60.0, stop_seconds: float = 300.0):  # fmt: skip
+    def __init__(
+        self,
+        work: Callable,
+        num_processes: int,
+        report: Callable[[str], None],
+        silent_seconds: float = 60.0,
+        stop_seconds: float = 300.0,
+    ):
         """Starts nothing yet.
 
         Args:

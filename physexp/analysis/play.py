@@ -36,8 +36,15 @@ class Score:
         return f"{self.right} of {self.episodes} right, mean return {self.total / max(1, self.episodes):.3f}"
 
 
-def play(domain: str, task: str, difficulty: float | None = None, seed: int | None = None, view: bool = False,
-         read: Callable[[str], str] = input, show: Callable[[str], None] = print) -> dict[str, Score]:  # fmt: skip
+def play(
+    domain: str,
+    task: str,
+    difficulty: float | None = None,
+    seed: int | None = None,
+    view: bool = False,
+    read: Callable[[str], str] = input,
+    show: Callable[[str], None] = print,
+) -> dict[str, Score]:
     """Plays until the player quits.
 
     Args:
@@ -80,8 +87,9 @@ def _viewers(environment: suite.Environment, domain, task, kwargs) -> list[envir
     return [recorder, live.Live(recorder, viewing.Viewer())]
 
 
-def _others(environment: suite.Environment, domain: str, task: str, difficulty: float | None,
-            show) -> tuple[dict[str, core.Actor], float]:  # fmt: skip
+def _others(
+    environment: suite.Environment, domain: str, task: str, difficulty: float | None, show
+) -> tuple[dict[str, core.Actor], float]:
     """The players to compare with, and the discount that the trained one knows."""
     others: dict[str, core.Actor] = {}
     discount = config.DISCOUNT[domain]
@@ -104,9 +112,20 @@ def _rules(environment: suite.Environment) -> str:
     """The question, and how to find out and to answer."""
     task = environment.task
     actions = [f"{number:3}  {name}" for number, name in enumerate(task.action_names)]
-    return "\n".join([task.question, "", terminal.legend(environment.observation_spec()), "",
-                      "Every interaction costs time; the answer ends the episode. Type a number:", "", *actions,
-                      f"  {_HELP}  show this again", f"  {_QUIT}  quit", ""])  # fmt: skip
+    return "\n".join(
+        [
+            task.question,
+            "",
+            terminal.legend(environment.observation_spec()),
+            "",
+            "Every interaction costs time; the answer ends the episode. Type a number:",
+            "",
+            *actions,
+            f"  {_HELP}  show this again",
+            f"  {_QUIT}  quit",
+            "",
+        ]
+    )
 
 
 def _play_episode(environment: suite.Environment, rules: str, observers, read, show) -> tuple[int, float] | None:

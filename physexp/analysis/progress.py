@@ -61,8 +61,11 @@ class Progress:
             self._live.update(grid, refresh=True)
         elif time.monotonic() - self._printed > _LINE_SECONDS or row["frames"] >= self._config.agent.frames:
             self._printed = time.monotonic()
-            print("  ".join(f"{name.replace('_', ' ')} {value}" for name, value in cells.items()), file=self._file,
-                  flush=True)  # fmt: skip
+            print(
+                "  ".join(f"{name.replace('_', ' ')} {value}" for name, value in cells.items()),
+                file=self._file,
+                flush=True,
+            )
 
 
 @contextlib.contextmanager
@@ -73,8 +76,12 @@ def bar(name: str, total: int, file=None) -> Iterator[Callable[[int], None]]:
     """
     from rich import console, progress
 
-    columns = (progress.TextColumn("{task.description}"), progress.BarColumn(), progress.MofNCompleteColumn(),
-               progress.TimeRemainingColumn())  # fmt: skip
+    columns = (
+        progress.TextColumn("{task.description}"),
+        progress.BarColumn(),
+        progress.MofNCompleteColumn(),
+        progress.TimeRemainingColumn(),
+    )
     terminal = console.Console(file=file or sys.stderr)
     with progress.Progress(*columns, console=terminal, transient=True, disable=not terminal.is_terminal) as shown:
         task = shown.add_task(name, total=total)

@@ -40,8 +40,9 @@ _VARIED = ["masses.list.element", "mass_gap"]
 _REPEATED = ["actions.list.element", *(name for name in SCHEMA.names if name not in ("masses", "mass_gap"))]
 
 
-def table(played: evaluation.Episodes, config: config_lib.TrainConfig, interaction: str,
-          control_timestep: float) -> pyarrow.Table:  # fmt: skip
+def table(
+    played: evaluation.Episodes, config: config_lib.TrainConfig, interaction: str, control_timestep: float
+) -> pyarrow.Table:
     """The rows of some episodes, as `SCHEMA` has them; `config` is of the agent that played them."""
     count = len(played.lengths)
     is_masses = played.hidden.ndim == 2
@@ -74,8 +75,9 @@ def write(path: Path, rows: pyarrow.Table) -> None:
     """Writes rows and the commit that made them; there is the whole file or none."""
     path.parent.mkdir(parents=True, exist_ok=True)
     stamped = rows.replace_schema_metadata({"commit": run_lib.commit()})
-    tables.write(path, stamped, compression="zstd", compression_level=9, use_dictionary=_REPEATED,
-                 use_byte_stream_split=_VARIED)  # fmt: skip
+    tables.write(
+        path, stamped, compression="zstd", compression_level=9, use_dictionary=_REPEATED, use_byte_stream_split=_VARIED
+    )
 
 
 def read(paths: list[Path], columns: list[str] | None = None):

@@ -55,8 +55,10 @@ def _provenance(results: base.Results) -> list[str]:
         commit = run_lib.Run(folder).facts.get("commit", "unknown")[:10]
         counts[commit] = counts.get(commit, 0) + 1
     made = ", ".join(f"{number} by {commit}" for commit, number in counts.items())
-    return [f"Agents: {sum(counts.values())}, trained by the source of these commits: {made}.",
-            f"Figures and verdicts: made by {run_lib.commit()[:11]}."]  # fmt: skip
+    return [
+        f"Agents: {sum(counts.values())}, trained by the source of these commits: {made}.",
+        f"Figures and verdicts: made by {run_lib.commit()[:11]}.",
+    ]
 
 
 def _tally(sections) -> str:
@@ -72,8 +74,16 @@ def _row(claim: claims_lib.Claim) -> tuple[str, ...]:
     """Returns a claim under `_HEADER`."""
     estimate = claim.estimate
     interval = f"{_number(estimate.low)} to {_number(estimate.high)}"
-    return (claim.text, claim.section, conditions.spelled_out(claim.condition), claim.statistic,
-            _number(estimate.value), interval, claim.wanted, claim.verdict)  # fmt: skip
+    return (
+        claim.text,
+        claim.section,
+        conditions.spelled_out(claim.condition),
+        claim.statistic,
+        _number(estimate.value),
+        interval,
+        claim.wanted,
+        claim.verdict,
+    )
 
 
 _OPEN_HEADER = ("verdict", "claim", "condition", "95 % interval", "wanted", "experiment")
@@ -116,13 +126,23 @@ def _markdown(sections, missing, results) -> str:
     lines = ["# Results", "", _INTRODUCTION, "", *_provenance(results), "", f"Verdicts: {_tally(sections)}.", ""]
     if _open(sections):
         lines += [f"## {_OPEN_TITLE}", "", *_table(_OPEN_HEADER)]
-        lines += [f"| **{verdict}** | " + " | ".join(row) + f" | [{experiment.name}](#{_anchor(experiment)}) |"
-                  for (verdict, *row), experiment in _open(sections)]  # fmt: skip
+        lines += [
+            f"| **{verdict}** | " + " | ".join(row) + f" | [{experiment.name}](#{_anchor(experiment)}) |"
+            for (verdict, *row), experiment in _open(sections)
+        ]
         lines += [""]
     for experiment, found in sections:
-        lines += [f'<a id="{_anchor(experiment)}"></a>', "", f"## {experiment.title} ({experiment.section})", "",
-                  f"![{experiment.title}](figures/{experiment.name}.png)", "", experiment.caption, "",
-                  *_table(_HEADER)]  # fmt: skip
+        lines += [
+            f'<a id="{_anchor(experiment)}"></a>',
+            "",
+            f"## {experiment.title} ({experiment.section})",
+            "",
+            f"![{experiment.title}](figures/{experiment.name}.png)",
+            "",
+            experiment.caption,
+            "",
+            *_table(_HEADER),
+        ]
         lines += ["| " + " | ".join(row[:-1]) + f" | **{row[-1]}** |" for row in map(_row, found)]
         lines += [""] + [text for reason in _reasons(found) for text in (reason, "")]
     lines += [text for line in missing for text in (f"Left out: {line}", "")]
@@ -134,22 +154,26 @@ def _head(header: tuple[str, ...]) -> str:
 
 
 def _page(sections, missing, results) -> str:
-    parts = [f"<p>{html.escape(text).replace('*', '')}</p>" for text in
-             (_INTRODUCTION, *_provenance(results), f"Verdicts: {_tally(sections)}.")]  # fmt: skip
+    parts = [
+        f"<p>{html.escape(text).replace('*', '')}</p>"
+        for text in (_INTRODUCTION, *_provenance(results), f"Verdicts: {_tally(sections)}.")
+    ]
     if _open(sections):
         body = "".join(
-            f'<tr><td class="{verdict}">{verdict}</td>' + "".join(f"<td>{html.escape(cell)}</td>" for cell in row)
+            f'<tr><td class="{verdict}">{verdict}</td>'
+            + "".join(f"<td>{html.escape(cell)}</td>" for cell in row)
             + f'<td><a href="#{_anchor(experiment)}">{experiment.name}</a></td></tr>'
             for (verdict, *row), experiment in _open(sections)
-        )  # fmt: skip
+        )
         parts.append(f"<h2>{_OPEN_TITLE}</h2><table>{_head(_OPEN_HEADER)}{body}</table>")
     for experiment, found in sections:
         image = base64.b64encode((results.path / "figures" / f"{experiment.name}.svg").read_bytes()).decode()
         body = "".join(
-            "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row[:-1])
+            "<tr>"
+            + "".join(f"<td>{html.escape(cell)}</td>" for cell in row[:-1])
             + f'<td class="{row[-1]}">{row[-1]}</td></tr>'
             for row in map(_row, found)
-        )  # fmt: skip
+        )
         parts.append(
             f'<h2 id="{_anchor(experiment)}">{html.escape(experiment.title)} '
             f"<small>{html.escape(experiment.section)}</small></h2>"

@@ -22,10 +22,17 @@ def choose(name: str) -> list[base.Experiment]:
     return [EXPERIMENTS[name]]
 
 
-def run(experiments: Sequence[base.Experiment], results: base.Results, *, observations: Sequence[str],
-        num_seeds: int | None = None, num_processes: int | None = None, frames: int | None = None,
-        submit: Callable[[sweep.Job], futures.Future] | None = None,
-        report: Callable[[str], None]) -> None:  # fmt: skip
+def run(
+    experiments: Sequence[base.Experiment],
+    results: base.Results,
+    *,
+    observations: Sequence[str],
+    num_seeds: int | None = None,
+    num_processes: int | None = None,
+    frames: int | None = None,
+    submit: Callable[[sweep.Job], futures.Future] | None = None,
+    report: Callable[[str], None],
+) -> None:
     """Does everything for some experiments that is not done yet.
 
     Args:
@@ -55,5 +62,7 @@ def run(experiments: Sequence[base.Experiment], results: base.Results, *, observ
             report(str(path))
         for claim in experiment.claims(frame):
             estimate = claim.estimate
-            report(f"{claim.verdict:9}  {claim.text} ({claim.condition}): {estimate.value:.3g}, 95 % interval "
-                   f"{estimate.low:.3g} to {estimate.high:.3g}, wanted {claim.wanted}")  # fmt: skip
+            report(
+                f"{claim.verdict:9}  {claim.text} ({claim.condition}): {estimate.value:.3g}, 95 % interval "
+                f"{estimate.low:.3g} to {estimate.high:.3g}, wanted {claim.wanted}"
+            )

@@ -156,8 +156,13 @@ class Run:
         with self.locked():
             self.check_new()
             moved = self.set_aside()
-            content = {"format": FORMAT, "train": config.to_json(), "versions": versions(), "commit": commit(),
-                       "renderer": renderer(config)}  # fmt: skip
+            content = {
+                "format": FORMAT,
+                "train": config.to_json(),
+                "versions": versions(),
+                "commit": commit(),
+                "renderer": renderer(config),
+            }
             files.write_atomically(self.path / "config.json", (json.dumps(content, indent=1) + "\n").encode())
         return moved
 

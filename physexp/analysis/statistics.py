@@ -122,8 +122,15 @@ def bootstrap(
     values = np.asarray(values, float)
     if len(values) < 2:
         return Estimate(statistic(values), -math.inf, math.inf)
-    drawn = stats.bootstrap((values,), statistic, vectorized=False, method="percentile", n_resamples=2000,
-                            confidence_level=_LEVEL, rng=np.random.default_rng(seed))  # fmt: skip
+    drawn = stats.bootstrap(
+        (values,),
+        statistic,
+        vectorized=False,
+        method="percentile",
+        n_resamples=2000,
+        confidence_level=_LEVEL,
+        rng=np.random.default_rng(seed),
+    )
     return Estimate(statistic(values), float(drawn.confidence_interval.low), float(drawn.confidence_interval.high))
 
 

@@ -29,8 +29,12 @@ class Job:
     trials: tuple[base.Trial, ...]
 
 
-def jobs(experiments: Sequence[base.Experiment], observations: Sequence[str], num_seeds: Callable[[str], int],
-         frames: int | None = None) -> list[Job]:  # fmt: skip
+def jobs(
+    experiments: Sequence[base.Experiment],
+    observations: Sequence[str],
+    num_seeds: Callable[[str], int],
+    frames: int | None = None,
+) -> list[Job]:
     """The agents that experiments need, each once, the first seed of all before the second of any.
 
     Args:
@@ -57,8 +61,13 @@ def num_cores() -> int:
     return len(os.sched_getaffinity(0))
 
 
-def run(wanted: Sequence[Job], results: base.Results, num_processes: int, report: Callable[[str], None],
-        submit: Callable[[Job], futures.Future] | None = None) -> None:  # fmt: skip
+def run(
+    wanted: Sequence[Job],
+    results: base.Results,
+    num_processes: int,
+    report: Callable[[str], None],
+    submit: Callable[[Job], futures.Future] | None = None,
+) -> None:
     """Does what is not done yet.
 
     Args:
@@ -119,11 +128,14 @@ def _check(job: Job, results: base.Results) -> None:
     run_of_job = results.run(job.config)
     if (run_of_job.path / "config.json").exists():
         if run_of_job.config != job.config:
-            raise ValueError(f"{run_of_job.path} was made with another configuration; move it away or choose another "
-                             "--results-dir")  # fmt: skip
+            raise ValueError(
+                f"{run_of_job.path} was made with another configuration; move it away or choose another --results-dir"
+            )
     elif played := results.all_episodes(job.config):
-        raise ValueError(f"{', '.join(map(str, played))}: the run that played this is gone; move it away or choose "
-                         "another --results-dir")  # fmt: skip
+        raise ValueError(
+            f"{', '.join(map(str, played))}: the run that played this is gone; move it away or choose "
+            "another --results-dir"
+        )
 
 
 def _is_done(job: Job, results: base.Results) -> bool:
@@ -166,9 +178,13 @@ def _play(this: run_lib.Run, trial: base.Trial):
     config = this.config
     timestep = trial.control_timestep or config.control_timestep
     played = evaluation.play(
-        evaluation.load_network(this), dataclasses.replace(config, control_timestep=timestep), trial.num_episodes,
-        trial.interaction, num_threads=1, num_steps=trial.num_steps,
-    )  # fmt: skip
+        evaluation.load_network(this),
+        dataclasses.replace(config, control_timestep=timestep),
+        trial.num_episodes,
+        trial.interaction,
+        num_threads=1,
+        num_steps=trial.num_steps,
+    )
     return records.table(played, config, trial.interaction, timestep or task.Options.control_timestep)
 
 

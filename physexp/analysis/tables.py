@@ -56,9 +56,13 @@ def read(path: Path, schema: pyarrow.Schema, columns: Sequence[str] | None = Non
     content = files.read_plain(path, _MOST_BYTES)
     try:
         _check_sum(content)
-        with parquet.ParquetFile(pyarrow.BufferReader(content), page_checksum_verification=True, pre_buffer=False,
-                                 thrift_string_size_limit=_LONGEST,
-                                 thrift_container_size_limit=_LONGEST) as file:  # fmt: skip
+        with parquet.ParquetFile(
+            pyarrow.BufferReader(content),
+            page_checksum_verification=True,
+            pre_buffer=False,
+            thrift_string_size_limit=_LONGEST,
+            thrift_container_size_limit=_LONGEST,
+        ) as file:
             _check_size(file.metadata)
             _check_schema(file.schema_arrow, schema)
             return file.read(None if columns is None else list(columns), use_threads=False)

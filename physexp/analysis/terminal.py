@@ -31,8 +31,10 @@ def drawing(observation: Mapping[str, np.ndarray], columns: int = 80, lines: int
         return _image(observation["pixels"], columns, lines)
     if "heights" in observation:
         room = max(1, min(40, columns - 18))
-        return "\n".join(f"block {k} {'#' * round(100 * height * room / 40):{room}} {100 * height:5.1f} cm"
-                         for k, height in enumerate(observation["heights"]))  # fmt: skip
+        return "\n".join(
+            f"block {k} {'#' * round(100 * height * room / 40):{room}} {100 * height:5.1f} cm"
+            for k, height in enumerate(observation["heights"])
+        )
     return _side(observation, max(12, min(_WIDTH, columns)), max(6, min(_HEIGHT, lines - _OTHER_LINES)))
 
 

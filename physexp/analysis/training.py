@@ -56,12 +56,15 @@ def check(config: config_lib.TrainConfig, on_cluster: bool = False) -> None:
     cores = os.cpu_count() or 1
     most = _WORKERS_PER_CORE * cores
     if not on_cluster and config.agent.num_workers > most:
-        raise ValueError(f"num_workers is {config.agent.num_workers}; this machine has {cores} cores: give at most "
-                         f"{most}, or train on a cluster")  # fmt: skip
+        raise ValueError(
+            f"num_workers is {config.agent.num_workers}; this machine has {cores} cores: give at most "
+            f"{most}, or train on a cluster"
+        )
 
 
-def make_agent(config: config_lib.TrainConfig, on_cluster: bool = False,
-               tell: Callable[[str], None] = lambda line: None) -> agent_lib.Agent:  # fmt: skip
+def make_agent(
+    config: config_lib.TrainConfig, on_cluster: bool = False, tell: Callable[[str], None] = lambda line: None
+) -> agent_lib.Agent:
     """The agent of a run, as it is before training.
 
     Args:
@@ -83,9 +86,13 @@ def make_agent(config: config_lib.TrainConfig, on_cluster: bool = False,
             raise TypeError(f"no agent has a {type(config.agent).__name__}")
 
 
-def train(run: run_lib.Run, report: Callable[[dict], None] = lambda row: None, on_cluster: bool = False,
-          tell: Callable[[str], None] = lambda line: None,
-          start: config_lib.TrainConfig | None = None) -> None:  # fmt: skip
+def train(
+    run: run_lib.Run,
+    report: Callable[[dict], None] = lambda row: None,
+    on_cluster: bool = False,
+    tell: Callable[[str], None] = lambda line: None,
+    start: config_lib.TrainConfig | None = None,
+) -> None:
     """Trains an agent, and keeps the run's folder locked meanwhile.
 
     Ctrl-C, SIGTERM or SIGHUP finishes the update and writes a checkpoint; a second one leaves at once. A start
@@ -177,8 +184,13 @@ class _Recorder:
     was killed and resumed have no gap, and nothing twice.
     """
 
-    def __init__(self, run: run_lib.Run, config: config_lib.TrainConfig, report: Callable[[dict], None],
-                 tell: Callable[[str], None]):  # fmt: skip
+    def __init__(
+        self,
+        run: run_lib.Run,
+        config: config_lib.TrainConfig,
+        report: Callable[[dict], None],
+        tell: Callable[[str], None],
+    ):
         self._run, self._config, self._report, self._tell = run, config, report, tell
         self._num_interactions = suite.load_task(config.domain, config.task, config.task_kwargs).num_interactions
         self._start_over()
@@ -282,8 +294,12 @@ class _Recorder:
             self._records = []
         if self._config.replay_every and self._frames - self._replayed >= self._config.replay_every:
             self._write_replay(tensors)
-        facts = {"task": self._config.task_name, "episodes": self._episodes, "seconds": self._elapsed(),
-                 "versions": run_lib.versions()}  # fmt: skip
+        facts = {
+            "task": self._config.task_name,
+            "episodes": self._episodes,
+            "seconds": self._elapsed(),
+            "versions": run_lib.versions(),
+        }
         self._run.check_lock()  # Once more: a replay takes seconds.
         self._run.checkpointer.save(tensors, facts)
         self._checkpointed = time.monotonic()
@@ -308,8 +324,7 @@ class _Recorder:
     def _write_row(self) -> None:
         self._run.check_lock()
         now = time.monotonic()
-        row = {"frames": self._frames, "updates": self._updates, "episodes": self._episodes,
-               "seconds": self._elapsed()}  # fmt: skip
+        row = {"frames": self._frames, "updates": self._updates, "episodes": self._episodes, "seconds": self._elapsed()}
         row["frames_per_second"] = (self._frames - self._frames_at_row) / max(1e-3, now - self._row_started)
         row.update(self._summary())
         self._run.append_metrics(row)

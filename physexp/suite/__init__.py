@@ -14,8 +14,16 @@ from physexp.suite.batch import BatchEnvironment  # noqa: E402
 from physexp.suite.environment import Environment  # noqa: E402
 from physexp.suite.seeding import environment_seed  # noqa: E402
 
-__all__ = ["ALL_TASKS", "TASKS_BY_DOMAIN", "BatchEnvironment", "Environment", "environment_seed", "load",
-           "load_batch", "load_task"]  # fmt: skip
+__all__ = [
+    "ALL_TASKS",
+    "TASKS_BY_DOMAIN",
+    "BatchEnvironment",
+    "Environment",
+    "environment_seed",
+    "load",
+    "load_batch",
+    "load_task",
+]
 
 _DOMAINS = {"which_is_heavier": which_is_heavier, "towers": towers}
 

@@ -36,15 +36,40 @@ class Laboratory(composer.Arena):
         root.visual.map.set_attributes(znear=0.01, zfar=50)
         root.visual.quality.set_attributes(shadowsize=0, offsamples=0, numslices=8, numstacks=8, numquads=1)
         world = root.worldbody
-        world.add("light", name="lamp", directional=True, castshadow=False, pos=[0, 0, 3], dir=[-0.3, 0.5, -0.8],
-                  diffuse=[0.5] * 3, specular=[0.0] * 3)  # fmt: skip
-        self.floor = world.add("geom", name="floor", type="box", size=[FLOOR_HALF_SIZE, FLOOR_HALF_SIZE, 0.01],
-                               pos=[0, 0, -0.015], rgba=FLOOR_RGBA, contype=0, conaffinity=0)  # fmt: skip
-        world.add("geom", name="mat", type="box", size=[*mat_size, 0.001], pos=[0, 0, 0], rgba=MAT_RGBA,
-                  contype=0, conaffinity=0)  # fmt: skip
+        world.add(
+            "light",
+            name="lamp",
+            directional=True,
+            castshadow=False,
+            pos=[0, 0, 3],
+            dir=[-0.3, 0.5, -0.8],
+            diffuse=[0.5] * 3,
+            specular=[0.0] * 3,
+        )
+        self.floor = world.add(
+            "geom",
+            name="floor",
+            type="box",
+            size=[FLOOR_HALF_SIZE, FLOOR_HALF_SIZE, 0.01],
+            pos=[0, 0, -0.015],
+            rgba=FLOOR_RGBA,
+            contype=0,
+            conaffinity=0,
+        )
+        world.add(
+            "geom",
+            name="mat",
+            type="box",
+            size=[*mat_size, 0.001],
+            pos=[0, 0, 0],
+            rgba=MAT_RGBA,
+            contype=0,
+            conaffinity=0,
+        )
         self.ground = world.add("geom", name="ground", type="plane", size=[1, 1, 0.1], group=4, **material.solid())
-        self.camera = world.add("camera", name="observer", pos=camera_pos, fovy=fovy,
-                                xyaxes=_looking_at(camera_pos, camera_target))  # fmt: skip
+        self.camera = world.add(
+            "camera", name="observer", pos=camera_pos, fovy=fovy, xyaxes=_looking_at(camera_pos, camera_target)
+        )
 
     def add_walls(self, distance: float, height: float) -> None:
         """Adds four walls and a ceiling that are not drawn, so that nothing leaves the view.
@@ -56,13 +81,21 @@ class Laboratory(composer.Arena):
           height: of the ceiling above the floor, m.
         """
         half, side = 0.25, distance + 0.5
-        boxes = [([half if x else side, half if y else side, height],
-                  [x * (distance + half), y * (distance + half), height])
-                 for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))]  # fmt: skip
+        boxes = [
+            ([half if x else side, half if y else side, height], [x * (distance + half), y * (distance + half), height])
+            for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))
+        ]
         boxes.append(([side, side, half], [0, 0, height + half]))
         for number, (size, pos) in enumerate(boxes):
-            self.mjcf_model.worldbody.add("geom", name=f"wall_{number}", type="box", size=size, pos=pos, group=4,
-                                          **material.solid(material.WALL_FRICTION))  # fmt: skip
+            self.mjcf_model.worldbody.add(
+                "geom",
+                name=f"wall_{number}",
+                type="box",
+                size=size,
+                pos=pos,
+                group=4,
+                **material.solid(material.WALL_FRICTION),
+            )
 
 
 def _looking_at(pos, target) -> np.ndarray:

@@ -22,8 +22,9 @@ class Block(composer.Entity):
         """Builds a cube of the given colour and mass (kg)."""
         self._root = mjcf.RootElement(model=name)
         world = self._root.worldbody
-        self.geom = world.add("geom", name="geom", type="box", size=[HALF_SIZE] * 3, mass=mass, rgba=rgba,
-                             **material.solid())  # fmt: skip
+        self.geom = world.add(
+            "geom", name="geom", type="box", size=[HALF_SIZE] * 3, mass=mass, rgba=rgba, **material.solid()
+        )
         self.center = world.add("site", name="center", size=[0.001], group=5)
 
     @property

@@ -36,8 +36,9 @@ class Environment(composer.Environment):
         raises = checks.flag("raise_exception_on_physics_error", raise_exception_on_physics_error)
         self._compiled = {}  # Apparatus and physics of each structure used so far.
         self._current_structure = None
-        super().__init__(task, random_state=0, strip_singleton_obs_buffer_dim=True,
-                         raise_exception_on_physics_error=raises)  # fmt: skip
+        super().__init__(
+            task, random_state=0, strip_singleton_obs_buffer_dim=True, raise_exception_on_physics_error=raises
+        )
 
     def reset(self) -> dm_env.TimeStep:
         """Starts the next episode.

@@ -26,12 +26,15 @@ class Fist(base.Walker):
         self._ranges = {"x": x_range, "y": y_range}
         self._body = self._root.worldbody.add("body", name="body")
         for axis, direction in (("x", [1, 0, 0]), ("y", [0, 1, 0])):
-            joint = self._body.add("joint", name=axis, type="slide", axis=direction, limited=True,
-                                   range=self._ranges[axis])  # fmt: skip
-            self._root.actuator.add("velocity", name=axis, joint=joint, kv=SPEED_GAIN, forcelimited=True,
-                                    forcerange=[-MAX_FORCE, MAX_FORCE])  # fmt: skip
-        self.geom = self._body.add("geom", name="geom", type="sphere", size=[RADIUS], mass=MASS, rgba=RGBA,
-                                  **material.solid())  # fmt: skip
+            joint = self._body.add(
+                "joint", name=axis, type="slide", axis=direction, limited=True, range=self._ranges[axis]
+            )
+            self._root.actuator.add(
+                "velocity", name=axis, joint=joint, kv=SPEED_GAIN, forcelimited=True, forcerange=[-MAX_FORCE, MAX_FORCE]
+            )
+        self.geom = self._body.add(
+            "geom", name="geom", type="sphere", size=[RADIUS], mass=MASS, rgba=RGBA, **material.solid()
+        )
         center = self._body.add("site", name="center", size=[0.001], group=5)
         self.position_sensor = self._root.sensor.add("framepos", name="position", objtype="site", objname=center)
 

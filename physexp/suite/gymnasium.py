@@ -155,8 +155,15 @@ class VectorEnvironment(vector_env.VectorEnv):
         "autoreset_mode": vector_env.AutoresetMode.NEXT_STEP,
     }
 
-    def __init__(self, domain: str, task: str, num_envs: int = 1, num_threads: int = 1,
-                 render_mode: str | None = None, **task_kwargs: Any):  # fmt: skip
+    def __init__(
+        self,
+        domain: str,
+        task: str,
+        num_envs: int = 1,
+        num_threads: int = 1,
+        render_mode: str | None = None,
+        **task_kwargs: Any,
+    ):
         """Loads a batch.
 
         Args:

@@ -32,8 +32,13 @@ class Sense(abc.ABC):
         """
 
     @abc.abstractmethod
-    def look(self, apparatus: apparatus_lib.Apparatus, state: Mapping[str, np.ndarray], rows: np.ndarray,
-             observations: Mapping[str, np.ndarray]) -> None:  # fmt: skip
+    def look(
+        self,
+        apparatus: apparatus_lib.Apparatus,
+        state: Mapping[str, np.ndarray],
+        rows: np.ndarray,
+        observations: Mapping[str, np.ndarray],
+    ) -> None:
         """Writes the observations.
 
         Args:

@@ -21,8 +21,15 @@ class VecEnv(base_vec_env.VecEnv):
     running out of time is a wrong answer.
     """
 
-    def __init__(self, domain: str, task: str, num_envs: int, num_threads: int = 1,
-                 render_mode: str | None = None, **task_kwargs: Any):  # fmt: skip
+    def __init__(
+        self,
+        domain: str,
+        task: str,
+        num_envs: int,
+        num_threads: int = 1,
+        render_mode: str | None = None,
+        **task_kwargs: Any,
+    ):
         """Loads a batch; arguments as for `suite.load_batch`, and `render_mode`: `rgb_array`, or None.
 
         Raises:
@@ -33,8 +40,11 @@ class VecEnv(base_vec_env.VecEnv):
         self._batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
         self._started = False
         self.render_mode = render_mode
-        super().__init__(num_envs, gymnasium_lib.observation_space(self._batch.observation_spec()),
-                         spaces.Discrete(self._batch.action_spec().num_values))  # fmt: skip
+        super().__init__(
+            num_envs,
+            gymnasium_lib.observation_space(self._batch.observation_spec()),
+            spaces.Discrete(self._batch.action_spec().num_values),
+        )
         cast(Any, self.metadata)["render_fps"] = gymnasium_lib.frames_per_second(self._batch.task)
 
     def reset(self):
@@ -59,8 +69,11 @@ class VecEnv(base_vec_env.VecEnv):
             answers, rows = self._batch.correct_answers, np.flatnonzero(ended)
             for row in rows:
                 terminal = {name: value[row] for name, value in observation.items()}
-                infos[row] = {"terminal_observation": terminal, "correct_answer": int(answers[row]),
-                              "TimeLimit.truncated": False}  # fmt: skip
+                infos[row] = {
+                    "terminal_observation": terminal,
+                    "correct_answer": int(answers[row]),
+                    "TimeLimit.truncated": False,
+                }
             first = self._batch.reset(rows).observation
             for name, value in observation.items():
                 observation[name] = value.copy()

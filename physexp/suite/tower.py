@@ -78,5 +78,6 @@ class Tower(composer.Entity):
         """
         for k, cube in enumerate(self.blocks):
             for axis, gear in (("x", [1, 0, 0, 0, 0, 0]), ("y", [0, 1, 0, 0, 0, 0])):
-                self._root.actuator.add("general", name=f"push_{axis}_{k}", site=cube.center, refsite=world_site,
-                                        gear=gear)  # fmt: skip
+                self._root.actuator.add(
+                    "general", name=f"push_{axis}_{k}", site=cube.center, refsite=world_site, gear=gear
+                )

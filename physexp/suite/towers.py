@@ -24,8 +24,7 @@ _FIST_REACH = 0.4  # m: leaves half a block's room at the wall, and its force is
 _DIRECTIONS = np.array([(1, 0), (-1, 0), (0, 1), (0, -1)], float)
 _DIRECTION_NAMES = ("+x", "-x", "+y", "-y")
 
-_ROOM = dict(mat_size=[0.6, 0.6], camera_pos=[0.35, -3.4, 2.0], camera_target=[-0.03, 0, 0.17],
-             fovy=21.5)  # fmt: skip
+_ROOM = dict(mat_size=[0.6, 0.6], camera_pos=[0.35, -3.4, 2.0], camera_target=[-0.03, 0, 0.17], fovy=21.5)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -161,8 +160,11 @@ class DirectActuator:
     @property
     def effects(self):
         """The force on a block of each action, N."""
-        return [(f"block_{k}", (PUSH_FORCE * x, PUSH_FORCE * y, 0.0))
-                for k in range(tower.NUM_BLOCKS) for x, y in _DIRECTIONS]  # fmt: skip
+        return [
+            (f"block_{k}", (PUSH_FORCE * x, PUSH_FORCE * y, 0.0))
+            for k in range(tower.NUM_BLOCKS)
+            for x, y in _DIRECTIONS
+        ]
 
     @property
     def interaction_names(self):

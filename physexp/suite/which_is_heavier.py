@@ -66,8 +66,18 @@ class WhichIsHeavier(task.QuestionTask):
             cube = block.Block(rgba=block.COLORS[k], mass=HEAVIEST, name=f"block_{k}")
             frame = room.attach(cube)
             frame.pos = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, block.HALF_SIZE]
-            self._joints.append(frame.add("joint", name="rail", type="slide", axis=[0, 0, 1], stiffness=STIFFNESS,
-                                          damping=DAMPING, limited=True, range=[FLOOR, CEILING]))  # fmt: skip
+            self._joints.append(
+                frame.add(
+                    "joint",
+                    name="rail",
+                    type="slide",
+                    axis=[0, 0, 1],
+                    stiffness=STIFFNESS,
+                    damping=DAMPING,
+                    limited=True,
+                    range=[FLOOR, CEILING],
+                )
+            )
             motors.add("motor", name=f"poke_{k}", joint=self._joints[-1])
             self.blocks.append(cube)
         self._height_sensors = [

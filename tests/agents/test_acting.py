@@ -102,8 +102,11 @@ def test_what_was_encoded_to_act_is_what_there_is_to_learn_from(task):
     torch.testing.assert_close(acted, anew, rtol=1e-4, atol=1e-5)
     weights = torch.randn_like(anew)
     parameters = [parameter for parameter in (*network.torso.parameters(), network.lstm.weight_ih_l0)]
-    for ours, theirs in zip(torch.autograd.grad((acted * weights).sum(), parameters),
-                            torch.autograd.grad((anew * weights).sum(), parameters), strict=True):  # fmt: skip
+    for ours, theirs in zip(
+        torch.autograd.grad((acted * weights).sum(), parameters),
+        torch.autograd.grad((anew * weights).sum(), parameters),
+        strict=True,
+    ):
         torch.testing.assert_close(ours, theirs, rtol=1e-3, atol=1e-4)
 
 

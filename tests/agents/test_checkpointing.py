@@ -178,8 +178,17 @@ def test_every_bit_of_the_facts_counts(small, tmp_path):
             assert str(tmp_path) in str(error) and "\n" not in str(error)
 
 
-@pytest.mark.parametrize("content", ["[" * 100_000, '{"format": 1, "sha256": 1, "facts": ' + "9" * 5000 + "}", "[]",
-                                     '{"format": 1, "sha256": "", "facts": []}', "NaN", ""])  # fmt: skip
+@pytest.mark.parametrize(
+    "content",
+    [
+        "[" * 100_000,
+        '{"format": 1, "sha256": 1, "facts": ' + "9" * 5000 + "}",
+        "[]",
+        '{"format": 1, "sha256": "", "facts": []}',
+        "NaN",
+        "",
+    ],
+)
 def test_facts_that_are_none_are_one_line(content, tmp_path):
     checkpointer = checkpointing.Checkpointer(tmp_path)
     checkpointer.save(tensors(3), {}).with_suffix(".json").write_text(content)
@@ -263,11 +272,13 @@ HOSTILE = {
     "a shape without end": safetensors_file({"a": halves([2**32, 2**32], 0, 4)}, b"\0" * 4),
     "a type that is none": safetensors_file({"a": {**halves([2], 0, 4), "dtype": "Q"}}, b"\0" * 4),
     "a type that torch has not": safetensors_file({"a": {**halves([2], 0, 1), "dtype": "F4"}}, b"\0"),
-    "one name twice": safetensors_file(b'{"a":{"dtype":"U8","shape":[1],"data_offsets":[0,1]},'
-                                       b'"a":{"dtype":"U8","shape":[1],"data_offsets":[1,2]}}', b"\0\0"),
+    "one name twice": safetensors_file(
+        b'{"a":{"dtype":"U8","shape":[1],"data_offsets":[0,1]},"a":{"dtype":"U8","shape":[1],"data_offsets":[1,2]}}',
+        b"\0\0",
+    ),
     "metadata that are none": safetensors_file({"__metadata__": {"sha256": 3}}),
     "another network's": safetensors_file({"a\nb": halves([2], 0, 4)}, b"\0" * 4),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("case", HOSTILE)

@@ -78,9 +78,16 @@ def test_what_is_saved_is_what_is_loaded_to_half_precision(tmp_path):
     network = networks.RecurrentActorCritic(batch.observation_spec(), 9, **hyperparameters)
     network.calibrate({"pixels": torch.randint(256, (1, 84, 84, 3), dtype=torch.uint8)})
     batch.close()
-    card = {"domain": "towers", "task": "fist_pixels", "difficulty": None,
-            "network": {"observations": {"pixels": ((84, 84, 3), "uint8")}, "num_actions": 9,
-                        "hyperparameters": hyperparameters}}  # fmt: skip
+    card = {
+        "domain": "towers",
+        "task": "fist_pixels",
+        "difficulty": None,
+        "network": {
+            "observations": {"pixels": ((84, 84, 3), "uint8")},
+            "num_actions": 9,
+            "hyperparameters": hyperparameters,
+        },
+    }
     pretrained.save(network, card, tmp_path)
     loaded = pretrained.load("towers", "fist_pixels", folder=tmp_path)
     expected = pretrained.halved(network).state_dict()
@@ -93,9 +100,16 @@ def small():
     """A small network of a task, and the least that a card says."""
     observations = {"features": specs.Array((3,), np.float32, "features")}
     network = networks.RecurrentActorCritic(observations, 4, lstm_units=1, observation_scale=2.0)
-    card = {"domain": "towers", "task": "some", "difficulty": None,
-            "network": {"observations": {"features": ((3,), "float32")}, "num_actions": 4,
-                        "hyperparameters": {"lstm_units": 1, "observation_scale": 2.0}}}  # fmt: skip
+    card = {
+        "domain": "towers",
+        "task": "some",
+        "difficulty": None,
+        "network": {
+            "observations": {"features": ((3,), "float32")},
+            "num_actions": 4,
+            "hyperparameters": {"lstm_units": 1, "observation_scale": 2.0},
+        },
+    }
     return network, card
 
 
@@ -188,8 +202,10 @@ def test_every_bit_of_a_card_counts(small, tmp_path):
             assert str(tmp_path) in str(error) and "\n" not in str(error)
         else:  # A name that nobody knows is as good as none.
             assert {**found.card, "card_sha256": 0, "sha256": 0}.items() >= {
-                **{name: value for name, value in expected.items() if name in card}, "card_sha256": 0, "sha256": 0
-            }.items()  # fmt: skip
+                **{name: value for name, value in expected.items() if name in card},
+                "card_sha256": 0,
+                "sha256": 0,
+            }.items()
             assert is_same(found.network, weights_of(network))
 
 

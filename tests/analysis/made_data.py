@@ -28,14 +28,24 @@ def label(config) -> str:
     return conditions.label(config.domain, config.task, config.difficulty)
 
 
-def episodes(config, training_seed: int, columns: dict[str, np.ndarray], interaction: str = "learned",
-             control_timestep: float = 0.1) -> dict[str, np.ndarray]:  # fmt: skip
+def episodes(
+    config,
+    training_seed: int,
+    columns: dict[str, np.ndarray],
+    interaction: str = "learned",
+    control_timestep: float = 0.1,
+) -> dict[str, np.ndarray]:
     """The columns of one agent's episodes."""
     told = {
-        "domain": config.domain, "task": config.task, "discount": config.agent.discount, "interaction": interaction,
-        "difficulty": math.nan if config.difficulty is None else config.difficulty, "training_seed": training_seed,
-        "control_timestep": control_timestep, "condition": label(config),
-    }  # fmt: skip
+        "domain": config.domain,
+        "task": config.task,
+        "discount": config.agent.discount,
+        "interaction": interaction,
+        "difficulty": math.nan if config.difficulty is None else config.difficulty,
+        "training_seed": training_seed,
+        "control_timestep": control_timestep,
+        "condition": label(config),
+    }
     count = len(next(iter(columns.values())))
     return {name: np.full(count, value) for name, value in told.items()} | columns
 
@@ -77,8 +87,15 @@ def mass_gaps(num_agents, generator, small=(0.4, 0.2, 0.05)):
 # Learning curves: success rises from chance to its plateau.
 
 
-def curves(num_agents, generator, plateaus: dict[str, float], chance: float, learned_at: dict[str, float],
-           configs=(*conditions.HEAVIER, *conditions.TOWERS), name_of=label) -> pandas.DataFrame:  # fmt: skip
+def curves(
+    num_agents,
+    generator,
+    plateaus: dict[str, float],
+    chance: float,
+    learned_at: dict[str, float],
+    configs=(*conditions.HEAVIER, *conditions.TOWERS),
+    name_of=label,
+) -> pandas.DataFrame:
     """Rows of metrics, as `Results.curves` gives them.
 
     Args:
@@ -98,20 +115,31 @@ def curves(num_agents, generator, plateaus: dict[str, float], chance: float, lea
             plateau = plateaus[name] + generator.normal(0, 0.004)
             middle = learned_at[name] * np.exp(generator.normal(0, 0.05))
             rising = chance + (plateau - chance) * special.expit((frames - middle) / 100_000)
-            found.append(pandas.DataFrame({
-                "frames": frames.astype(int), "success_rate": rising + generator.normal(0, 0.003, len(frames)),
-                "domain": config.domain, "task": config.task, "difficulty": config.difficulty,
-                "discount": config.agent.discount, "training_seed": seed, "condition": name,
-                "algorithm": config.agent.algorithm, "seconds": frames / 1000,
-                "episodes": frames.astype(int) // 20,
-            }))  # fmt: skip
+            found.append(
+                pandas.DataFrame(
+                    {
+                        "frames": frames.astype(int),
+                        "success_rate": rising + generator.normal(0, 0.003, len(frames)),
+                        "domain": config.domain,
+                        "task": config.task,
+                        "difficulty": config.difficulty,
+                        "discount": config.agent.discount,
+                        "training_seed": seed,
+                        "condition": name,
+                        "algorithm": config.agent.algorithm,
+                        "seconds": frames / 1000,
+                        "episodes": frames.astype(int) // 20,
+                    }
+                )
+            )
     return pandas.concat(found, ignore_index=True)
 
 
 def learning_heavier(num_agents, generator, features=(0.85, 0.9, 0.95), pixels=(0.7, 0.8, 0.9)):
     names = [label(config) for config in conditions.HEAVIER]
-    return curves(num_agents, generator, dict(zip(names, (*features, *pixels), strict=True)), 0.25,
-                  dict.fromkeys(names, 1e6))  # fmt: skip
+    return curves(
+        num_agents, generator, dict(zip(names, (*features, *pixels), strict=True)), 0.25, dict.fromkeys(names, 1e6)
+    )
 
 
 def learning_towers(num_agents, generator, plateau=0.985, fist=1e6, direct=2e6):
@@ -165,8 +193,11 @@ def slopes(num_agents, generator, slope=-4.0, odd_one=None):
             gaps = generator.uniform(0, 1, _EPISODES)
             mine = slope if odd_one is None or seed else odd_one
             lengths = 6 + (mine + generator.normal(0, 0.1)) * (gaps - 0.5) + generator.normal(0, 0.5 + gaps)
-            columns = {"mass_gap": gaps, "interactions": lengths.round().clip(0).astype(int),
-                       "label": np.zeros(_EPISODES, int)}  # fmt: skip
+            columns = {
+                "mass_gap": gaps,
+                "interactions": lengths.round().clip(0).astype(int),
+                "label": np.zeros(_EPISODES, int),
+            }
             columns = with_timeouts(columns, 0.2, mass_gap=1.0 if slope < 0 else 0.0)
             agents.append(episodes(config, seed, columns))
     return table(agents)
@@ -250,10 +281,19 @@ def ideal_gap(num_agents, generator, share=0.985):
         ideal_return = 0.8
         for seed in range(num_agents):
             agent_return = ideal_return * (share + generator.normal(0, 0.0005))
-            row = {"condition": label(config), "domain": config.domain, "difficulty": config.difficulty,
-                   "training_seed": seed, "agent_return": agent_return, "return_error": 0.002,
-                   "accuracy": 0.9, "interactions": 3.0,
-                   "ideal_return": ideal_return, "ideal_accuracy": 0.95, "ideal_interactions": 2.5}  # fmt: skip
+            row = {
+                "condition": label(config),
+                "domain": config.domain,
+                "difficulty": config.difficulty,
+                "training_seed": seed,
+                "agent_return": agent_return,
+                "return_error": 0.002,
+                "accuracy": 0.9,
+                "interactions": 3.0,
+                "ideal_return": ideal_return,
+                "ideal_accuracy": 0.95,
+                "ideal_interactions": 2.5,
+            }
             if config.domain == "which_is_heavier":
                 parts = generator.dirichlet(np.ones(len(regret.KINDS))) * abs(ideal_return - agent_return)
                 row |= dict(zip(regret.KINDS, parts, strict=True))
@@ -266,8 +306,14 @@ def ideal_gap(num_agents, generator, share=0.985):
 def _resolutions():
     for objective in ("time", "return"):
         for number, resolution in enumerate((0.0, 0.001, 0.003, 0.01)):
-            yield {"objective": objective, "resolution": resolution, "value": 0.9, "accuracy": 1.0,
-                   "mean_interactions": 3.0 + number, "mean_seconds": 0.3 + 0.1 * number}  # fmt: skip
+            yield {
+                "objective": objective,
+                "resolution": resolution,
+                "value": 0.9,
+                "accuracy": 1.0,
+                "mean_interactions": 3.0 + number,
+                "mean_seconds": 0.3 + 0.1 * number,
+            }
 
 
 _World = Callable[[int, np.random.Generator], pandas.DataFrame]
@@ -282,7 +328,7 @@ WORLDS: dict[str, dict[str, _World]] = {
         "hard ones are easy": functools.partial(learning_heavier, features=(0.95, 0.9, 0.85), pixels=(0.9, 0.8, 0.7)),
         "little more than chance": functools.partial(
             learning_heavier, features=(0.3, 0.35, 0.4), pixels=(0.25, 0.3, 0.35)
-        ),  # fmt: skip
+        ),
     },
     "population": {
         "paper": pokes,

@@ -26,9 +26,17 @@ def test_a_large_bonus_makes_the_policy_the_priors_or_uniform(algorithm, relativ
     # A bonus of 100 leaves rewards of 1 no say, so what is left is where the bonus is largest.
     several_steps = {"num_environments": 256} if algorithm == "ppo" else {}  # An update: fewer are needed.
     run = trainers.create(
-        tmp_path / "run", algorithm, seed=trainers.fresh_seed(), frames=40_000, learning_rate=0.02, entropy_cost=100.0,
-        final_entropy_cost=100.0, action_prior=PRIOR, relative_entropy=relative, **several_steps,
-    )  # fmt: skip
+        tmp_path / "run",
+        algorithm,
+        seed=trainers.fresh_seed(),
+        frames=40_000,
+        learning_rate=0.02,
+        entropy_cost=100.0,
+        final_entropy_cost=100.0,
+        action_prior=PRIOR,
+        relative_entropy=relative,
+        **several_steps,
+    )
     training.train(run)
     expected = np.exp(PRIOR) / np.exp(PRIOR).sum() if relative else np.full(8, 1 / 8)
     np.testing.assert_allclose(_first_policy(run), expected, atol=0.05)

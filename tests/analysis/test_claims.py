@@ -34,8 +34,10 @@ FALSE_IN = {
     },
     "random_heavier": {
         "Learned interaction leads to more accurate answers than randomized interaction": {"chance helps and is quick"},
-        "The effect of randomized interaction on episode length is small": {"chance helps and is quick",
-                                                                            "chance is slow"},
+        "The effect of randomized interaction on episode length is small": {
+            "chance helps and is quick",
+            "chance is slow",
+        },
     },
     "learning_towers": {
         "All four conditions are solved nearly perfectly": {"good but not perfect"},
@@ -43,7 +45,8 @@ FALSE_IN = {
     },
     "waiting": {
         "With smaller control steps the time to answer stays about the same, in up to ten times the steps": {
-            "as many steps", "ever more steps"
+            "as many steps",
+            "ever more steps",
         },
         "Accuracy drops little with the control step": {"lost in fine time"},
     },
@@ -60,7 +63,7 @@ FALSE_IN = {
         "Feature agents reach 97% of the ideal experimenter's return": {"clumsy agents"},
         "No agent beats the ideal experimenter": {"agents who cheat"},
     },
-}  # fmt: skip
+}
 
 # What one agent decides: claims that are about no agent, or about an agent's own episodes.
 DECIDED_BY_ONE = {
@@ -93,8 +96,15 @@ def made(name, world="paper", num_agents=made_data.NUM_AGENTS):
 
 
 def claim(low, high, above=-math.inf, below=math.inf):
-    return claims.Claim(text="", section="", condition="", statistic="", above=above, below=below,
-                        estimate=statistics.Estimate((low + high) / 2, low, high))  # fmt: skip
+    return claims.Claim(
+        text="",
+        section="",
+        condition="",
+        statistic="",
+        above=above,
+        below=below,
+        estimate=statistics.Estimate((low + high) / 2, low, high),
+    )
 
 
 @pytest.mark.parametrize(
@@ -199,8 +209,11 @@ def test_timeouts_count_neither_for_the_accuracy_nor_for_the_length_of_randomize
     frame = made_data.random_heavier(2, generator())
     agents = randomized.per_agent(frame)
     for one in agents.itertuples():
-        rows = frame[(frame.condition == one.condition) & (frame.training_seed == one.training_seed)
-                     & (frame.interaction == one.interaction)]  # fmt: skip
+        rows = frame[
+            (frame.condition == one.condition)
+            & (frame.training_seed == one.training_seed)
+            & (frame.interaction == one.interaction)
+        ]
         assert (rows.label < 0).any() == (one.interaction == "learned")
         rows = rows[rows.label >= 0]
         assert one.accuracy == (rows.reward > 0).sum() / len(rows)
@@ -277,10 +290,13 @@ def test_curves_are_those_of_the_better_half_from_the_middle_of_the_first_episod
 
 def test_agents_who_never_learn_are_given_the_shortest_training_of_all():
     long, short = jumping_run(1000), jumping_run(1000)[:150]
-    frame = pandas.concat([
-        long.assign(condition="learns", training_seed=0), short.assign(condition="learns", training_seed=1),
-        long.assign(condition="never", training_seed=0, success_rate=0.2),
-    ])  # fmt: skip
+    frame = pandas.concat(
+        [
+            long.assign(condition="learns", training_seed=0),
+            short.assign(condition="learns", training_seed=1),
+            long.assign(condition="never", training_seed=0, success_rate=0.2),
+        ]
+    )
     learns, never, absent = learning.compare_first_reached(frame, ["learns", "never", "absent"], 0.55)
     assert learns == pytest.approx([2_000_000, 2_000_000])
     assert never.tolist() == [150 * 1000 * 20]

@@ -199,9 +199,11 @@ def test_a_gradient_that_is_too_old_is_not_applied():
     variables = learning.Variables(network)
     gradients = [torch.ones_like(parameter) for parameter in network.parameters()]
     episodes = evaluation.acting.Round(
-        actions=torch.zeros(1, 1).numpy(), rewards=torch.zeros(1, 1).numpy(),
-        lengths=torch.ones(1, dtype=int).numpy(), answers=torch.zeros(1).numpy(),
-    )  # fmt: skip
+        actions=torch.zeros(1, 1).numpy(),
+        rewards=torch.zeros(1, 1).numpy(),
+        lengths=torch.ones(1, dtype=int).numpy(),
+        answers=torch.zeros(1).numpy(),
+    )
     variables.updates += 3
 
     def push(updates):
@@ -225,8 +227,15 @@ def test_a_sweep_gathers_what_the_cluster_made_and_survives_a_killed_task(nodes,
         os.kill(killed[0], signal.SIGKILL)
 
     def sweep():
-        reproduce.run([EXPERIMENTS["population"]], results, observations=("features",), num_seeds=1, frames=5_000,
-                      submit=cluster.submit, report=lines.append)  # fmt: skip
+        reproduce.run(
+            [EXPERIMENTS["population"]],
+            results,
+            observations=("features",),
+            num_seeds=1,
+            frames=5_000,
+            submit=cluster.submit,
+            report=lines.append,
+        )
 
     killer = threading.Thread(target=kill_one)
     killer.start()
@@ -247,9 +256,12 @@ def test_training_ends_without_workers_that_find_no_room_and_says_how_many(nodes
     config = trainers.create(tmp_path / "run", frames=500, num_workers=3, envs_per_worker=8).config
     lines = []
     agent = distributed.DistributedA3C(
-        functools.partial(training.make_environment, config), config.agent, run_lib.versions, lines.append,
+        functools.partial(training.make_environment, config),
+        config.agent,
+        run_lib.versions,
+        lines.append,
         distributed.Patience(room=0.0),
-    )  # fmt: skip
+    )
     assert sum(update is not None for update in agent.updates()) == int(agent.save()["updates"])
     assert agent.frames >= 500
     # Two processors, three workers: the two that are placed were without room for as long as they took to start.
@@ -303,8 +315,20 @@ def listening(leader):
 
 
 def test_the_command_trains_on_a_cluster_that_it_starts_itself_and_that_only_this_machine_reaches(tmp_path):
-    command = [PHYSEXP, "train", "which_is_heavier", "features", "--frames", "2000", "--envs-per-worker", "32",
-               "--run-dir", tmp_path / "run", "--cluster", "local"]  # fmt: skip
+    command = [
+        PHYSEXP,
+        "train",
+        "which_is_heavier",
+        "features",
+        "--frames",
+        "2000",
+        "--envs-per-worker",
+        "32",
+        "--run-dir",
+        tmp_path / "run",
+        "--cluster",
+        "local",
+    ]
     addresses = set()
     environment = {**os.environ, "HOME": str(tmp_path)}
     with subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, text=True, env=environment) as process:

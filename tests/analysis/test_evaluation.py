@@ -14,8 +14,15 @@ from physexp.agents import pretrained
 from physexp.analysis import evaluation, statistics
 from physexp.analysis import run as run_lib
 
-KEYS = ["episodes", "success_rate", "success_interval", "mean_return", "mean_interactions", "median_interactions",
-        "timeouts"]  # fmt: skip
+KEYS = [
+    "episodes",
+    "success_rate",
+    "success_interval",
+    "mean_return",
+    "mean_interactions",
+    "median_interactions",
+    "timeouts",
+]
 
 
 def test_the_summary_of_four_episodes_is_the_one_computed_by_hand():

@@ -86,8 +86,9 @@ def lightness(color):
 def test_every_axis_is_named_or_shares_the_one_that_is(draw, name):
     drawn = draw(name)
     assert drawn.axes
-    named_x, named_y = ([one for one, labels in zip(drawn.axes, drawn.labels, strict=True) if labels[index]]
-                        for index in (0, 1))  # fmt: skip
+    named_x, named_y = (
+        [one for one, labels in zip(drawn.axes, drawn.labels, strict=True) if labels[index]] for index in (0, 1)
+    )
     for one, ticks in zip(drawn.axes, drawn.ticks, strict=True):
         categories = set(ticks) & shown_names(made(name))  # Names instead of numbers.
         assert categories or one in named_x or any(one.get_shared_x_axes().joined(one, other) for other in named_x)

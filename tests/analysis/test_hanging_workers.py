@@ -67,8 +67,11 @@ def test_training_goes_on_without_a_stopped_worker_and_ends_without_it(tmp_path)
         iterate_until(updates, lambda _: any("worker 0" in line for line in lines))
         # The other one may be slow, too: how slow is the machine's affair.
         (line, *_) = (line for line in lines if "worker 0" in line)
-        assert re.fullmatch(rf"worker 0 \(process {victim}\) has been silent since [0-9:]{{8}}; training "
-                            "(goes on with the others|waits)", line)  # fmt: skip
+        assert re.fullmatch(
+            rf"worker 0 \(process {victim}\) has been silent since [0-9:]{{8}}; training "
+            "(goes on with the others|waits)",
+            line,
+        )
         before = rounds.tolist()
         iterate_until(updates, lambda _: rounds[1] > before[1] + 2)
         assert rounds[0] == before[0]

@@ -200,8 +200,9 @@ def test_from_pixels_the_first_touch_tells_as_well():
 def test_the_summary_can_be_written_as_json_even_where_the_count_cannot_be_known():
     summary = solve(MadeWorld(1, lambda sequence: COUNTS)).summary()
     assert json.loads(json.dumps(summary))["mean_seconds"] == pytest.approx(0.1)
-    blind = towers.solve("fist_features", 0.5, objective="time", max_depth=2,
-                         trajectories=MadeWorld(1, lambda sequence: [0] * PATTERNS))  # fmt: skip
+    blind = towers.solve(
+        "fist_features", 0.5, objective="time", max_depth=2, trajectories=MadeWorld(1, lambda sequence: [0] * PATTERNS)
+    )
     assert json.loads(json.dumps(blind.summary(), allow_nan=False))["value"] is None
 
 

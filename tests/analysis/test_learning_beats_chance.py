@@ -15,9 +15,14 @@ SHORT = {
 @pytest.mark.parametrize("algorithm", SHORT)
 def test_a_short_run_finds_the_heaviest_block_far_more_often_than_chance(algorithm, tmp_path):
     run = trainers.create(
-        tmp_path / "run", algorithm, **SHORT[algorithm], seed=trainers.fresh_seed(),
-        entropy_cost=0.15, final_entropy_cost=0.03, checkpoint_seconds=60.0,
-    )  # fmt: skip
+        tmp_path / "run",
+        algorithm,
+        **SHORT[algorithm],
+        seed=trainers.fresh_seed(),
+        entropy_cost=0.15,
+        final_entropy_cost=0.03,
+        checkpoint_seconds=60.0,
+    )
     training.train(run)
     learned = evaluation.evaluate(run, 1000).summary(0.95)
     random = evaluation.evaluate(run, 1000, "random").summary(0.95)

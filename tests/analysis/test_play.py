@@ -36,8 +36,10 @@ def test_a_player_who_knows_the_answers_is_counted_right_and_compared_on_the_sam
     assert (scores["you"].episodes, scores["you"].right) == (3, 3)
     assert scores["you"].total == pytest.approx(3 * 0.95)  # One interaction each, at the trained agent's discount.
     assert {name: score.episodes for name, score in scores.items()} == {
-        "you": 3, "trained agent": 3, "ideal experimenter": 3,
-    }  # fmt: skip
+        "you": 3,
+        "trained agent": 3,
+        "ideal experimenter": 3,
+    }
     assert sum(text.startswith("Right!") for text in shown) == 3
 
 
@@ -144,7 +146,13 @@ def test_the_agent_beside_a_player_is_the_one_of_that_difficulty(monkeypatch):
 
 def test_the_command_plays_without_any_gl_from_what_is_typed():
     environment = {**os.environ, "MUJOCO_GL": "disable"}
-    done = subprocess.run([PHYSEXP, "play", "which_is_heavier", "features", "--seed", "3"], input="0\n1\n5\nq\n",
-                          capture_output=True, text=True, check=True, env=environment)  # fmt: skip
+    done = subprocess.run(
+        [PHYSEXP, "play", "which_is_heavier", "features", "--seed", "3"],
+        input="0\n1\n5\nq\n",
+        capture_output=True,
+        text=True,
+        check=True,
+        env=environment,
+    )
     assert "poke block 0" in done.stdout and "The answer: block" in done.stdout
     assert "you " in done.stdout and "ideal experimenter" in done.stdout

@@ -90,8 +90,19 @@ def copy_of(run, path):
 HEADER = ",".join(run_lib.METRICS) + "\n"
 
 
-@pytest.mark.parametrize("metrics", [None, "", HEADER, HEADER[:20], HEADER + "12,3", HEADER + "nan" + ",nan" * 20,
-                                     "frames,seconds\n-1,2\n", "noise\n\0\n"])  # fmt: skip
+@pytest.mark.parametrize(
+    "metrics",
+    [
+        None,
+        "",
+        HEADER,
+        HEADER[:20],
+        HEADER + "12,3",
+        HEADER + "nan" + ",nan" * 20,
+        "frames,seconds\n-1,2\n",
+        "noise\n\0\n",
+    ],
+)
 def test_a_run_whose_metrics_say_too_little_is_refused_in_one_line(metrics, published, tmp_path):
     run = copy_of(published[0], tmp_path / "run")
     (run.path / "metrics.csv").unlink() if metrics is None else (run.path / "metrics.csv").write_text(metrics)
@@ -125,9 +136,20 @@ def test_weights_that_are_not_finite_are_refused_wherever_they_are_read(worst, p
     assert not (tmp_path / "agents").exists()
 
 
-@pytest.mark.parametrize("facts", [{}, {"episodes": -1}, {"episodes": 1.5}, {"episodes": True}, {"episodes": 2**63},
-                                   {"seconds": -1.0}, {"seconds": "1"}, {"seconds": 10**400},
-                                   {"task": ["\n"]}])  # fmt: skip
+@pytest.mark.parametrize(
+    "facts",
+    [
+        {},
+        {"episodes": -1},
+        {"episodes": 1.5},
+        {"episodes": True},
+        {"episodes": 2**63},
+        {"seconds": -1.0},
+        {"seconds": "1"},
+        {"seconds": 10**400},
+        {"task": ["\n"]},
+    ],
+)
 def test_facts_that_make_no_sense_stop_a_run_from_being_resumed(facts, published, tmp_path):
     run = copy_of(published[0], tmp_path / "run")
     tensors, good = run.checkpointer.latest()

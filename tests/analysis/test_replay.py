@@ -209,8 +209,14 @@ def test_the_text_asks_the_question_names_the_episode_and_tells_the_words_at_the
     episode, _, environment, path = written
     start, end = [text[0] for text in chunks(path, "/did/outcome")["TextDocument:text"]]
     for text in (start, end):
-        for word in (environment.task.question, f"seed {episode.seed}, episode 0", "a careless agent",
-                     "**policy**", "**belief**: the policy restricted to the labels", words.HIDDEN_TAB):  # fmt: skip
+        for word in (
+            environment.task.question,
+            f"seed {episode.seed}, episode 0",
+            "a careless agent",
+            "**policy**",
+            "**belief**: the policy restricted to the labels",
+            words.HIDDEN_TAB,
+        ):
             assert word in text
     assert environment.task.question.endswith("?")
     assert "Not answered yet" in start and "Not answered yet" not in end
@@ -355,8 +361,15 @@ writing.write(Path({str(path)!r}), groups, lambda line: print(line, flush=True))
 
 def test_a_full_disk_while_writing_leaves_the_earlier_episodes_and_is_one_readable_line(tmp_path):
     def write(name, count, **kwargs):
-        command = [PHYSEXP, "replay", "which_is_heavier/features", "--episodes", str(count), "--output",
-                   tmp_path / name]  # fmt: skip
+        command = [
+            PHYSEXP,
+            "replay",
+            "which_is_heavier/features",
+            "--episodes",
+            str(count),
+            "--output",
+            tmp_path / name,
+        ]
         return subprocess.run(command, capture_output=True, text=True, check=False, timeout=120, **kwargs)
 
     write("one.rrd", 1)
@@ -504,8 +517,16 @@ def listening(pids):
 def test_the_viewer_in_a_browser_is_served_to_this_machine_alone_and_its_address_is_told(tmp_path):
     environment = {**os.environ, "HOME": str(tmp_path), "BROWSER": "true"}
     output = tmp_path / "output"
-    command = [PHYSEXP, "replay", "which_is_heavier/features", "--episodes", "1", "--web", "--output",
-               tmp_path / "one.rrd"]  # fmt: skip
+    command = [
+        PHYSEXP,
+        "replay",
+        "which_is_heavier/features",
+        "--episodes",
+        "1",
+        "--web",
+        "--output",
+        tmp_path / "one.rrd",
+    ]
     with open(output, "w") as file:
         process = subprocess.Popen(command, env=environment, stdout=file, stderr=file, start_new_session=True)
     try:
@@ -525,14 +546,18 @@ def test_the_viewer_in_a_browser_is_served_to_this_machine_alone_and_its_address
 
 @pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="needs xvfb-run: apt-get install xvfb mesa-vulkan-drivers")
 def test_a_person_plays_beside_the_viewer_which_others_cannot_reach_and_may_be_closed(tmp_path):
-    environment = {"HOME": str(tmp_path), "PATH": f"{PHYSEXP.parent}:/usr/bin:/bin",
-                   "PYTHONPATH": os.environ.get("PYTHONPATH", "")}  # fmt: skip
+    environment = {
+        "HOME": str(tmp_path),
+        "PATH": f"{PHYSEXP.parent}:/usr/bin:/bin",
+        "PYTHONPATH": os.environ.get("PYTHONPATH", ""),
+    }
     subprocess.run([writing.PROGRAM, "analytics", "disable"], env=environment, check=True, capture_output=True)
     command = ["xvfb-run", "-a", PHYSEXP, "play", "which_is_heavier", "features", "--seed", "3", "--view"]
     output = tmp_path / "output"
     with open(output, "w") as file:
-        process = subprocess.Popen(command, env=environment, stdin=subprocess.PIPE, stdout=file, stderr=file, text=True,
-                                   start_new_session=True)  # fmt: skip
+        process = subprocess.Popen(
+            command, env=environment, stdin=subprocess.PIPE, stdout=file, stderr=file, text=True, start_new_session=True
+        )
 
     def type_in(text):
         asked = output.read_text().count("action: ")
@@ -566,16 +591,27 @@ def test_a_person_plays_beside_the_viewer_which_others_cannot_reach_and_may_be_c
 @pytest.mark.parametrize("command", [["play", "which_is_heavier", "features"], ["replay", "which_is_heavier/features"]])
 def test_without_a_display_the_viewer_is_refused_in_one_line_before_anything_is_played(command, tmp_path):
     environment = {"HOME": str(tmp_path), "PYTHONPATH": os.environ.get("PYTHONPATH", "")}
-    done = subprocess.run([PHYSEXP, *command, "--view"], cwd=tmp_path, env=environment, input="q\n", text=True,
-                          capture_output=True, check=False)  # fmt: skip
+    done = subprocess.run(
+        [PHYSEXP, *command, "--view"],
+        cwd=tmp_path,
+        env=environment,
+        input="q\n",
+        text=True,
+        capture_output=True,
+        check=False,
+    )
     assert not list(tmp_path.glob("*.rrd"))
     assert done.returncode == 2 and done.stderr.count("\n") == 1 and "no display" in done.stderr
 
 
 def test_the_command_writes_a_file_and_names_it(tmp_path):
     path = tmp_path / "some" / "file.rrd"
-    done = subprocess.run([PHYSEXP, "replay", "which_is_heavier/features", "--episodes", "2", "--output", path],
-                          capture_output=True, text=True, check=True)  # fmt: skip
+    done = subprocess.run(
+        [PHYSEXP, "replay", "which_is_heavier/features", "--episodes", "2", "--output", path],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     assert done.stdout.splitlines()[-1] == str(path)
     assert len(RrdReader(str(path)).recordings()) == 2
 

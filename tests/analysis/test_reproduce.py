@@ -20,8 +20,25 @@ NAMES = [f"which_is_heavier-features-difficulty{beta}-discount0.95-seed0" for be
 
 
 def command(folder, frames, *more):
-    return list(map(str, [PHYSEXP, "reproduce", "population", "--seeds", 1, "--observations", "features", "--frames",
-                          frames, "--results-dir", folder, *more]))  # fmt: skip
+    return list(
+        map(
+            str,
+            [
+                PHYSEXP,
+                "reproduce",
+                "population",
+                "--seeds",
+                1,
+                "--observations",
+                "features",
+                "--frames",
+                frames,
+                "--results-dir",
+                folder,
+                *more,
+            ],
+        )
+    )
 
 
 @pytest.fixture(scope="module")
@@ -132,8 +149,13 @@ def test_a_report_of_nothing_says_what_to_do(tmp_path):
 @pytest.mark.long
 def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
     frames = 150_000
-    with subprocess.Popen(command(tmp_path, frames, "--jobs", 1), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          text=True, start_new_session=True) as process:  # fmt: skip
+    with subprocess.Popen(
+        command(tmp_path, frames, "--jobs", 1),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    ) as process:
         try:
             first, second = (tmp_path / "runs" / name for name in NAMES[:2])
             part = tmp_path / "episodes" / "learned" / f"{NAMES[0]}.parquet"
@@ -200,8 +222,12 @@ def test_experiments_that_need_the_same_agent_train_it_once():
     ],
 )
 def test_what_makes_no_sense_is_one_readable_line(arguments, message, tmp_path):
-    done = subprocess.run([PHYSEXP, "reproduce", *arguments, "--results-dir", tmp_path / "results"],
-                          capture_output=True, text=True, check=False)  # fmt: skip
+    done = subprocess.run(
+        [PHYSEXP, "reproduce", *arguments, "--results-dir", tmp_path / "results"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.returncode == 2
     assert message in done.stderr and done.stderr.count("\n") == 1
     assert not (tmp_path / "results").exists()
@@ -215,8 +241,12 @@ def test_an_experiment_without_agents_takes_no_training(tmp_path):
 
 
 def test_the_command_for_the_ideal_prints_its_figures():
-    done = subprocess.run([PHYSEXP, "ideal", "which_is_heavier", "--difficulty", "3", "--discount", "0.95", "--json"],
-                          capture_output=True, text=True, check=True)  # fmt: skip
+    done = subprocess.run(
+        [PHYSEXP, "ideal", "which_is_heavier", "--difficulty", "3", "--discount", "0.95", "--json"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     figures = json.loads(done.stdout)
     assert list(figures) == ["value", "accuracy", "mean_interactions", "histogram"]
     assert figures["value"] == pytest.approx(0.8385, abs=1e-3)

@@ -93,12 +93,16 @@ def test_a_batch_plays_on_and_on(domain, task):
         players.step()
         if (step + 1) % -(-num_steps // 10) == 0 or step + 1 == num_steps:
             done, elapsed = (step + 1) / num_steps, time.monotonic() - start
-            print(f"{domain}/{task}: {(step + 1) * SIZES[kind]:,} steps, time left {elapsed / done - elapsed:.0f} s",
-                  flush=True)  # fmt: skip
+            print(
+                f"{domain}/{task}: {(step + 1) * SIZES[kind]:,} steps, time left {elapsed / done - elapsed:.0f} s",
+                flush=True,
+            )
     grown = resident_bytes() - before
     old, new = compare(players, warm_players(domain, task, SIZES[kind]), num_steps // 10)
-    print(f"{players.ended} episodes, {SIZES[kind] / old:.0f} steps/s, {grown / 1e6:.1f} MB more, "
-          f"{old / new:.3f} of the time of a new batch")  # fmt: skip
+    print(
+        f"{players.ended} episodes, {SIZES[kind] / old:.0f} steps/s, {grown / 1e6:.1f} MB more, "
+        f"{old / new:.3f} of the time of a new batch"
+    )
     assert players.batch.num_divergences == 0
     assert players.started == players.ended + players.in_flight
     assert players.started == (players.batch.episodes + 1).sum()

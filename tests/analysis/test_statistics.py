@@ -131,10 +131,14 @@ def test_the_ratio_turned_about_is_the_inverse():
 def test_intervals_of_ratios_hold_the_truth_with_unequal_spreads(counts):
     source = generator()
     found = [
-        statistics.ratio_of_means(*(np.exp(source.normal(mean, spread, count))
-                                    for mean, spread, count in zip((1.0, 0.2), (0.1, 0.4), counts, strict=True)))
+        statistics.ratio_of_means(
+            *(
+                np.exp(source.normal(mean, spread, count))
+                for mean, spread, count in zip((1.0, 0.2), (0.1, 0.4), counts, strict=True)
+            )
+        )
         for _ in range(1000)
-    ]  # fmt: skip
+    ]
     # Welch's degrees of freedom are an approximation, good to about a hundredth where there are three values.
     assert_covers(found, math.exp(0.8), slack=0.012 if min(counts) < 5 else 0.005)
 
@@ -258,8 +262,13 @@ def test_intervals_hold_their_estimates():
     source = generator()
     for count in (2, 6, 25):
         values, others = source.gamma(2.0, size=count), source.gamma(2.0, size=count + 1)
-        for estimate in (statistics.mean(values), statistics.median(values), statistics.bootstrap(values, np.median),
-                         statistics.ratio_of_means(values, others), statistics.proportion(values > 1)):  # fmt: skip
+        for estimate in (
+            statistics.mean(values),
+            statistics.median(values),
+            statistics.bootstrap(values, np.median),
+            statistics.ratio_of_means(values, others),
+            statistics.proportion(values > 1),
+        ):
             assert estimate.low <= estimate.value <= estimate.high
 
 

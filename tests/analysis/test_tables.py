@@ -17,9 +17,18 @@ from physexp.analysis.experiments import base, ideal_towers
 
 SCHEMA = run_lib.EPISODES
 TABLE = pyarrow.table(
-    {"frames": [5, 5, 9], "seed": [1, 2, 3], "episode": [0, 0, 1], "answer": [1, 2, 3], "label": [1, -1, 3],
-     "reward": [1.0, -1.0, 1.0], "length": [3, 2, 1], "actions": [[0, 1, 5], [2, 3], [4]]}, SCHEMA
-)  # fmt: skip
+    {
+        "frames": [5, 5, 9],
+        "seed": [1, 2, 3],
+        "episode": [0, 0, 1],
+        "answer": [1, 2, 3],
+        "label": [1, -1, 3],
+        "reward": [1.0, -1.0, 1.0],
+        "length": [3, 2, 1],
+        "actions": [[0, 1, 5], [2, 3], [4]],
+    },
+    SCHEMA,
+)
 STORED = os.path.join(os.path.dirname(__file__), "..", "..", "results", "episodes", "learned")
 
 

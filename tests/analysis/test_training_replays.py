@@ -13,9 +13,11 @@ from physexp.analysis import training
 from physexp.analysis.replay import writing
 
 SMALL = config_lib.TrainConfig(
-    domain="which_is_heavier", task="features", difficulty=10.0,
+    domain="which_is_heavier",
+    task="features",
+    difficulty=10.0,
     agent=ppo.PPOConfig(num_threads=1, num_environments=32, frames=6000, checkpoint_seconds=0.05),
-)  # fmt: skip
+)
 
 
 def trained(path, **changes):

@@ -46,9 +46,13 @@ def trainer(run, **kwargs):
     """`physexp train --resume` on a run, in a process group of its own that is gone afterwards."""
     command = [PHYSEXP, "train", "which_is_heavier", "features", "--run-dir", run.path, "--resume"]
     process = subprocess.Popen(
-        list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+        list(map(str, command)),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
         **kwargs,
-    )  # fmt: skip
+    )
     try:
         yield process
     finally:

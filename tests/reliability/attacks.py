@@ -30,12 +30,35 @@ import torch
 
 _context = multiprocessing.get_context("forkserver")
 _context.set_forkserver_preload(
-    ["pytest", "pandas", "torch._dynamo", "physexp.cli", "physexp.analysis.publishing", "physexp.analysis.replay",
-     "physexp.analysis.reproduce", "physexp.suite.rendering"]
-)  # fmt: skip
+    [
+        "pytest",
+        "pandas",
+        "torch._dynamo",
+        "physexp.cli",
+        "physexp.analysis.publishing",
+        "physexp.analysis.replay",
+        "physexp.analysis.reproduce",
+        "physexp.suite.rendering",
+    ]
+)
 
-_FILE_CALLS = {"open", "write", "flush", "fsync", "replace", "rename", "link", "unlink", "remove", "mkdir", "rmdir",
-               "close", "truncate", "flock", "scandir"}  # fmt: skip
+_FILE_CALLS = {
+    "open",
+    "write",
+    "flush",
+    "fsync",
+    "replace",
+    "rename",
+    "link",
+    "unlink",
+    "remove",
+    "mkdir",
+    "rmdir",
+    "close",
+    "truncate",
+    "flock",
+    "scandir",
+}
 """Names of C functions that touch files, before and after each of which a child may die."""
 
 

@@ -12,8 +12,9 @@ from physexp.analysis import config as config_lib
 from physexp.analysis import records, training
 from physexp.analysis import run as run_lib
 
-SMALL = ppo.PPOConfig(num_threads=1, num_environments=4, num_minibatches=2, num_epochs=1, lstm_units=8, frames=60,
-                      checkpoint_seconds=1e-9)  # fmt: skip
+SMALL = ppo.PPOConfig(
+    num_threads=1, num_environments=4, num_minibatches=2, num_epochs=1, lstm_units=8, frames=60, checkpoint_seconds=1e-9
+)
 """One process, and a checkpoint after each of its few updates."""
 
 
@@ -28,9 +29,28 @@ def words(run: run_lib.Run) -> list:
     return ["train", "which_is_heavier", "features", "--agent", "ppo", "--run-dir", run.path, "--resume"]
 
 
-OPTIONS = ["--agent", "ppo", "--difficulty", 10, "--replay-every", 0, "--num-threads", 1, "--num-environments", 4,
-           "--num-minibatches", 2, "--num-epochs", 1, "--lstm-units", 8, "--frames", SMALL.frames,
-           "--checkpoint-seconds", SMALL.checkpoint_seconds]  # fmt: skip
+OPTIONS = [
+    "--agent",
+    "ppo",
+    "--difficulty",
+    10,
+    "--replay-every",
+    0,
+    "--num-threads",
+    1,
+    "--num-environments",
+    4,
+    "--num-minibatches",
+    2,
+    "--num-epochs",
+    1,
+    "--lstm-units",
+    8,
+    "--frames",
+    SMALL.frames,
+    "--checkpoint-seconds",
+    SMALL.checkpoint_seconds,
+]
 """`config` as the command line has it, except for the task's preset."""
 
 
@@ -67,10 +87,18 @@ def card(number: int) -> dict:
     }
     num_actions = environment.action_spec().num_values
     environment.close()
-    return {"domain": "which_is_heavier", "task": "features", "difficulty": 10.0, "frames": number,
-            "agent": config().to_json()["agent"],
-            "network": {"observations": observations, "num_actions": num_actions,
-                        "hyperparameters": agent_lib.hyperparameters(SMALL)}}  # fmt: skip
+    return {
+        "domain": "which_is_heavier",
+        "task": "features",
+        "difficulty": 10.0,
+        "frames": number,
+        "agent": config().to_json()["agent"],
+        "network": {
+            "observations": observations,
+            "num_actions": num_actions,
+            "hyperparameters": agent_lib.hyperparameters(SMALL),
+        },
+    }
 
 
 def publish(folder, number: int) -> None:

@@ -190,8 +190,10 @@ def test_a_full_disk_costs_no_agent_and_no_replay(command, kind, expected, tmp_p
     assert attacks.run(subjects.train, run.path).code == 0
     there = tmp_path / "there"
     there.mkdir()
-    words = {"publish": ["publish", run.path, "--output-dir", there, "--episodes", 2],
-             "replay": ["replay", run.path, "--output", there / "replay.rrd", "--episodes", 2]}[command]  # fmt: skip
+    words = {
+        "publish": ["publish", run.path, "--output-dir", there, "--episodes", 2],
+        "replay": ["replay", run.path, "--output", there / "replay.rrd", "--episodes", 2],
+    }[command]
     assert attacks.run(attacks.command, *words).code == 0
     names = sorted(os.listdir(there))
     sizes = [path.stat().st_size for path in there.rglob("*") if path.is_file()]

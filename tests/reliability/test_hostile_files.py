@@ -70,12 +70,21 @@ DOCUMENTS = {
     "null": b"null",
     "surrogates": b'"\\ud800"',
     "everything is null": b'{"format": 1, "train": null, "facts": null, "sha256": null, "network": null}',
-    "a huge network": json.dumps({
-        "format": 1, "domain": "which_is_heavier", "task": "features", "difficulty": 10.0, "agent": {},
-        "network": {"observations": {"a": [[10**9, 10**9], "float64"]}, "num_actions": 10**12,
-                    "hyperparameters": {"lstm_units": 10**9, "observation_scale": 1.0}},
-    }).encode(),
-}  # fmt: skip
+    "a huge network": json.dumps(
+        {
+            "format": 1,
+            "domain": "which_is_heavier",
+            "task": "features",
+            "difficulty": 10.0,
+            "agent": {},
+            "network": {
+                "observations": {"a": [[10**9, 10**9], "float64"]},
+                "num_actions": 10**12,
+                "hyperparameters": {"lstm_units": 10**9, "observation_scale": 1.0},
+            },
+        }
+    ).encode(),
+}
 
 ROWS = {
     "no header": b"1,2,3\n" * 10,

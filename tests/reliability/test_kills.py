@@ -121,8 +121,9 @@ def test_a_killed_writer_leaves_the_old_or_the_new_and_the_next_one_cleans_up(ki
 
 @functools.cache
 def recorded():
-    return [recording.reenact(subjects.network(0.0), subjects.config(), 0, number, None, "an agent")
-            for number in range(3)]  # fmt: skip
+    return [
+        recording.reenact(subjects.network(0.0), subjects.config(), 0, number, None, "an agent") for number in range(3)
+    ]
 
 
 def write_replay(folder, number):

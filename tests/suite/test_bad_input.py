@@ -73,8 +73,24 @@ def test_keyword_arguments_whose_names_are_no_words_are_refused():
         assert "\n" not in str(refused.value)
 
 
-NO_NUMBERS = [np.nan, np.inf, -np.inf, "0.5", None, True, np.bool_(True), 5j, [5], np.array([5.0]), np.float32("nan"),
-              10**400, np.timedelta64(5), np.complex64(5), decimal.Decimal(5), fractions.Fraction(5)]  # fmt: skip
+NO_NUMBERS = [
+    np.nan,
+    np.inf,
+    -np.inf,
+    "0.5",
+    None,
+    True,
+    np.bool_(True),
+    5j,
+    [5],
+    np.array([5.0]),
+    np.float32("nan"),
+    10**400,
+    np.timedelta64(5),
+    np.complex64(5),
+    decimal.Decimal(5),
+    fractions.Fraction(5),
+]
 
 
 @pytest.mark.parametrize("value", [*NO_NUMBERS, 0.999, 0, -5])
@@ -105,8 +121,9 @@ def test_a_control_step_that_is_no_multiple_of_the_physics_step_is_refused(domai
         suite.load(domain_name, task_name, {"control_timestep": value})
 
 
-@pytest.mark.parametrize("value", [-1, 2**63, 1.0, "1", True, [1], np.float64(3), np.timedelta64(3),
-                                   np.random.default_rng(0)])  # fmt: skip
+@pytest.mark.parametrize(
+    "value", [-1, 2**63, 1.0, "1", True, [1], np.float64(3), np.timedelta64(3), np.random.default_rng(0)]
+)
 def test_a_seed_that_is_none_is_refused(value):
     with _refuses("random", repr(value), "[0, 2**63)", "RandomState", "None"):
         suite.load(*HEAVIER, {"random": value})
@@ -114,8 +131,21 @@ def test_a_seed_that_is_none_is_refused(value):
         suite.load_batch(*HEAVIER, 2, {"random": value})
 
 
-NO_INDICES = [-1, -(2**70), 1.5, 2.0, np.float64(2), "2", None, True, np.bool_(False), [2], 2**70,
-              np.timedelta64(2), pytest.param(10**5000, id="5001 digits")]  # fmt: skip
+NO_INDICES = [
+    -1,
+    -(2**70),
+    1.5,
+    2.0,
+    np.float64(2),
+    "2",
+    None,
+    True,
+    np.bool_(False),
+    [2],
+    2**70,
+    np.timedelta64(2),
+    pytest.param(10**5000, id="5001 digits"),
+]
 
 
 @pytest.mark.parametrize("value", NO_INDICES)
@@ -247,8 +277,22 @@ def test_an_environment_whose_episode_is_over_ignores_its_action_even_a_bad_one(
     assert single.step(10**6).first()
 
 
-@pytest.mark.parametrize("bad", [[1, 0], [0, 0], [0, 3], [-1, 0], [0.0, 1.0], [True, False, True], [], 1, "ab",
-                                 [[0, 1]], np.array([0, 2, 1, 2], np.uint64)])  # fmt: skip
+@pytest.mark.parametrize(
+    "bad",
+    [
+        [1, 0],
+        [0, 0],
+        [0, 3],
+        [-1, 0],
+        [0.0, 1.0],
+        [True, False, True],
+        [],
+        1,
+        "ab",
+        [[0, 1]],
+        np.array([0, 2, 1, 2], np.uint64),
+    ],
+)
 def test_environments_are_given_as_increasing_indices(bad):
     batch = suite.load_batch(*HEAVIER, 3, {"random": 0})
     batch.reset()
@@ -272,8 +316,21 @@ def test_an_episode_is_given_as_an_index(bad):
 # Whatever steps.
 
 
-NO_ACTIONS = [2.7, 3.0, True, "3", None, np.float64(3), np.bool_(True), 2**70, np.timedelta64(1), [[0], [0, 1]],
-              np.zeros(40), np.full((2, 30), "a" * 50), "two\nlines"]  # fmt: skip
+NO_ACTIONS = [
+    2.7,
+    3.0,
+    True,
+    "3",
+    None,
+    np.float64(3),
+    np.bool_(True),
+    2**70,
+    np.timedelta64(1),
+    [[0], [0, 1]],
+    np.zeros(40),
+    np.full((2, 30), "a" * 50),
+    "two\nlines",
+]
 
 
 @pytest.fixture(scope="module")
@@ -282,8 +339,13 @@ def all_that_steps():
     single, batch = suite.load(*HEAVIER), suite.load_batch(*HEAVIER, 2)
     gym, vector = gymnasium_lib.Environment(*HEAVIER), gymnasium_lib.VectorEnvironment(*HEAVIER, num_envs=2)
     sb3 = stable_baselines.VecEnv(*HEAVIER, num_envs=2)
-    return {"dm_env": (single, False), "batch": (batch, True), "gymnasium": (gym, False), "vector": (vector, True),
-            "stable_baselines": (sb3, True)}  # fmt: skip
+    return {
+        "dm_env": (single, False),
+        "batch": (batch, True),
+        "gymnasium": (gym, False),
+        "vector": (vector, True),
+        "stable_baselines": (sb3, True),
+    }
 
 
 @pytest.mark.parametrize("which", ["dm_env", "batch", "gymnasium", "vector", "stable_baselines"])

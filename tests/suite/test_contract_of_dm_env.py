@@ -96,8 +96,9 @@ def test_a_flat_observation_is_the_others_in_a_row_sorted_by_name(domain_name, t
     )
     (spec,) = flat.observation_spec().values()
     actions = [0, flat.task.num_interactions, 0, 1]  # The second one ends the episode, the third starts the next.
-    for each, expected in zip([flat.reset(), *map(flat.step, actions)], [named.reset(), *map(named.step, actions)],
-                              strict=True):  # fmt: skip
+    for each, expected in zip(
+        [flat.reset(), *map(flat.step, actions)], [named.reset(), *map(named.step, actions)], strict=True
+    ):
         assert each[:3] == expected[:3] and list(each.observation) == ["observations"] == [spec.name]
         spec.validate(each.observation["observations"])
         row = np.concatenate([value.ravel() for _, value in sorted(expected.observation.items())])

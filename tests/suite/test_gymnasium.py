@@ -126,7 +126,7 @@ def test_a_vector_environment_draws_what_each_environment_behind_it_draws(name, 
     singles = [
         gymnasium.make(name, random=suite.environment_seed(seed, i), render_mode="rgb_array").unwrapped
         for i in range(3)
-    ]  # fmt: skip
+    ]
     vector.reset(seed=seed)
     for single in singles:
         single.reset()

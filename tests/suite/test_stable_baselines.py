@@ -60,9 +60,19 @@ def test_recurrent_ppo_of_sb3_contrib_learns_to_beat_chance(tmp_path, monkeypatc
     monkeypatch.setenv("SB3_LOGDIR", str(tmp_path))  # It would leave a folder among the system's temporary files.
     batch = stable_baselines.VecEnv("which_is_heavier", "features", 64, random=0, difficulty=20.0)
     vector = vec_env.VecNormalize(batch, norm_reward=False)  # Heights are tenths of a metre.
-    learner = RecurrentPPO("MultiInputLstmPolicy", vector, n_steps=16, batch_size=512, n_epochs=10, learning_rate=3e-3,
-                           ent_coef=0.05, gamma=0.95, gae_lambda=1.0, seed=0,
-                           policy_kwargs={"lstm_hidden_size": 32, "net_arch": []})  # fmt: skip
+    learner = RecurrentPPO(
+        "MultiInputLstmPolicy",
+        vector,
+        n_steps=16,
+        batch_size=512,
+        n_epochs=10,
+        learning_rate=3e-3,
+        ent_coef=0.05,
+        gamma=0.95,
+        gae_lambda=1.0,
+        seed=0,
+        policy_kwargs={"lstm_hidden_size": 32, "net_arch": []},
+    )
     learner.learn(60_000)
     observation, states, starts = vector.reset(), None, np.ones(64, bool)
     verdicts = []

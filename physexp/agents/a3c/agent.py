@@ -50,8 +50,13 @@ class A3C(agent_lib.Agent):
     actions their random numbers, from it. So a checkpoint is the shared variables and nothing else.
     """
 
-    def __init__(self, make_environment: agent_lib.EnvironmentFactory, config: config_lib.A3CConfig,
-                 report: Callable[[str], None] = lambda line: None, patience: Patience = Patience()):  # fmt: skip
+    def __init__(
+        self,
+        make_environment: agent_lib.EnvironmentFactory,
+        config: config_lib.A3CConfig,
+        report: Callable[[str], None] = lambda line: None,
+        patience: Patience = Patience(),
+    ):
         """Prepares the shared variables; the workers start with `updates`.
 
         Args:
@@ -129,8 +134,9 @@ class A3C(agent_lib.Agent):
         self._workers = [_Worker(index) for index in range(self._config.num_workers)]
         with processes.inherited_by_workers():
             for worker in self._workers:
-                worker.start(self._context, self._received, self._make_environment, self._config, self.shared,
-                             self._stopping)  # fmt: skip
+                worker.start(
+                    self._context, self._received, self._make_environment, self._config, self.shared, self._stopping
+                )
         self._watch = _Watch(self.shared, self._workers, self._patience, self._report)
 
     def _check_workers(self) -> None:
@@ -196,8 +202,9 @@ class _Worker:
     def start(self, context, received, *arguments) -> None:
         self._receiver, sender = context.Pipe(duplex=False)
         self._received = received
-        self.process = context.Process(target=_work, args=(self.index, *arguments, sender),
-                                       name=f"physexp worker {self.index}", daemon=True)  # fmt: skip
+        self.process = context.Process(
+            target=_work, args=(self.index, *arguments, sender), name=f"physexp worker {self.index}", daemon=True
+        )
         self.process.start()
         sender.close()  # So that the pipe ends with the worker.
         self._listener.start()
@@ -222,8 +229,9 @@ class _Watch:
     What counts is time in which this process ran, too: when all of them were stopped and go on, nobody was silent.
     """
 
-    def __init__(self, shared: a3c.SharedMemory, workers: list[_Worker], patience: Patience,
-                 report: Callable[[str], None]):  # fmt: skip
+    def __init__(
+        self, shared: a3c.SharedMemory, workers: list[_Worker], patience: Patience, report: Callable[[str], None]
+    ):
         self._shared, self._workers, self._patience, self._report = shared, workers, patience, report
         self._rounds = self._shared.variables.rounds.tolist()
         self._idle, self._since = [0.0] * len(workers), [time.time()] * len(workers)
@@ -250,8 +258,10 @@ class _Watch:
         self._held = self._held + passed if holder >= 0 and holding == self._holding else 0.0
         self._holding = holding
         if self._held >= self._patience.locked:
-            raise WorkerError(f"{self._workers[holder].name} has kept the others from the shared variables for "
-                              f"{self._patience.locked:.0f} s")  # fmt: skip
+            raise WorkerError(
+                f"{self._workers[holder].name} has kept the others from the shared variables for "
+                f"{self._patience.locked:.0f} s"
+            )
 
     def _look_at(self, worker: _Worker, passed: float) -> None:
         index, rounds = worker.index, int(self._shared.variables.rounds[worker.index])
@@ -266,8 +276,10 @@ class _Watch:
             self._told.add(index)
             since = time.strftime("%H:%M:%S", time.localtime(self._since[index]))
             others = any(other.is_heard() and other.index not in self._told for other in self._workers)
-            self._report(f"{worker.name} has been silent since {since}; training "
-                         f"{'goes on with the others' if others else 'waits'}")  # fmt: skip
+            self._report(
+                f"{worker.name} has been silent since {since}; training "
+                f"{'goes on with the others' if others else 'waits'}"
+            )
 
 
 def _work(index, make_environment, config, shared, stopping, sender) -> None:
@@ -286,8 +298,13 @@ def _work(index, make_environment, config, shared, stopping, sender) -> None:
         sender.send(WorkerError(f"worker {index}: {error!r}\n{traceback.format_exc()}"))
 
 
-def work(index: int, make_environment: agent_lib.EnvironmentFactory, config: config_lib.A3CConfig, shared: a3c.Shared,
-         is_stopped: Callable[[], bool]) -> None:  # fmt: skip
+def work(
+    index: int,
+    make_environment: agent_lib.EnvironmentFactory,
+    config: config_lib.A3CConfig,
+    shared: a3c.Shared,
+    is_stopped: Callable[[], bool],
+) -> None:
     """What a worker does: updates of the shared variables, until all frames are done or it is stopped."""
     environment = make_environment(agent_lib.worker_seed(config.seed, index), config.envs_per_worker, 1)
     network = agent_lib.make_network(environment, config)

@@ -24,6 +24,8 @@ class A3CConfig(config.AgentConfig):
     max_staleness: int = 100
 
     _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {
-        **config.AgentConfig._WHOLE, "num_workers": (1, 10_000), "envs_per_worker": (1, 65_536),
+        **config.AgentConfig._WHOLE,
+        "num_workers": (1, 10_000),
+        "envs_per_worker": (1, 65_536),
         "max_staleness": (0, config.LARGEST),
-    }  # fmt: skip
+    }

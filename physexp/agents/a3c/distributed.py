@@ -102,8 +102,9 @@ class ParameterServer:
         self._traffic = Traffic()
         self._stopped = False
 
-    def exchange(self, worker: int, seed: int, gradient: np.ndarray | None,
-                 contribution: a3c.Contribution | None) -> _Reply:  # fmt: skip
+    def exchange(
+        self, worker: int, seed: int, gradient: np.ndarray | None, contribution: a3c.Contribution | None
+    ) -> _Reply:
         """Applies what a worker has learned, if anything, and gives it the newest parameters.
 
         The gradient, float32 [P], comes beside the rest: arrays are sent without being copied, tensors are not.
@@ -112,8 +113,9 @@ class ParameterServer:
         variables, traffic = self._variables, self._traffic
         if contribution is not None and gradient is not None:
             gradients = _split(torch.from_numpy(gradient.copy()), variables.network)
-            counters = a3c.push(variables, dataclasses.replace(contribution, gradients=gradients),
-                                self._config.max_staleness)  # fmt: skip
+            counters = a3c.push(
+                variables, dataclasses.replace(contribution, gradients=gradients), self._config.max_staleness
+            )
             traffic.bytes_in += gradient.nbytes + contribution.episodes.actions.nbytes
             if counters is None:
                 traffic.dropped += 1
@@ -218,8 +220,15 @@ class Worker:
     def ready(self) -> None:
         """Answers once there is a process to do so."""
 
-    def run(self, server, index: int, make_environment: agent_lib.EnvironmentFactory, config: config_lib.A3CConfig,
-            versions: dict[str, str], find_versions: Callable[[], dict[str, str]]) -> None:  # fmt: skip
+    def run(
+        self,
+        server,
+        index: int,
+        make_environment: agent_lib.EnvironmentFactory,
+        config: config_lib.A3CConfig,
+        versions: dict[str, str],
+        find_versions: Callable[[], dict[str, str]],
+    ) -> None:
         """Works until all frames are done or the server stops it.
 
         Raises:
@@ -229,8 +238,10 @@ class Worker:
         own = find_versions()
         differing = [f"{name} {own[name]}, not {versions[name]}" for name in versions if own[name] != versions[name]]
         if differing:
-            raise learning.AgentError(f"{ray.util.get_node_ip_address()} has {', '.join(differing)}; install the "
-                                      "versions of the machine that trains")  # fmt: skip
+            raise learning.AgentError(
+                f"{ray.util.get_node_ip_address()} has {', '.join(differing)}; install the "
+                "versions of the machine that trains"
+            )
         torch.set_num_threads(1)
         # Alone, a worker learns the same as on one machine: it waits for what it has learned.
         shared = _Remote(server, agent_lib.worker_seed(config.seed, index), overlaps=config.num_workers > 1)
@@ -245,9 +256,14 @@ class DistributedA3C(agent_lib.Agent):
       restarts: how often a worker that had died was started again.
     """
 
-    def __init__(self, make_environment: agent_lib.EnvironmentFactory, config: config_lib.A3CConfig,
-                 find_versions: Callable[[], dict[str, str]],
-                 report: Callable[[str], None] = lambda line: None, patience: Patience = Patience()):  # fmt: skip
+    def __init__(
+        self,
+        make_environment: agent_lib.EnvironmentFactory,
+        config: config_lib.A3CConfig,
+        find_versions: Callable[[], dict[str, str]],
+        report: Callable[[str], None] = lambda line: None,
+        patience: Patience = Patience(),
+    ):
         """Prepares the variables; the actors start with `updates`.
 
         Args:
@@ -341,8 +357,9 @@ class DistributedA3C(agent_lib.Agent):
 
     def _run(self, worker, index: int):
         """Sets a worker to work."""
-        return worker.run.remote(self._server, index, self._make_environment, self._config, self._find_versions(),
-                                 self._find_versions)  # fmt: skip
+        return worker.run.remote(
+            self._server, index, self._make_environment, self._config, self._find_versions(), self._find_versions
+        )
 
     def _ask(self, question: str) -> Any:
         """Calls a method of the parameter server."""
@@ -365,10 +382,11 @@ class DistributedA3C(agent_lib.Agent):
             self.restarts += 1
             self._deaths[index] += 1
             if self._deaths[index] > _MAX_DEATHS:
-                raise a3c_agent.WorkerError(f"worker {index} has died {self._deaths[index]} times, and nobody has "
-                                            f"learned anything meanwhile: {_first_line(error)}") from None  # fmt: skip
-            self._report(f"worker {index} has died ({_first_line(error)}) and is started again; "
-                         f"{self.restarts} so far")  # fmt: skip
+                raise a3c_agent.WorkerError(
+                    f"worker {index} has died {self._deaths[index]} times, and nobody has "
+                    f"learned anything meanwhile: {_first_line(error)}"
+                ) from None
+            self._report(f"worker {index} has died ({_first_line(error)}) and is started again; {self.restarts} so far")
             return False
         except agent_lib.VariablesLostError as error:
             raise _cause(error) from None
@@ -407,16 +425,20 @@ class _Watch:
                     self._report(f"worker {index} is back")
             elif now - self._heard[index] >= self._patience.silent and index not in self._silent:
                 self._silent.add(index)
-                self._report(f"worker {index} has been silent for {self._patience.silent:.0f} s; training goes on with "
-                             "those that are not")  # fmt: skip
+                self._report(
+                    f"worker {index} has been silent for {self._patience.silent:.0f} s; training goes on with "
+                    "those that are not"
+                )
         self._rounds = rounds
         if not coming:
             self._crowded, self._without_room = now, 0
         elif now - self._crowded >= self._patience.room and len(coming) != self._without_room:
             self._without_room = len(coming)
             processors = ray.cluster_resources().get("CPU", 0)
-            self._report(f"{len(coming)} of {len(self._heard)} workers find no room on the cluster, which has "
-                         f"{processors:g} processors; they join when there is some")  # fmt: skip
+            self._report(
+                f"{len(coming)} of {len(self._heard)} workers find no room on the cluster, which has "
+                f"{processors:g} processors; they join when there is some"
+            )
 
 
 def _named(indices: Collection[int]) -> str:

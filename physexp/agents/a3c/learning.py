@@ -83,8 +83,12 @@ def push(variables: learning.Variables, contribution: Contribution, max_stalenes
         return None
     variables.apply(contribution.gradients, contribution.learning_rate)
     variables.count(contribution.episodes.num_frames)
-    return {"updates": int(variables.updates), "frames": int(variables.frames),
-            "rounds": contribution.pulled.rounds, "staleness": staleness}  # fmt: skip
+    return {
+        "updates": int(variables.updates),
+        "frames": int(variables.frames),
+        "rounds": contribution.pulled.rounds,
+        "staleness": staleness,
+    }
 
 
 class SharedMemory(Shared):
@@ -142,8 +146,14 @@ class A3CLearner(core.Learner):
 
     last_round: acting.Round
 
-    def __init__(self, network: networks.RecurrentActorCritic, shared: Shared,
-                 play: Callable[[int], acting.Round], worker: int, config: config_lib.A3CConfig):  # fmt: skip
+    def __init__(
+        self,
+        network: networks.RecurrentActorCritic,
+        shared: Shared,
+        play: Callable[[int], acting.Round],
+        worker: int,
+        config: config_lib.A3CConfig,
+    ):
         """Joins a worker's own network to the shared variables.
 
         Args:
@@ -196,8 +206,13 @@ class A3CLearner(core.Learner):
         self._shared.restore(state)
 
 
-def round_losses(network: networks.RecurrentActorCritic, episodes: acting.Round, discount: float, trace: float = 1.0,
-                 prior: Sequence[float] = ()):  # fmt: skip
+def round_losses(
+    network: networks.RecurrentActorCritic,
+    episodes: acting.Round,
+    discount: float,
+    trace: float = 1.0,
+    prior: Sequence[float] = (),
+):
     """The losses of a round (see `losses.actor_critic_losses`), the network unrolled over whole episodes."""
     episodes = episodes.select()
     assert isinstance(episodes.inputs, torch.Tensor)

@@ -28,13 +28,18 @@ class PPOConfig(config.AgentConfig):
     clip: float = 0.2
 
     _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {
-        **config.AgentConfig._WHOLE, "num_environments": (1, 65_536), "num_threads": (1, 1_024),
-        "num_epochs": (1, 1_000), "num_minibatches": (1, 65_536),
-    }  # fmt: skip
+        **config.AgentConfig._WHOLE,
+        "num_environments": (1, 65_536),
+        "num_threads": (1, 1_024),
+        "num_epochs": (1, 1_000),
+        "num_minibatches": (1, 65_536),
+    }
     _POSITIVE: ClassVar[tuple[str, ...]] = (*config.AgentConfig._POSITIVE, "clip")
 
     def __post_init__(self):
         super().__post_init__()
         if self.num_minibatches > self.num_environments:
-            raise ValueError(f"num_minibatches is {self.num_minibatches}; give at most num_environments, "
-                             f"{self.num_environments}: a part has whole episodes")  # fmt: skip
+            raise ValueError(
+                f"num_minibatches is {self.num_minibatches}; give at most num_environments, "
+                f"{self.num_environments}: a part has whole episodes"
+            )

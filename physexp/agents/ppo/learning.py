@@ -63,9 +63,15 @@ class PPOLearner(core.Learner):
         returns, advantages = learning.targets(episodes, transcript.values, config.discount, config.trace)
         device = logits.device
         policy_loss, baseline_loss, entropy = losses.clipped_losses(
-            logits, values, episodes.packed(episodes.actions).to(device), transcript.log_probabilities.to(device),
-            returns.to(device), _standardized(advantages).to(device), config.clip, config.entropy_prior,
-        )  # fmt: skip
+            logits,
+            values,
+            episodes.packed(episodes.actions).to(device),
+            transcript.log_probabilities.to(device),
+            returns.to(device),
+            _standardized(advantages).to(device),
+            config.clip,
+            config.entropy_prior,
+        )
         loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
         gradients, norm = learning.clipped_gradients(network, loss, config.max_gradient_norm, episodes)
         self.variables.apply(gradients, learning_rate)

@@ -16,8 +16,18 @@ from physexp.analysis.experiments.base import Experiment
 
 __all__ = ["EXPERIMENTS", "Experiment"]
 
-_MODULES = (mass_gap, learning_heavier, population, individual, random_heavier, learning_towers, waiting,
-            random_towers, ideal_gap, learners)  # fmt: skip
+_MODULES = (
+    mass_gap,
+    learning_heavier,
+    population,
+    individual,
+    random_heavier,
+    learning_towers,
+    waiting,
+    random_towers,
+    ideal_gap,
+    learners,
+)
 
 EXPERIMENTS = {module.EXPERIMENT.name: module.EXPERIMENT for module in _MODULES}
 """All experiments by name, in the paper's order."""

@@ -58,8 +58,9 @@ class Results:
         """The files of all that a run's agent played, of whichever trial."""
         return sorted(self.path.glob(f"episodes/*/{config.name}.parquet"))
 
-    def episodes(self, trials: Sequence[Trial], configs: Sequence[config_lib.TrainConfig],
-                 columns: Sequence[str] = ()) -> Any:  # fmt: skip
+    def episodes(
+        self, trials: Sequence[Trial], configs: Sequence[config_lib.TrainConfig], columns: Sequence[str] = ()
+    ) -> Any:
         """What agents of these conditions have played: a DataFrame with columns of `records.SCHEMA` and `condition`.
 
         Args:
@@ -86,11 +87,16 @@ class Results:
             for folder in sorted((self.path / "runs").glob(f"{_without_seed(config)}-seed*")):
                 run = run_lib.Run(folder)
                 if run.is_finished:
-                    frames.append(pandas.DataFrame(run.metrics()).assign(
-                        domain=config.domain, task=config.task, difficulty=config.difficulty,
-                        discount=config.agent.discount, training_seed=run.config.agent.seed,
-                        algorithm=config.agent.algorithm,
-                    ))  # fmt: skip
+                    frames.append(
+                        pandas.DataFrame(run.metrics()).assign(
+                            domain=config.domain,
+                            task=config.task,
+                            difficulty=config.difficulty,
+                            discount=config.agent.discount,
+                            training_seed=run.config.agent.seed,
+                            algorithm=config.agent.algorithm,
+                        )
+                    )
         if not frames:
             raise ValueError(f"{self.path} holds no finished runs of this experiment; `physexp reproduce` it first")
         frame = pandas.concat(frames, ignore_index=True)

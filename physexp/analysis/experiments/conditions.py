@@ -22,14 +22,17 @@ _FRAMES = {
 }
 
 
-def heavier(difficulty: float, observations: str, frames: int,
-            discount: float = config_lib.DISCOUNT["which_is_heavier"]) -> config_lib.TrainConfig:  # fmt: skip
+def heavier(
+    difficulty: float, observations: str, frames: int, discount: float = config_lib.DISCOUNT["which_is_heavier"]
+) -> config_lib.TrainConfig:
     """Which is Heavier at a difficulty, for so many environment steps, the agent's gamma being `discount`."""
     agent = config_lib.preset("which_is_heavier", observations)
     return config_lib.TrainConfig(
-        domain="which_is_heavier", task=observations, difficulty=difficulty,
+        domain="which_is_heavier",
+        task=observations,
+        difficulty=difficulty,
         agent=agent.replace(discount=discount, frames=frames, num_workers=1),
-    )  # fmt: skip
+    )
 
 
 def towers(actuator: str, observations: str = "features") -> config_lib.TrainConfig:

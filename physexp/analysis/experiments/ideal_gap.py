@@ -25,14 +25,23 @@ def load(results: base.Results):
             continue  # Not trained (yet): the figure shows those that are.
         for seed, episodes in frame.groupby("training_seed"):
             returns = records.discounted_return(episodes)
-            rows.append({
-                "condition": episodes.condition.iloc[0], "domain": condition.domain, "difficulty": condition.difficulty,
-                "training_seed": seed, "agent_return": returns.mean(),
-                "return_error": returns.std(ddof=1) / np.sqrt(len(returns)),
-                "accuracy": (episodes.reward > 0).mean(), "interactions": episodes.interactions.mean(),
-                **(_of_heavier(condition, episodes) if condition.domain == "which_is_heavier"
-                   else _of_towers(towers[condition.task])),
-            })  # fmt: skip
+            rows.append(
+                {
+                    "condition": episodes.condition.iloc[0],
+                    "domain": condition.domain,
+                    "difficulty": condition.difficulty,
+                    "training_seed": seed,
+                    "agent_return": returns.mean(),
+                    "return_error": returns.std(ddof=1) / np.sqrt(len(returns)),
+                    "accuracy": (episodes.reward > 0).mean(),
+                    "interactions": episodes.interactions.mean(),
+                    **(
+                        _of_heavier(condition, episodes)
+                        if condition.domain == "which_is_heavier"
+                        else _of_towers(towers[condition.task])
+                    ),
+                }
+            )
     if not rows:
         raise ValueError(f"{results.path} holds no episodes of this experiment; `physexp reproduce ideal_gap` first")
     frame = pandas.DataFrame(rows)
@@ -45,15 +54,21 @@ def _of_heavier(condition, episodes) -> dict[str, float]:
     summary = solution.summary()
     masses = np.stack(episodes.masses.to_numpy()).astype(float)
     costs = regret.regrets(solution, masses, list(episodes.actions), (episodes.label < 0).to_numpy())
-    return {"ideal_return": summary["value"], "ideal_accuracy": summary["accuracy"],
-            "ideal_interactions": summary["mean_interactions"],
-            **{kind: float(cost.mean()) for kind, cost in costs.items()}}  # fmt: skip
+    return {
+        "ideal_return": summary["value"],
+        "ideal_accuracy": summary["accuracy"],
+        "ideal_interactions": summary["mean_interactions"],
+        **{kind: float(cost.mean()) for kind, cost in costs.items()},
+    }
 
 
 def _of_towers(rows: list[dict]) -> dict[str, float]:
     summary = ideal_towers.best(rows)
-    return {"ideal_return": summary["value"], "ideal_accuracy": summary["accuracy"],
-            "ideal_interactions": summary["mean_interactions"]}  # fmt: skip
+    return {
+        "ideal_return": summary["value"],
+        "ideal_accuracy": summary["accuracy"],
+        "ideal_interactions": summary["mean_interactions"],
+    }
 
 
 def median_of_top_half(values: np.ndarray) -> float:
@@ -69,18 +84,29 @@ def find_claims(frame) -> list[claims.Claim]:
         beta = agents.difficulty.iloc[0]
         least = LEAST[beta] if condition in ("3-F", "5-F", "10-F") else None
         if least is not None:
-            found.append(claims.Claim(
-                text=f"Feature agents reach {least:.0%} of the ideal experimenter's return", section="ours",
-                condition=condition, statistic="share of the ideal's return, median of the better half of the agents",
-                estimate=statistics.bootstrap(shares, median_of_top_half), above=least,
-            ))  # fmt: skip
+            found.append(
+                claims.Claim(
+                    text=f"Feature agents reach {least:.0%} of the ideal experimenter's return",
+                    section="ours",
+                    condition=condition,
+                    statistic="share of the ideal's return, median of the better half of the agents",
+                    estimate=statistics.bootstrap(shares, median_of_top_half),
+                    above=least,
+                )
+            )
         best = int(shares.argmax())
         margin = 1.96 * (agents.return_error / agents.ideal_return).to_numpy()[best]
-        found.append(claims.Claim(
-            text="No agent beats the ideal experimenter", section="ours", condition=condition,
-            statistic="share of the ideal's return, the best agent; interval: of its episodes; 1 % allowed for luck",
-            estimate=statistics.Estimate(shares[best], shares[best] - margin, shares[best] + margin), below=1.01,
-        ))  # fmt: skip
+        found.append(
+            claims.Claim(
+                text="No agent beats the ideal experimenter",
+                section="ours",
+                condition=condition,
+                statistic="share of the ideal's return, the best agent; interval: of its episodes; "
+                "1 % allowed for luck",
+                estimate=statistics.Estimate(shares[best], shares[best] - margin, shares[best] + margin),
+                below=1.01,
+            )
+        )
     return found
 
 
@@ -91,8 +117,14 @@ def draw(frame):
     places = np.arange(len(names))
     for place, name in zip(places, names, strict=True):
         agents = frame[frame.condition == name]
-        left.plot([place] * len(agents), agents.agent_return / agents.ideal_return, "o", color=figures.COLORS[1],
-                  markersize=2.5, alpha=0.6)  # fmt: skip
+        left.plot(
+            [place] * len(agents),
+            agents.agent_return / agents.ideal_return,
+            "o",
+            color=figures.COLORS[1],
+            markersize=2.5,
+            alpha=0.6,
+        )
     figures.reference(left, 1.0, "ideal", at=0.35)
     left.set_xticks(places, [conditions.tick(name) for name in names], rotation=90)
     left.set(ylabel="discounted return, share of the ideal's")
@@ -111,8 +143,16 @@ def _draw_costs(axes, frame) -> None:
     base_of_bar = np.zeros(len(means))
     for number, (kind, words) in enumerate(regret.KINDS.items()):
         if (means[kind] > 1e-4).any():
-            axes.bar(ticks, means[kind], bottom=base_of_bar, color=figures.COLORS[1:][number], label=words,
-                     hatch=[None, "///", "...", "xx", "++"][number], edgecolor="white", linewidth=0.3)  # fmt: skip
+            axes.bar(
+                ticks,
+                means[kind],
+                bottom=base_of_bar,
+                color=figures.COLORS[1:][number],
+                label=words,
+                hatch=[None, "///", "...", "xx", "++"][number],
+                edgecolor="white",
+                linewidth=0.3,
+            )
         base_of_bar = base_of_bar + means[kind].to_numpy()
     axes.set(ylabel="return lost against the ideal")
     axes.tick_params(axis="x", rotation=90)
@@ -123,11 +163,21 @@ def _draw_costs(axes, frame) -> None:
 def _draw_resolutions(axes, towers: dict[str, list[dict]]) -> None:
     for number, (task, rows) in enumerate((task, rows) for task, rows in towers.items() if "features" in task):
         rows = [row for row in rows if row["objective"] == "time" and row["value"] is not None]
-        axes.plot([max(row["resolution"], 3e-4) * 1e3 for row in rows], [row["mean_seconds"] for row in rows],
-                  color=figures.COLORS[number], linestyle=figures.DASHES[number], marker=figures.MARKERS[number],
-                  markersize=3.5, label=task.split("_")[0])  # fmt: skip
-    axes.set(xscale="log", xlabel="resolution, mm (leftmost: every bit)",
-             ylabel="least expected time to know, s", ylim=(0, None))  # fmt: skip
+        axes.plot(
+            [max(row["resolution"], 3e-4) * 1e3 for row in rows],
+            [row["mean_seconds"] for row in rows],
+            color=figures.COLORS[number],
+            linestyle=figures.DASHES[number],
+            marker=figures.MARKERS[number],
+            markersize=3.5,
+            label=task.split("_")[0],
+        )
+    axes.set(
+        xscale="log",
+        xlabel="resolution, mm (leftmost: every bit)",
+        ylabel="least expected time to know, s",
+        ylim=(0, None),
+    )
     axes.legend(loc="upper left")
 
 

@@ -44,10 +44,14 @@ def read(results: base.Results) -> dict[str, list[dict]]:
 def _is_summary(row: Any) -> bool:
     """Whether this is a summary as `towers.curve` gives them, with what figures and claims take from it."""
     needed = ("resolution", "accuracy", "mean_interactions", "mean_seconds")
-    return isinstance(row, dict) and isinstance(row.get("objective"), str) and (
-        all(type(row.get(name)) in (int, float) for name in needed)
-        and all(row.get(name) is None or type(row[name]) in (int, float) for name in ("value", "bound"))
-    )  # fmt: skip
+    return (
+        isinstance(row, dict)
+        and isinstance(row.get("objective"), str)
+        and (
+            all(type(row.get(name)) in (int, float) for name in needed)
+            and all(row.get(name) is None or type(row[name]) in (int, float) for name in ("value", "bound"))
+        )
+    )
 
 
 def best(rows: list[dict], objective: str = "return") -> dict:

@@ -25,15 +25,26 @@ def find_claims(frame) -> list[claims.Claim]:
         ]
         worst = max(slopes, key=lambda estimate: estimate.high)
         text = "The smaller the mass gap, the longer an agent experiments"
-        found.append(claims.Claim(
-            text=text, section="5.3", condition=f"{beta:g}-F",
-            statistic=f"slope of pokes on mass gap (OLS), mean of {len(slopes)} agents",
-            estimate=statistics.mean([estimate.value for estimate in slopes]), below=0,
-        ))  # fmt: skip
-        found.append(claims.Claim(
-            text=text, section="5.3", condition=f"{beta:g}-F, each agent",
-            statistic=f"the same in the agent of {len(slopes)} where it is least sure", estimate=worst, below=0,
-        ))  # fmt: skip
+        found.append(
+            claims.Claim(
+                text=text,
+                section="5.3",
+                condition=f"{beta:g}-F",
+                statistic=f"slope of pokes on mass gap (OLS), mean of {len(slopes)} agents",
+                estimate=statistics.mean([estimate.value for estimate in slopes]),
+                below=0,
+            )
+        )
+        found.append(
+            claims.Claim(
+                text=text,
+                section="5.3",
+                condition=f"{beta:g}-F, each agent",
+                statistic=f"the same in the agent of {len(slopes)} where it is least sure",
+                estimate=worst,
+                below=0,
+            )
+        )
     return found
 
 
@@ -48,21 +59,30 @@ def draw(frame):
         gaps, pokes = rows.mass_gap.to_numpy(float), rows.interactions.to_numpy(float)
         generator = np.random.default_rng(0)
         spread = generator.uniform(-0.3, 0.3, min(_SHOWN, len(rows)))  # Pokes are whole numbers: dots would coincide.
-        axes.scatter(gaps[:_SHOWN], pokes[:_SHOWN] + spread, s=1, color="black", alpha=0.25, linewidths=0,
-                     rasterized=True)  # fmt: skip
+        axes.scatter(
+            gaps[:_SHOWN], pokes[:_SHOWN] + spread, s=1, color="black", alpha=0.25, linewidths=0, rasterized=True
+        )
         bins = np.digitize(gaps, _BINS[1:-1])
         means, deviations = (
             [function(pokes[bins == b]) if (bins == b).sum() >= _FEWEST else np.nan for b in range(len(centers))]
             for function in (np.mean, np.std)
         )
-        axes.errorbar(centers, means, deviations, fmt="s", color=figures.COLORS[2], markersize=3, linewidth=1,
-                      capsize=1.5, label="mean and standard deviation")  # fmt: skip
+        axes.errorbar(
+            centers,
+            means,
+            deviations,
+            fmt="s",
+            color=figures.COLORS[2],
+            markersize=3,
+            linewidth=1,
+            capsize=1.5,
+            label="mean and standard deviation",
+        )
         trend = statistics.slope(gaps, pokes)
         ends = np.array([0.0, 1.0])
         axes.plot(ends, pokes.mean() + trend.value * (ends - gaps.mean()), color=figures.COLORS[2], label="OLS")
         axes.plot(*_ideal_means(beta), color=figures.COLORS[1], linestyle=figures.DASHES[1], label="ideal")
-        axes.set(xlabel="mass gap", title=rf"$\beta$ = {beta:g}: slope {trend.value:.2f}", xlim=(0, 1),
-                 ylim=(0, 15))  # fmt: skip
+        axes.set(xlabel="mass gap", title=rf"$\beta$ = {beta:g}: slope {trend.value:.2f}", xlim=(0, 1), ylim=(0, 15))
     panels[0, 0].set_ylabel("pokes before the answer")
     panels[0, -1].legend(loc="upper right", fontsize=6)
     return figure

@@ -10,8 +10,10 @@ _CLAIMS = {
     "frames": ("PPO learns from fewer environment steps than A3C", "environment steps"),
     "seconds": ("PPO learns in less time than A3C", "seconds"),
 }
-_REASON = ("A3C takes one gradient from an episode, PPO sixteen or eight; where simulation is cheap, as in Which is "
-           "Heavier, A3C makes up in time for what it needs in frames.")  # fmt: skip
+_REASON = (
+    "A3C takes one gradient from an episode, PPO sixteen or eight; where simulation is cheap, as in Which is "
+    "Heavier, A3C makes up in time for what it needs in frames."
+)
 
 
 def _with_ppo(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
@@ -19,8 +21,10 @@ def _with_ppo(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
     return config_lib.TrainConfig(domain=config.domain, task=config.task, difficulty=config.difficulty, agent=agent)
 
 
-_PAPERS = (next(config for config in conditions.HEAVIER if config.difficulty == 5.0 and config.task == "features"),
-           conditions.towers("fist"))  # fmt: skip
+_PAPERS = (
+    next(config for config in conditions.HEAVIER if config.difficulty == 5.0 and config.task == "features"),
+    conditions.towers("fist"),
+)
 CONDITIONS = tuple(config for papers in _PAPERS for config in (papers, _with_ppo(papers)))
 _TASKS = [conditions.label(papers.domain, papers.task, papers.difficulty) for papers in _PAPERS]
 
@@ -43,11 +47,17 @@ def find_claims(frame) -> list[claims.Claim]:
         for task in _TASKS:
             ppo, a3c = learning.compare_first_reached(frame, _curve_names(task), _LEARNED, along)
             if len(ppo) and len(a3c):
-                found.append(claims.Claim(
-                    text=text, section="ours", condition=task,
-                    statistic=f"{unit} to {_LEARNED:.0%} right answers, PPO over A3C, ratio of means",
-                    estimate=statistics.ratio_of_means(ppo, a3c), below=1, reason=_REASON,
-                ))  # fmt: skip
+                found.append(
+                    claims.Claim(
+                        text=text,
+                        section="ours",
+                        condition=task,
+                        statistic=f"{unit} to {_LEARNED:.0%} right answers, PPO over A3C, ratio of means",
+                        estimate=statistics.ratio_of_means(ppo, a3c),
+                        below=1,
+                        reason=_REASON,
+                    )
+                )
     return found
 
 

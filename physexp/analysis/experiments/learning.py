@@ -48,8 +48,7 @@ def smoothed(frame, along: str = "frames"):
     return curves
 
 
-def draw_panel(axes, curves, names: Sequence[str], labels: Sequence[str], chance: float,
-               along: str = "frames") -> None:  # fmt: skip
+def draw_panel(axes, curves, names: Sequence[str], labels: Sequence[str], chance: float, along: str = "frames") -> None:
     """Draws curves of some conditions: single agents light, their median dark."""
     for number, (name, label) in enumerate(zip(names, labels, strict=True)):
         if name not in curves:

@@ -13,21 +13,31 @@ def find_claims(frame) -> list[claims.Claim]:
     found = []
     for name in final.condition.unique():
         rates = final.success_rate[final.condition == name]
-        found.append(claims.Claim(
-            text="Agents are trained successfully from features and from pixels", section="5.3", condition=name,
-            statistic="share of right answers at the end of training, mean of agents; twice chance is 0.5",
-            estimate=statistics.mean_share(rates), above=2 * _CHANCE,
-        ))  # fmt: skip
+        found.append(
+            claims.Claim(
+                text="Agents are trained successfully from features and from pixels",
+                section="5.3",
+                condition=name,
+                statistic="share of right answers at the end of training, mean of agents; twice chance is 0.5",
+                estimate=statistics.mean_share(rates),
+                above=2 * _CHANCE,
+            )
+        )
     for kind in conditions.OBSERVATIONS:
         names = [conditions.label("which_is_heavier", kind, beta) for beta in conditions.DIFFICULTIES]
         for harder, easier in zip(names, names[1:], strict=False):
             rates = {name: final.success_rate[final.condition == name].to_numpy() for name in (harder, easier)}
             if min(map(len, rates.values())) > 0:
-                found.append(claims.Claim(
-                    text="More difficult problems plateau at progressively lower performance", section="5.3",
-                    condition=f"{easier} against {harder}", statistic="ratio of the shares of right answers",
-                    estimate=statistics.ratio_of_means(rates[easier], rates[harder]), above=1,
-                ))  # fmt: skip
+                found.append(
+                    claims.Claim(
+                        text="More difficult problems plateau at progressively lower performance",
+                        section="5.3",
+                        condition=f"{easier} against {harder}",
+                        statistic="ratio of the shares of right answers",
+                        estimate=statistics.ratio_of_means(rates[easier], rates[harder]),
+                        above=1,
+                    )
+                )
     return found
 
 

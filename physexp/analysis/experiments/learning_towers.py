@@ -14,23 +14,33 @@ def find_claims(frame) -> list[claims.Claim]:
     found = []
     for name in final.condition.unique():
         rates = final.success_rate[final.condition == name]
-        found.append(claims.Claim(
-            text="All four conditions are solved nearly perfectly", section="6.3", condition=name,
-            statistic="share of right answers at the end of training, mean of agents",
-            estimate=statistics.mean_share(rates), above=_NEARLY_PERFECT,
-        ))  # fmt: skip
+        found.append(
+            claims.Claim(
+                text="All four conditions are solved nearly perfectly",
+                section="6.3",
+                condition=name,
+                statistic="share of right answers at the end of training, mean of agents",
+                estimate=statistics.mean_share(rates),
+                above=_NEARLY_PERFECT,
+            )
+        )
     for kind in conditions.OBSERVATIONS:
         names = [conditions.label("towers", f"{actuator}_{kind}", None) for actuator in ("fist", "direct")]
         fist, direct = learning.compare_first_reached(frame, names, _LEARNED)
         if len(fist) and len(direct):
-            found.append(claims.Claim(
-                text="The fist leads to faster learning than direct actuation", section="6.3", condition=kind,
-                statistic=f"environment steps to {_LEARNED:.0%} right answers, fist over direct, ratio of means",
-                estimate=statistics.ratio_of_means(fist, direct), below=1,
-                reason="Every push touches the tower, while the fist must first travel to it, though our "
-                "configurations start it in the right direction: what is slow here is reaching the tower, not "
-                "affecting several blocks.",
-            ))  # fmt: skip
+            found.append(
+                claims.Claim(
+                    text="The fist leads to faster learning than direct actuation",
+                    section="6.3",
+                    condition=kind,
+                    statistic=f"environment steps to {_LEARNED:.0%} right answers, fist over direct, ratio of means",
+                    estimate=statistics.ratio_of_means(fist, direct),
+                    below=1,
+                    reason="Every push touches the tower, while the fist must first travel to it, though our "
+                    "configurations start it in the right direction: what is slow here is reaching the tower, not "
+                    "affecting several blocks.",
+                )
+            )
     return found
 
 

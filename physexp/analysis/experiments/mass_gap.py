@@ -30,11 +30,16 @@ def find_claims(frame) -> list[claims.Claim]:
         small = [frame.mass_gap[frame.difficulty == beta] < _SMALL for beta in (harder, easier)]
         low, high = (statistics.proportion(values) for values in small)
         difference = statistics.Estimate(low.value - high.value, low.low - high.high, low.high - high.low)
-        found.append(claims.Claim(
-            text="Lower values of beta make small mass gaps, hence hard instances, likelier", section="5.3",
-            condition=f"beta {harder:g} against {easier:g}",
-            statistic=f"difference of the shares of mass gaps below {_SMALL:g}", estimate=difference, above=0,
-        ))  # fmt: skip
+        found.append(
+            claims.Claim(
+                text="Lower values of beta make small mass gaps, hence hard instances, likelier",
+                section="5.3",
+                condition=f"beta {harder:g} against {easier:g}",
+                statistic=f"difference of the shares of mass gaps below {_SMALL:g}",
+                estimate=difference,
+                above=0,
+            )
+        )
     return found
 
 
@@ -44,8 +49,14 @@ def draw(frame):
     for number, difficulty in enumerate(conditions.DIFFICULTIES):
         gaps = frame.mass_gap[frame.difficulty == difficulty]
         density, edges = np.histogram(gaps, bins=np.linspace(0, 1, 51), density=True)
-        axes.stairs(density, edges, color=figures.COLORS[number], linestyle=figures.DASHES[number], linewidth=1.4,
-                    label=rf"$\beta$ = {difficulty:g}")  # fmt: skip
+        axes.stairs(
+            density,
+            edges,
+            color=figures.COLORS[number],
+            linestyle=figures.DASHES[number],
+            linewidth=1.4,
+            label=rf"$\beta$ = {difficulty:g}",
+        )
     axes.set(xlabel="mass gap (range of masses = 1)", ylabel="density", xlim=(0, 1), ylim=(0, None))
     axes.legend()
     return figure

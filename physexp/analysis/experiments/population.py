@@ -20,26 +20,48 @@ def find_claims(frame) -> list[claims.Claim]:
     agents = easy.groupby("training_seed").interactions
     modes = agents.agg(lambda pokes: pokes.mode()[0]).to_numpy()
     common = dict(section="5.3", text="At difficulty 10 agents stop as soon as they find a heavy block")
-    found.append(claims.Claim(
-        **common, condition="10-F", statistic="modal number of pokes, all agents pooled; interval: range over agents",
-        estimate=statistics.Estimate(float(easy.interactions.mode()[0]), float(modes.min()), float(modes.max())),
-        above=0.5, below=3.5,
-    ))  # fmt: skip
-    found.append(claims.Claim(
-        **common, condition="10-F", statistic="mean number of pokes, mean of agents; the paper says two",
-        estimate=statistics.mean(agents.mean()), above=1.5, below=2.5,
-    ))  # fmt: skip
+    found.append(
+        claims.Claim(
+            **common,
+            condition="10-F",
+            statistic="modal number of pokes, all agents pooled; interval: range over agents",
+            estimate=statistics.Estimate(float(easy.interactions.mode()[0]), float(modes.min()), float(modes.max())),
+            above=0.5,
+            below=3.5,
+        )
+    )
+    found.append(
+        claims.Claim(
+            **common,
+            condition="10-F",
+            statistic="mean number of pokes, mean of agents; the paper says two",
+            estimate=statistics.mean(agents.mean()),
+            above=1.5,
+            below=2.5,
+        )
+    )
     shares = (hard.interactions >= _ALL_BLOCKS).groupby(hard.training_seed).mean()
-    found.append(claims.Claim(
-        text="At difficulty 3 agents poke all four blocks before answering", section="5.3", condition="3-F",
-        statistic="share of episodes with at least four pokes, mean of agents", estimate=statistics.mean_share(shares),
-        above=0.5,
-    ))  # fmt: skip
+    found.append(
+        claims.Claim(
+            text="At difficulty 3 agents poke all four blocks before answering",
+            section="5.3",
+            condition="3-F",
+            statistic="share of episodes with at least four pokes, mean of agents",
+            estimate=statistics.mean_share(shares),
+            above=0.5,
+        )
+    )
     short = (frame.interactions < 30).groupby([frame.condition, frame.training_seed]).mean()
-    found.append(claims.Claim(
-        text="The vast majority of episodes ends in less than 30 steps", section="5.3", condition="all",
-        statistic="share of such episodes, mean of agents", estimate=statistics.mean_share(short), above=0.95,
-    ))  # fmt: skip
+    found.append(
+        claims.Claim(
+            text="The vast majority of episodes ends in less than 30 steps",
+            section="5.3",
+            condition="all",
+            statistic="share of such episodes, mean of agents",
+            estimate=statistics.mean_share(short),
+            above=0.95,
+        )
+    )
     return found
 
 
@@ -50,8 +72,14 @@ def draw(frame):
     bins = np.arange(_LONGEST + 1)
     for number, (axes, beta) in enumerate(zip(panels[0], present, strict=True)):
         pokes = frame.interactions[frame.difficulty == beta].clip(upper=_LONGEST)
-        axes.bar(bins, np.bincount(pokes, minlength=len(bins)) / len(pokes), color=figures.COLORS[number], width=0.8,
-                 alpha=0.75, label="agents")  # fmt: skip
+        axes.bar(
+            bins,
+            np.bincount(pokes, minlength=len(bins)) / len(pokes),
+            color=figures.COLORS[number],
+            width=0.8,
+            alpha=0.75,
+            label="agents",
+        )
         solution = ideal.solve(beta).summary()
         best = np.zeros(len(bins))
         best[: len(solution["histogram"])] = list(solution["histogram"].values())

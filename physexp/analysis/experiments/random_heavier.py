@@ -6,21 +6,30 @@ from physexp.analysis import claims
 from physexp.analysis.experiments import base, conditions, randomized
 from physexp.analysis.ideal import which_is_heavier as ideal
 
-_NAMES = [conditions.label("which_is_heavier", kind, beta)
-          for kind in conditions.OBSERVATIONS for beta in conditions.DIFFICULTIES]  # fmt: skip
+_NAMES = [
+    conditions.label("which_is_heavier", kind, beta)
+    for kind in conditions.OBSERVATIONS
+    for beta in conditions.DIFFICULTIES
+]
 
 
 def find_claims(frame) -> list[claims.Claim]:
     """More accurate in all six; lengths differ little and in no consistent direction."""
     found = randomized.more_accurate(frame, "5.3")
     for condition, ratio in randomized.length_ratios(frame).items():
-        found.append(claims.Claim(
-            text="The effect of randomized interaction on episode length is small", section="5.3", condition=condition,
-            statistic="pokes before an answer, learned over randomized, mean ratio of agents", estimate=ratio,
-            above=0.67, below=1.5,
-            reason="Our agents go on until they know: poked at random, they need more pokes to see every block, and "
-            "wait for them, where the paper's answered after about as many as usual.",
-        ))  # fmt: skip
+        found.append(
+            claims.Claim(
+                text="The effect of randomized interaction on episode length is small",
+                section="5.3",
+                condition=condition,
+                statistic="pokes before an answer, learned over randomized, mean ratio of agents",
+                estimate=ratio,
+                above=0.67,
+                below=1.5,
+                reason="Our agents go on until they know: poked at random, they need more pokes to see every block, "
+                "and wait for them, where the paper's answered after about as many as usual.",
+            )
+        )
     return found
 
 

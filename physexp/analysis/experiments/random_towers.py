@@ -17,12 +17,16 @@ def find_claims(frame) -> list[claims.Claim]:
     """More accurate and quicker in all four."""
     found = randomized.more_accurate(frame, "6.3")
     for condition, ratio in randomized.length_ratios(frame).items():
-        found.append(claims.Claim(
-            text="Agents tend to answer more quickly when following their learned interaction", section="6.3",
-            condition=condition,
-            statistic="interactions before an answer, learned over randomized, mean ratio of agents",
-            estimate=ratio, below=1,
-        ))  # fmt: skip
+        found.append(
+            claims.Claim(
+                text="Agents tend to answer more quickly when following their learned interaction",
+                section="6.3",
+                condition=condition,
+                statistic="interactions before an answer, learned over randomized, mean ratio of agents",
+                estimate=ratio,
+                below=1,
+            )
+        )
     return found
 
 

@@ -31,11 +31,16 @@ def more_accurate(frame, section: str) -> list[claims.Claim]:
     found = []
     for condition in agents.condition.unique():
         learned, random = _paired(agents, condition, "accuracy")
-        found.append(claims.Claim(
-            text="Learned interaction leads to more accurate answers than randomized interaction", section=section,
-            condition=condition, statistic="difference of the shares of right answers, mean of agents",
-            estimate=statistics.mean(learned - random), above=0,
-        ))  # fmt: skip
+        found.append(
+            claims.Claim(
+                text="Learned interaction leads to more accurate answers than randomized interaction",
+                section=section,
+                condition=condition,
+                statistic="difference of the shares of right answers, mean of agents",
+                estimate=statistics.mean(learned - random),
+                above=0,
+            )
+        )
     return found
 
 
@@ -55,18 +60,34 @@ def draw(frame, names: Sequence[str], chance: float, ideal: dict[str, tuple[floa
     figure, panels = figures.new(columns=2, width=3.4, height=2.4)
     places = np.arange(len(names))
     for axes, column, index in zip(panels, ("length", "accuracy"), (0, 1), strict=True):
-        for offset, interaction, color, hatch in ((-0.2, "learned", figures.COLORS[1], None),
-                                                  (0.2, "random", figures.COLORS[5], "///")):  # fmt: skip
+        for offset, interaction, color, hatch in (
+            (-0.2, "learned", figures.COLORS[1], None),
+            (0.2, "random", figures.COLORS[5], "///"),
+        ):
             groups = [
                 agents[(agents.condition == name) & (agents.interaction == interaction)][column] for name in names
             ]
-            axes.bar(places + offset, [group.mean() for group in groups], 0.38, color=color, hatch=hatch,
-                     edgecolor="white", linewidth=0.3, label=interaction)  # fmt: skip
+            axes.bar(
+                places + offset,
+                [group.mean() for group in groups],
+                0.38,
+                color=color,
+                hatch=hatch,
+                edgecolor="white",
+                linewidth=0.3,
+                label=interaction,
+            )
             for place, group in zip(places + offset, groups, strict=True):
                 axes.plot([place] * len(group), group, "o", color="black", markersize=1.6, alpha=0.6)
         for place, name in zip(places, names, strict=True):
-            axes.plot([place - 0.42, place + 0.42], [ideal[name][index]] * 2, color="black", linewidth=1.2,
-                      linestyle=figures.DASHES[2], label="ideal" if place == 0 else None)  # fmt: skip
+            axes.plot(
+                [place - 0.42, place + 0.42],
+                [ideal[name][index]] * 2,
+                color="black",
+                linewidth=1.2,
+                linestyle=figures.DASHES[2],
+                label="ideal" if place == 0 else None,
+            )
         axes.set_xticks(places, [conditions.tick(name).replace(", ", "\n") for name in names], fontsize=6.5)
     panels[0].set(ylabel="interactions before the answer")
     panels[1].set(ylabel="share of right answers", ylim=(0, 1.05))

@@ -35,21 +35,29 @@ def find_claims(frame) -> list[claims.Claim]:
             for step in (_FINEST, _TRAINED)
         )
         common = dict(section="6.3", condition=condition)
-        found.append(claims.Claim(
-            **common,
-            text="With smaller control steps the time to answer stays about the same, in up to ten times the steps",
-            statistic=f"median time to the answer, control steps of {_FINEST:g} s over {_TRAINED:g} s, mean ratio",
-            estimate=statistics.ratio_of_pairs(*fine.time.align(trained.time, join="inner")), above=0.5, below=2,
-        ))  # fmt: skip
+        found.append(
+            claims.Claim(
+                **common,
+                text="With smaller control steps the time to answer stays about the same, in up to ten times the steps",
+                statistic=f"median time to the answer, control steps of {_FINEST:g} s over {_TRAINED:g} s, mean ratio",
+                estimate=statistics.ratio_of_pairs(*fine.time.align(trained.time, join="inner")),
+                above=0.5,
+                below=2,
+            )
+        )
         worst = agents[agents.condition == condition].groupby("training_seed").accuracy.min()
-        found.append(claims.Claim(
-            **common, text="Accuracy drops little with the control step",
-            statistic="share of right answers at the worst control step, mean of agents; chance is 0.2",
-            estimate=statistics.mean_share(worst), above=0.6,
-            reason="Our agents were trained for few frames, with control steps of one size, and part of what tells "
-            "them to answer is how many steps have passed: with smaller ones they answer after less time, before the "
-            "tower has come apart.",
-        ))  # fmt: skip
+        found.append(
+            claims.Claim(
+                **common,
+                text="Accuracy drops little with the control step",
+                statistic="share of right answers at the worst control step, mean of agents; chance is 0.2",
+                estimate=statistics.mean_share(worst),
+                above=0.6,
+                reason="Our agents were trained for few frames, with control steps of one size, and part of what "
+                "tells them to answer is how many steps have passed: with smaller ones they answer after less time, "
+                "before the tower has come apart.",
+            )
+        )
     return found
 
 
@@ -57,13 +65,15 @@ def draw(frame):
     """Above, accuracy against the control step; below, the median time to the answer, of one agent."""
     agents = per_agent(frame)
     names = list(agents.condition.unique())
-    figure, panels = figures.new(columns=len(names), rows=2, width=3.0, height=1.9, sharex=True, sharey="row",
-                                 squeeze=False)  # fmt: skip
+    figure, panels = figures.new(
+        columns=len(names), rows=2, width=3.0, height=1.9, sharex=True, sharey="row", squeeze=False
+    )
     for (above, below), name in zip(panels.T, names, strict=True):
         accuracy = agents[agents.condition == name].groupby("control_timestep").accuracy
         above.plot(accuracy.median(), color=figures.COLORS[1], marker="o", markersize=3)
-        above.fill_between(accuracy.median().index, accuracy.min(), accuracy.max(), color=figures.COLORS[1], alpha=0.15,
-                           linewidth=0)  # fmt: skip
+        above.fill_between(
+            accuracy.median().index, accuracy.min(), accuracy.max(), color=figures.COLORS[1], alpha=0.15, linewidth=0
+        )
         figures.reference(above, _CHANCE, "chance")
         above.set(title=conditions.spelled_out(name), ylim=(0, 1.05))
         _draw_times(below, frame[frame.condition == name])
@@ -80,8 +90,16 @@ def _draw_times(axes, rows) -> None:
     medians = [statistics.median(one.time[one.step == step]) for step in steps]
     middle = np.array([estimate.value for estimate in medians])
     error = [[e.value - e.low for e in medians], [e.high - e.value for e in medians]]
-    axes.errorbar(steps, middle, error, color=figures.COLORS[2], marker="s", markersize=3,
-                  linestyle=figures.DASHES[1], capsize=1.5)  # fmt: skip
+    axes.errorbar(
+        steps,
+        middle,
+        error,
+        color=figures.COLORS[2],
+        marker="s",
+        markersize=3,
+        linestyle=figures.DASHES[1],
+        capsize=1.5,
+    )
     axes.fill_between(steps, middle - steps, middle + steps, color=figures.COLORS[2], alpha=0.15, linewidth=0)
 
 

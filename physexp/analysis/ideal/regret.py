@@ -19,8 +19,9 @@ KINDS = {
 }
 
 
-def regrets(solution: which_is_heavier.Solution, masses: np.ndarray, actions: Sequence[np.ndarray],
-            out_of_time: np.ndarray) -> dict[str, np.ndarray]:  # fmt: skip
+def regrets(
+    solution: which_is_heavier.Solution, masses: np.ndarray, actions: Sequence[np.ndarray], out_of_time: np.ndarray
+) -> dict[str, np.ndarray]:
     """What each episode's mistakes cost.
 
     Args:

@@ -149,15 +149,27 @@ class Solution:
         mean = float(_PRIOR @ interactions)
         shares = np.bincount(interactions, _PRIOR)
         value, bound = (figure if math.isfinite(figure) else None for figure in (self.value, self.bound))
-        return {"value": value, "bound": bound, "accuracy": float(_PRIOR @ right), "mean_interactions": mean,
-                "mean_seconds": mean * self.control_timestep,
-                "histogram": {number: float(share) for number, share in enumerate(shares)}}  # fmt: skip
+        return {
+            "value": value,
+            "bound": bound,
+            "accuracy": float(_PRIOR @ right),
+            "mean_interactions": mean,
+            "mean_seconds": mean * self.control_timestep,
+            "histogram": {number: float(share) for number, share in enumerate(shares)},
+        }
 
 
-def solve(task: str = "fist_features", resolution: float = 0.0, discount: float = config.DISCOUNT["towers"],
-          objective: str = "return", *, max_depth: int = 8, max_steps: int = 2_000_000,
-          trajectories: trajectories_lib.Trajectories | None = None,
-          task_kwargs: Mapping[str, Any] | None = None) -> Solution:  # fmt: skip
+def solve(
+    task: str = "fist_features",
+    resolution: float = 0.0,
+    discount: float = config.DISCOUNT["towers"],
+    objective: str = "return",
+    *,
+    max_depth: int = 8,
+    max_steps: int = 2_000_000,
+    trajectories: trajectories_lib.Trajectories | None = None,
+    task_kwargs: Mapping[str, Any] | None = None,
+) -> Solution:
     """Searches for the best policy.
 
     Args:
@@ -191,18 +203,23 @@ def solve(task: str = "fist_features", resolution: float = 0.0, discount: float 
     search = Search(aim, resolution, trajectories, max_depth)
     low, high = search.run(trajectories.steps + max_steps)
     sign = 1.0 if objective == "return" else -1.0
-    return Solution(task, resolution, objective, sign * low, sign * high, trajectories.task.control_timestep,
-                    search.policy())  # fmt: skip
+    return Solution(
+        task, resolution, objective, sign * low, sign * high, trajectories.task.control_timestep, search.policy()
+    )
 
 
 def curve(task: str, resolutions: Sequence[float], discount: float = config.DISCOUNT["towers"]) -> list[dict[str, Any]]:
     """Summaries for both objectives at several resolutions, with `resolution` and `objective` beside them."""
     trajectories = trajectories_lib.Trajectories(task)
     return [
-        {"resolution": resolution, "objective": objective,
-         **solve(task, resolution, discount, objective, trajectories=trajectories).summary()}
-        for resolution in resolutions for objective in OBJECTIVES
-    ]  # fmt: skip
+        {
+            "resolution": resolution,
+            "objective": objective,
+            **solve(task, resolution, discount, objective, trajectories=trajectories).summary(),
+        }
+        for resolution in resolutions
+        for objective in OBJECTIVES
+    ]
 
 
 class Search:
@@ -308,8 +325,10 @@ class IdealExperimenter(core.Actor):
         if node.seen is None or next_timestep.last():
             return
         members = list(node.group)
-        both = {name: np.concatenate([next_timestep.observation[name][None], value[members]])
-                for name, value in node.seen.items()}  # fmt: skip
+        both = {
+            name: np.concatenate([next_timestep.observation[name][None], value[members]])
+            for name, value in node.seen.items()
+        }
         self._node = node.children[members[int(trajectories_lib.distances(both)[0, 1:].argmin())]]
 
     def update(self):

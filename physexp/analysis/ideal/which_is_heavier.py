@@ -144,8 +144,12 @@ class Solution:
         """`value`, `accuracy`, `mean_interactions` and `histogram` (share of episodes for each number of pokes)."""
         pokes, right = _evenly_drawn_episodes(self)
         shares = np.bincount(pokes, minlength=self.num_blocks + 1) / len(pokes)
-        return {"value": self.value, "accuracy": float(right.mean()), "mean_interactions": float(pokes.mean()),
-                "histogram": {number: float(share) for number, share in enumerate(shares)}}  # fmt: skip
+        return {
+            "value": self.value,
+            "accuracy": float(right.mean()),
+            "mean_interactions": float(pokes.mean()),
+            "histogram": {number: float(share) for number, share in enumerate(shares)},
+        }
 
 
 @functools.lru_cache(maxsize=64)
@@ -156,9 +160,11 @@ def _evenly_drawn_episodes(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
 
 
 @functools.lru_cache(maxsize=64)
-def solve(difficulty: float = which_is_heavier.Options.difficulty,
-          discount: float = config.DISCOUNT["which_is_heavier"],
-          num_blocks: int = which_is_heavier.NUM_BLOCKS) -> Solution:  # fmt: skip
+def solve(
+    difficulty: float = which_is_heavier.Options.difficulty,
+    discount: float = config.DISCOUNT["which_is_heavier"],
+    num_blocks: int = which_is_heavier.NUM_BLOCKS,
+) -> Solution:
     """Finds the best policy, its value to better than 0.0001.
 
     Args:
@@ -184,8 +190,9 @@ def solve(difficulty: float = which_is_heavier.Options.difficulty,
         ratios = np.linspace(1, known, _RATIO_NODES) if known > 1 else np.array([1.0, 2.0])
         heaviest, ratio = (grid.ravel() for grid in np.meshgrid(nodes, ratios, indexing="ij"))
         values = discount * _expected(known, num_blocks, heaviest, ratio, difficulty, after)
-        after = interpolate.RegularGridInterpolator((nodes, ratios), values.reshape(len(nodes), -1), bounds_error=False,
-                                                    fill_value=None)  # fmt: skip
+        after = interpolate.RegularGridInterpolator(
+            (nodes, ratios), values.reshape(len(nodes), -1), bounds_error=False, fill_value=None
+        )
         functions.insert(0, after)
     first = discount * _expected(0, num_blocks, np.zeros(1), np.zeros(1), difficulty, after)
     return Solution(difficulty, discount, num_blocks, max(float(first[0]), 2 / num_blocks - 1), tuple(functions))

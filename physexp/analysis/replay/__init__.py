@@ -12,9 +12,16 @@ from physexp.analysis.replay.viewing import check_display, view
 __all__ = ["Episode", "EpisodeRecorder", "check_display", "replay", "view"]
 
 
-def replay(targets: Sequence[str], count: int, output: Path, interaction: str = "learned",
-           select: selection.Selection = "any", seed: int = evaluation.SEED,
-           report: Callable[[str], None] = lambda line: None, difficulty: float | None = None) -> Path:  # fmt: skip
+def replay(
+    targets: Sequence[str],
+    count: int,
+    output: Path,
+    interaction: str = "learned",
+    select: selection.Selection = "any",
+    seed: int = evaluation.SEED,
+    report: Callable[[str], None] = lambda line: None,
+    difficulty: float | None = None,
+) -> Path:
     """Plays episodes with trained agents and writes them for the viewer.
 
     Args:

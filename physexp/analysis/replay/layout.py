@@ -21,8 +21,12 @@ def blueprint(episodes: Sequence[recording.Episode], roots: Sequence[str]) -> rr
     """The layout of episodes side by side, each below its root entity."""
     columns = [_column(episode, root) for episode, root in zip(episodes, roots, strict=True)]
     body = columns[0] if len(columns) == 1 else rrb.Horizontal(*columns)
-    return rrb.Blueprint(body, rrb.TimePanel(timeline=TIMELINE, play_state="paused", state="collapsed"),
-                         rrb.BlueprintPanel(state="collapsed"), rrb.SelectionPanel(state="collapsed"))  # fmt: skip
+    return rrb.Blueprint(
+        body,
+        rrb.TimePanel(timeline=TIMELINE, play_state="paused", state="collapsed"),
+        rrb.BlueprintPanel(state="collapsed"),
+        rrb.SelectionPanel(state="collapsed"),
+    )
 
 
 def titled(root: str, title: str) -> str:
@@ -52,11 +56,12 @@ def _scene(episode: recording.Episode, root: str) -> rrb.Tabs:
     eye, origin = _eye(episode), f"{root}/world"
     without = {f"{root}/world/hidden": rrb.EntityBehavior(visible=False)}
     return rrb.Tabs(
-        rrb.Spatial3DView(origin=origin, name=titled(root, episode.agent or "scene"), eye_controls=eye,
-                          overrides=without),  # type: ignore[arg-type]
+        rrb.Spatial3DView(
+            origin=origin, name=titled(root, episode.agent or "scene"), eye_controls=eye, overrides=without
+        ),  # type: ignore[arg-type]
         rrb.Spatial3DView(origin=origin, name=titled(root, words.HIDDEN_TAB), eye_controls=eye),
         active_tab=0,
-    )  # fmt: skip
+    )
 
 
 def _eye(episode: recording.Episode) -> rrb.EyeControls3D:
@@ -72,8 +77,9 @@ def _eye(episode: recording.Episode) -> rrb.EyeControls3D:
 
 def _about(root: str) -> rrb.Container:
     text = rrb.TextDocumentView(origin=f"{root}/did/outcome", name=titled(root, "question and outcome"))
-    columns = rrb.TextLogColumns(timeline_columns=[rrb.encodings.TimelineColumn(TIMELINE, visible=False)],
-                                 text_log_columns=["Body"])  # fmt: skip
+    columns = rrb.TextLogColumns(
+        timeline_columns=[rrb.encodings.TimelineColumn(TIMELINE, visible=False)], text_log_columns=["Body"]
+    )
     log = rrb.TextLogView(origin=f"{root}/did/actions", name=titled(root, "actions"), columns=columns)
     return rrb.Horizontal(text, log, column_shares=[2, 1])
 
@@ -100,14 +106,26 @@ def _thoughts(episode: recording.Episode, root: str) -> tuple[list[rrb.View], li
     return [now], [[curves("belief", ["belief/labels"], chances), *ideal], [answers, policy]]
 
 
-def _curves(episode: recording.Episode, root: str, title: str, entities: Sequence[str],
-            limits: tuple[float, float] | None = None) -> rrb.View:  # fmt: skip
+def _curves(
+    episode: recording.Episode,
+    root: str,
+    title: str,
+    entities: Sequence[str],
+    limits: tuple[float, float] | None = None,
+) -> rrb.View:
     """A plot of some entities, up to a little after the end of an episode that is over."""
     until = _LONGER * float(episode.times[-1]) if len(episode.actions) else None
     return rrb.TimeSeriesView(
-        origin=f"{root}/", name=titled(root, title), contents=[f"{root}/{entity}" for entity in entities],
+        origin=f"{root}/",
+        name=titled(root, title),
+        contents=[f"{root}/{entity}" for entity in entities],
         plot_legend=rrb.PlotLegend(rrb.Corner2D.LeftTop),
-        axis_x=None if until is None else rrb.TimeAxis(view_range=rr.TimeRange(
-            start=rr.TimeRangeBoundary.absolute(seconds=0), end=rr.TimeRangeBoundary.absolute(seconds=until))),
+        axis_x=None
+        if until is None
+        else rrb.TimeAxis(
+            view_range=rr.TimeRange(
+                start=rr.TimeRangeBoundary.absolute(seconds=0), end=rr.TimeRangeBoundary.absolute(seconds=until)
+            )
+        ),
         axis_y=None if limits is None else rrb.ScalarAxis(range=limits),
-    )  # fmt: skip
+    )

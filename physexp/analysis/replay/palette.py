@@ -41,8 +41,9 @@ def of_labels(labels: Sequence[str], things: recording.Things) -> list[tuple[int
     """The colours of labels: those of the things that they name, or shades of a colour that no thing has."""
     shades = np.linspace(_FIRST_LABEL, _LAST_LABEL, len(labels)).astype(int)
     named = [_named(label, things) for label in labels]
-    return [of_thing(things, name) if name else tuple(map(int, shade))
-            for name, shade in zip(named, shades, strict=True)]  # fmt: skip
+    return [
+        of_thing(things, name) if name else tuple(map(int, shade)) for name, shade in zip(named, shades, strict=True)
+    ]
 
 
 def short(label: str, things: recording.Things) -> str:

@@ -78,9 +78,15 @@ class EpisodeRecorder(environment_loop.Observer):
     are asked for: an episode follows from its seed, its index and its actions, so it can be had again.
     """
 
-    def __init__(self, environment: suite.Environment, domain: str, task: str,
-                 task_kwargs: Mapping[str, Any] | None = None, actor: core.Actor | None = None,
-                 agent: str = ""):  # fmt: skip
+    def __init__(
+        self,
+        environment: suite.Environment,
+        domain: str,
+        task: str,
+        task_kwargs: Mapping[str, Any] | None = None,
+        actor: core.Actor | None = None,
+        agent: str = "",
+    ):
         """Prepares to watch.
 
         Args:
@@ -135,14 +141,22 @@ class EpisodeRecorder(environment_loop.Observer):
         for name, values in observations.items():
             if not np.array_equal(values, seen_again[name]):
                 seed, number = self._identity
-                raise RuntimeError(f"episode {number} of seed {seed} is not what was seen: {name} differs; record the "
-                                   "environment with the task_kwargs that it was loaded with")  # fmt: skip
+                raise RuntimeError(
+                    f"episode {number} of seed {seed} is not what was seen: {name} differs; record the "
+                    "environment with the task_kwargs that it was loaded with"
+                )
         seed, number = self._identity
         return Episode(
-            **self._facts, seed=seed, number=number, observations=observations,
-            actions=np.array(self._actions, np.int64), rewards=np.array(self._rewards),
-            policies=np.array(self._policies), values=np.array(self._values), **rebuilt,
-        )  # fmt: skip
+            **self._facts,
+            seed=seed,
+            number=number,
+            observations=observations,
+            actions=np.array(self._actions, np.int64),
+            rewards=np.array(self._rewards),
+            policies=np.array(self._policies),
+            values=np.array(self._values),
+            **rebuilt,
+        )
 
 
 class _Rebuilder:
@@ -168,9 +182,13 @@ class _Rebuilder:
         seen = [timestep.observation, *(self._environment.step(action).observation for action in actions)]
         times, positions, rotations = (np.array(values) for values in zip(*self._poses, strict=True))
         return {name: np.stack([each[name] for each in seen]) for name in seen[0]}, {
-            "hidden": np.array(task.hidden), "answer": task.correct_answer, "things": _things(model, self._geoms),
-            "times": times, "positions": positions, "rotations": rotations,
-        }  # fmt: skip
+            "hidden": np.array(task.hidden),
+            "answer": task.correct_answer,
+            "things": _things(model, self._geoms),
+            "times": times,
+            "positions": positions,
+            "rotations": rotations,
+        }
 
     def _note_poses(self, physics) -> None:
         data = physics.data
@@ -218,8 +236,14 @@ class Reenactor(core.Actor):
         self._actor.update()
 
 
-def reenact(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig, seed: int, number: int,
-            actions: Sequence[int] | None, agent: str = "") -> Episode:  # fmt: skip
+def reenact(
+    network: networks.RecurrentActorCritic,
+    config: config_lib.TrainConfig,
+    seed: int,
+    number: int,
+    actions: Sequence[int] | None,
+    agent: str = "",
+) -> Episode:
     """Plays an episode in the composer environment and records it.
 
     Args:

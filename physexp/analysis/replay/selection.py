@@ -14,9 +14,14 @@ Selection = Literal["any", "wrong", "right", "longest", "hardest"]
 _MOST = 10_000  # Episodes played in search of enough.
 
 
-def select(network: networks.RecurrentActorCritic, config: config_lib.TrainConfig, count: int,
-           selection: Selection = "any", interaction: str = "learned",
-           seed: int = evaluation.SEED) -> Iterator[tuple[int, int, np.ndarray]]:  # fmt: skip
+def select(
+    network: networks.RecurrentActorCritic,
+    config: config_lib.TrainConfig,
+    count: int,
+    selection: Selection = "any",
+    interaction: str = "learned",
+    seed: int = evaluation.SEED,
+) -> Iterator[tuple[int, int, np.ndarray]]:
     """Plays episodes and chooses some.
 
     Args:

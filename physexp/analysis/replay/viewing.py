@@ -78,9 +78,13 @@ class Viewer:
         """
         if self._process is None or self._process.poll() is not None:
             self._port = _free_port(_DATA_PORT)
-            self._process = subprocess.Popen([*_command(self._port), "--hide-welcome-screen", "--expect-data-soon"],
-                                             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                             stderr=subprocess.DEVNULL, start_new_session=True)  # fmt: skip
+            self._process = subprocess.Popen(
+                [*_command(self._port), "--hide-welcome-screen", "--expect-data-soon"],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                start_new_session=True,
+            )
             self._wait()
         stream.connect_grpc(_address(self._port), default_blueprint=layout)
 

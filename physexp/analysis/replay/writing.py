@@ -34,8 +34,11 @@ _ARROW_LENGTH = 0.25  # m
 _MERGE_SECONDS = 300.0  # A few hundred times what it takes.
 
 
-def write(path: Path, groups: Sequence[Callable[[], Sequence[recording.Episode]]],
-          report: Callable[[str], None] = lambda line: None) -> Path:  # fmt: skip
+def write(
+    path: Path,
+    groups: Sequence[Callable[[], Sequence[recording.Episode]]],
+    report: Callable[[str], None] = lambda line: None,
+) -> Path:
     """Writes recordings into one file; after each of them the file is whole.
 
     Args:
@@ -100,8 +103,9 @@ def _merge(recordings: bytes) -> bytes:
 def _recording(episodes: Sequence[recording.Episode]) -> bytes:
     """A recording in memory, because rerun drops what it cannot write to a file without a word."""
     first, players = episodes[0], "-".join(episode.agent for episode in episodes)
-    stream = rr.RecordingStream(f"physexp-{first.domain}-{first.task}",
-                                recording_id=f"{first.seed}-{first.number}-{players}")  # fmt: skip
+    stream = rr.RecordingStream(
+        f"physexp-{first.domain}-{first.task}", recording_id=f"{first.seed}-{first.number}-{players}"
+    )
     roots = [""] if len(episodes) == 1 else [f"{chr(ord('A') + index)}" for index in range(len(episodes))]
     memory = stream.memory_recording()
     stream.send_blueprint(layout.blueprint(episodes, roots), make_active=False, make_default=True)
@@ -154,8 +158,12 @@ class EpisodeWriter:
     def _write_scene(self) -> None:
         things = self._episode.things
         self._log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP)
-        self._log("world/room", rr.Boxes3D(centers=[(0, 0, -0.005)], half_sizes=[(0.7, 0.6, 0.005)],
-                                           colors=[(190, 190, 185)], fill_mode="solid"))  # fmt: skip
+        self._log(
+            "world/room",
+            rr.Boxes3D(
+                centers=[(0, 0, -0.005)], half_sizes=[(0.7, 0.6, 0.005)], colors=[(190, 190, 185)], fill_mode="solid"
+            ),
+        )
         for k, name in enumerate(things.names):
             color = (255 * things.colors[k]).astype(np.uint8)
             shape = rr.Boxes3D if things.kinds[k] == "box" else rr.Ellipsoids3D
@@ -176,16 +184,19 @@ class EpisodeWriter:
         masses = task.hidden_masses(np.asarray(episode.hidden)[None])[0]
         for number, (joint, mass) in enumerate(zip(task.hidden_joints, masses, strict=True)):
             entity = f"world/hidden/mass_{number}"
-            self._log(entity, rr.Points3D([(0, 0, 0.1 + 0.06 * (number % 2))], labels=[f"{mass:.2f} kg"],
-                                          radii=[0.006], show_labels=True))  # fmt: skip
+            self._log(
+                entity,
+                rr.Points3D(
+                    [(0, 0, 0.1 + 0.06 * (number % 2))], labels=[f"{mass:.2f} kg"], radii=[0.006], show_labels=True
+                ),
+            )
             self._follow(entity, names.index(palette.owner(joint.full_identifier)))
         bodies = episode.things.bodies
         for k in np.flatnonzero(bodies[1:] == bodies[:-1]).tolist():
             entity = f"world/hidden/glue_above_{names[k]}"
             middle = (episode.positions[0, k + 1] - episode.positions[0, k]) @ episode.rotations[0, k] / 2
             half = (0.4 * block.HALF_SIZE, 1.15 * block.HALF_SIZE, 0.8 * block.HALF_SIZE)
-            self._log(entity, rr.Boxes3D(centers=[middle], half_sizes=[half], colors=[palette.GLUE],
-                                         fill_mode="solid"))  # fmt: skip
+            self._log(entity, rr.Boxes3D(centers=[middle], half_sizes=[half], colors=[palette.GLUE], fill_mode="solid"))
             self._follow(entity, k)
 
     # What was seen.
@@ -214,8 +225,12 @@ class EpisodeWriter:
 
     def _series(self, entity: str, values: np.ndarray, names: Sequence[str], colors=None, steps: bool = False) -> None:
         """Curves [T, S] at the times of the steps; with `steps` each value holds until the next."""
-        lines = rr.SeriesLines(names=list(names), colors=colors, widths=[2.0] * len(names),
-                               interpolation_mode="StepAfter" if steps else None)  # fmt: skip
+        lines = rr.SeriesLines(
+            names=list(names),
+            colors=colors,
+            widths=[2.0] * len(names),
+            interpolation_mode="StepAfter" if steps else None,
+        )
         self._log(entity, lines)
         self._columns(entity, self._step_times[: len(values)], rr.Scalars.columns(scalars=values))
 
@@ -235,8 +250,9 @@ class EpisodeWriter:
                 self._markdown("belief/now", table, self._step_times[step])
             self._series("belief/labels", belief, names, colors, steps=True)
             self._series("belief/policy", episode.policies, self._task.action_names, steps=True)
-            self._series("belief/answers", answers.sum(axis=1, keepdims=True), ["answers now"], [palette.ANSWERS],
-                         steps=True)  # fmt: skip
+            self._series(
+                "belief/answers", answers.sum(axis=1, keepdims=True), ["answers now"], [palette.ANSWERS], steps=True
+            )
             self._series("belief/value", episode.values[:, None], ["value"], [palette.VALUE], steps=True)
 
     # What was done.
