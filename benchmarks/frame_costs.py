@@ -13,7 +13,7 @@ import time
 import numpy as np
 
 from physexp import suite
-from physexp.suite import rendering
+from physexp.suite.engine import rendering
 
 import mujoco  # isort: skip
 

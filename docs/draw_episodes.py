@@ -10,9 +10,9 @@ import numpy as np
 from PIL import Image
 
 from physexp import suite
-from physexp.analysis import evaluation
+from physexp.analysis.evaluation import playing
 from physexp.analysis.replay import beliefs, palette, recording
-from physexp.suite import rendering
+from physexp.suite.engine import rendering
 
 EPISODES = {"which_is_heavier": ("which_is_heavier/features", 12, 0), "towers": ("towers/fist_features", 8, 0)}
 """For each picture whose agent plays, and the seed and the index of the episode."""
@@ -48,7 +48,7 @@ class Frame:
 def recorded(name: str) -> recording.Episode:
     """The episode that a picture shows."""
     target, seed, number = EPISODES[name]
-    network, config = evaluation.find_agent(target)
+    network, config = playing.find_agent(target)
     return recording.reenact(network, config, seed, number, None)
 
 

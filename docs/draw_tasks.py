@@ -6,7 +6,7 @@ import numpy as np
 from PIL import Image
 
 from physexp import suite
-from physexp.suite import rendering
+from physexp.suite.engine import rendering
 
 EPISODES = (
     ("which_is_heavier", "pixels", [0, 1, 2, 3, 0, 0, 0]),

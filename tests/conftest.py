@@ -5,9 +5,9 @@ import signal
 import pytest
 
 from physexp.agents.a3c import config as a3c
-from physexp.analysis import config as config_lib
-from physexp.analysis import run as run_lib
-from physexp.analysis import training
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer
 
 # Who starts the tests in the background may have them ignore what ends a process, and processes that they start ignore
 # it too, as after `nohup`; but those are to be ended.
@@ -24,7 +24,7 @@ def untrained(tmp_path):
     )
     run = run_lib.Run(tmp_path / "run")
     run.create(config)
-    agent = training.make_agent(config)
+    agent = trainer.make_agent(config)
     run.checkpointer.save(
         agent.save(), {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
     )

@@ -15,7 +15,9 @@ import pytest
 
 import physexp as package
 from physexp import cli, extras, suite
-from physexp.analysis import doctor, evaluation, progress
+from physexp.analysis import doctor
+from physexp.analysis.evaluation import playing
+from physexp.analysis.training import progress
 
 PHYSEXP = Path(sys.executable).with_name("physexp")
 
@@ -393,7 +395,7 @@ def test_a_bar_moves_on_a_terminal_and_nothing_is_shown_elsewhere(tmp_path, monk
 
 def test_an_evaluation_tells_how_many_episodes_are_played(untrained):
     told = []
-    evaluation.play(evaluation.load_network(untrained), untrained.config, 300, report=told.append)
+    playing.play(playing.load_network(untrained), untrained.config, 300, report=told.append)
     assert told == [256, 300]  # A round is 256 episodes.
 
 

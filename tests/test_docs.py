@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from physexp import suite
-from physexp.analysis import reproduce
 from physexp.analysis.experiments import base
+from physexp.analysis.reproduction import reproduce
 
 DOCS = Path(__file__).parent.parent / "docs"
 sys.path.insert(0, str(DOCS / "examples"))

@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 from physexp import cli, suite
-from physexp.analysis import config as config_lib
-from physexp.analysis import run as run_lib
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
 
 FEATURES = [names for names in suite.ALL_TASKS if names[1].endswith("features")]
 QUICKLY = hypothesis.settings(

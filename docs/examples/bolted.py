@@ -4,7 +4,8 @@ import dataclasses
 
 import numpy as np
 
-from physexp.suite import arena, block, seeding, senses, task
+from physexp.suite.engine import seeding, senses, task
+from physexp.suite.parts import arena, block
 
 NUM_BLOCKS = 3
 SPACING = 0.16  # m

@@ -1,7 +1,8 @@
 """Does an agent that is in a hurry experiment less? Agents with a gamma of 0.9 against agents with 0.99."""
 
-from physexp.analysis import claims, figures, statistics
-from physexp.analysis.experiments import base, conditions
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import base, claims, conditions
 
 HASTY, PATIENT = (
     conditions.heavier(difficulty=5.0, observations="features", frames=2_000_000, discount=discount)
@@ -28,7 +29,7 @@ def find_claims(frame):
             section="ours",
             condition="5-F",
             statistic="mean pokes at gamma 0.9 over those at 0.99, ratio of means over agents",
-            estimate=statistics.ratio_of_means(mean_pokes(frame, HASTY), mean_pokes(frame, PATIENT)),
+            estimate=estimates.ratio_of_means(mean_pokes(frame, HASTY), mean_pokes(frame, PATIENT)),
             below=1,
         )
     ]

@@ -3,9 +3,10 @@
 from pathlib import Path
 import sys
 
-from physexp.analysis import config as config_lib
-from physexp.analysis import curves, evaluation, progress, training, verdict
-from physexp.analysis import run as run_lib
+from physexp.analysis.evaluation import curves, playing
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import progress, trainer, verdict
+from physexp.analysis.training import run as run_lib
 
 DIFFICULTY = 10.0
 FRAMES = 1_500_000
@@ -32,13 +33,13 @@ def run(folder: Path) -> None:
             demo.set_aside()
     print(f"Training an agent to find the heaviest of four blocks (difficulty {DIFFICULTY:g}) ...", flush=True)
     with progress.Progress(wanted) as display:
-        training.train(demo, display, start=wanted)
+        trainer.train(demo, display, start=wanted)
     if problem := verdict.of_run(demo):
         print(f"{problem}\n{verdict.advice(wanted)}", file=sys.stderr)
     print(f"\nAfter training, over {EPISODES} new episodes each (chance is 25 % right):\n")
     print(f"{'interaction':14} {'right answers':>16} {'pokes':>8} {'return':>8}")
-    for interaction in evaluation.INTERACTIONS:
-        figures = evaluation.evaluate(demo, EPISODES, interaction).summary(wanted.agent.discount)
+    for interaction in playing.INTERACTIONS:
+        figures = playing.evaluate(demo, EPISODES, interaction).summary(wanted.agent.discount)
         half = (figures["success_interval"][1] - figures["success_interval"][0]) / 2
         print(
             f"{interaction:14} {figures['success_rate']:8.1%} +-{half:5.1%} {figures['mean_interactions']:8.2f} "

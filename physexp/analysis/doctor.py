@@ -37,8 +37,8 @@ def examine() -> dict:
 def _facts() -> dict:
     import torch
 
-    from physexp.analysis import run
-    from physexp.suite import rendering
+    from physexp.analysis.training import run
+    from physexp.suite.engine import rendering
 
     return {
         **run.versions(),
@@ -108,7 +108,7 @@ def _versions(extra: str) -> Iterator[dict]:
 
 
 def _hardware(facts: dict) -> Iterator[dict]:
-    from physexp.suite import rendering
+    from physexp.suite.engine import rendering
 
     backend, renderer = facts["gl_backend"], facts["gl_renderer"]
     if renderer.startswith("none"):

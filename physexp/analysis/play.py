@@ -7,8 +7,9 @@ from typing import Any
 
 from physexp import suite
 from physexp.agents import core, environment_loop, pretrained
-from physexp.analysis import config, terminal
+from physexp.analysis import terminal
 from physexp.analysis.ideal import playing, towers, which_is_heavier
+from physexp.analysis.training import config
 
 _QUIT, _HELP = "q", "?"
 

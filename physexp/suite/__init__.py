@@ -3,16 +3,17 @@
 from collections.abc import Mapping
 import inspect
 
-from physexp.suite import rendering
+from physexp.suite.engine import rendering
 
 rendering.choose_backend()
 
-from physexp.suite import batch as _batch  # noqa: E402
-from physexp.suite import checks, towers, which_is_heavier  # noqa: E402
-from physexp.suite import environment as _environment  # noqa: E402
-from physexp.suite.batch import BatchEnvironment  # noqa: E402
-from physexp.suite.environment import Environment  # noqa: E402
-from physexp.suite.seeding import environment_seed  # noqa: E402
+from physexp.suite.domains import towers, which_is_heavier  # noqa: E402
+from physexp.suite.engine import batch as _batch  # noqa: E402
+from physexp.suite.engine import checks  # noqa: E402
+from physexp.suite.engine import environment as _environment  # noqa: E402
+from physexp.suite.engine.batch import BatchEnvironment  # noqa: E402
+from physexp.suite.engine.environment import Environment  # noqa: E402
+from physexp.suite.engine.seeding import environment_seed  # noqa: E402
 
 __all__ = [
     "ALL_TASKS",

@@ -14,8 +14,8 @@ from typing import Any
 import dm_env
 
 from physexp import extras, suite
-from physexp.suite import batch as batch_lib
-from physexp.suite import checks, rendering, seeding
+from physexp.suite.engine import batch as batch_lib
+from physexp.suite.engine import checks, rendering, seeding
 
 extras.require("gymnasium")
 

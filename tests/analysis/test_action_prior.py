@@ -5,14 +5,15 @@ import pytest
 import torch
 import trainers
 
-from physexp.analysis import evaluation, training
+from physexp.analysis.evaluation import playing
+from physexp.analysis.training import trainer
 
 PRIOR = (2.0, 0.0, 0.0, 0.0, -2.0, -2.0, -2.0, -2.0)
 
 
 def _first_policy(run):
     """Probabilities of the actions at an episode's start."""
-    network = evaluation.load_network(run)
+    network = playing.load_network(run)
     heights = torch.full((1, 4), 0.1)
     with torch.no_grad():
         logits, _, _ = network.step(network.encode({"heights": heights}), network.initial_state(1))
@@ -37,6 +38,6 @@ def test_a_large_bonus_makes_the_policy_the_priors_or_uniform(algorithm, relativ
         relative_entropy=relative,
         **several_steps,
     )
-    training.train(run)
+    trainer.train(run)
     expected = np.exp(PRIOR) / np.exp(PRIOR).sum() if relative else np.full(8, 1 / 8)
     np.testing.assert_allclose(_first_policy(run), expected, atol=0.05)

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from physexp import suite
-from physexp.analysis import bench, bench_pixels
-from physexp.suite import rendering
+from physexp.analysis.bench import measuring
+from physexp.analysis.bench import pixels as bench_pixels
+from physexp.suite.engine import rendering
 
 
 @pytest.mark.parametrize("name", bench_pixels.TASKS)
@@ -28,5 +29,5 @@ def test_each_side_draws_as_many_frames_as_it_says(side):
 
 
 def test_a_figure_that_is_missed_says_so():
-    figure = bench.row("frames", 9.0, "x", 10, ours=1.0)
-    assert not figure["reached"] and bench.line(figure).startswith("MISS frames")
+    figure = measuring.row("frames", 9.0, "x", 10, ours=1.0)
+    assert not figure["reached"] and measuring.line(figure).startswith("MISS frames")

@@ -9,8 +9,8 @@ import pandas
 import pytest
 from trainers import fresh_seed
 
-from physexp.analysis import claims, statistics
-from physexp.analysis.experiments import EXPERIMENTS, individual, learning, population, randomized
+from physexp.analysis.data import estimates
+from physexp.analysis.experiments import EXPERIMENTS, claims, individual, learning, population, randomized
 from physexp.analysis.experiments import ideal_gap as ideal_gap_lib
 
 HOLDS, FAILS, UNDECIDED = claims.HOLDS, claims.FAILS, claims.UNDECIDED
@@ -103,7 +103,7 @@ def claim(low, high, above=-math.inf, below=math.inf):
         statistic="",
         above=above,
         below=below,
-        estimate=statistics.Estimate((low + high) / 2, low, high),
+        estimate=estimates.Estimate((low + high) / 2, low, high),
     )
 
 

@@ -27,9 +27,11 @@ from physexp.agents.a3c import agent as a3c_agent
 from physexp.agents.a3c import config as a3c_config
 from physexp.agents.a3c import distributed
 from physexp.agents.a3c import learning as a3c
-from physexp.analysis import cluster, evaluation, reproduce, training
-from physexp.analysis import run as run_lib
+from physexp.analysis.evaluation import playing
 from physexp.analysis.experiments import EXPERIMENTS, base
+from physexp.analysis.reproduction import cluster, reproduce
+from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer
 
 pytestmark = pytest.mark.long
 
@@ -77,7 +79,7 @@ def train_meanwhile(run, disturb, seconds=900):
 
     def train():
         try:
-            training.train(run, on_cluster=True, tell=told.append)
+            trainer.train(run, on_cluster=True, tell=told.append)
         except BaseException as error:
             failed.append(error)
 
@@ -97,7 +99,7 @@ def assert_learned_and_recorded(run):
     assert run.metrics()[-1]["updates"] == int(tensors["updates"]) == int(tensors["rounds"].sum())
     # Every update is one round: none was lost, none was recorded twice.
     assert run.metrics()[-1]["episodes"] == facts["episodes"] == 64 * int(tensors["updates"])
-    figures = evaluation.evaluate(run, 1000).summary(0.95)
+    figures = playing.evaluate(run, 1000).summary(0.95)
     print(figures)
     assert figures["success_rate"] > LEARNED
 
@@ -139,15 +141,15 @@ def test_whoever_dies_training_ends_as_if_nobody_had(nodes, tmp_path):
 def test_one_worker_on_a_cluster_learns_the_same_as_here_to_the_last_bit(nodes, tmp_path):
     seed = fresh_seed()
     here, there = (trainers.create(tmp_path / name, frames=20_000, seed=seed) for name in ("here", "there"))
-    training.train(here)
-    training.train(there, on_cluster=True)
+    trainer.train(here)
+    trainer.train(there, on_cluster=True)
     for name, value in here.checkpointer.latest()[0].items():
         assert torch.equal(value, there.checkpointer.latest()[0][name]), name
 
 
 def test_workers_that_find_no_room_join_when_there_is_some(nodes, tmp_path):
     run = trainers.create(tmp_path / "run", frames=10**9, num_workers=3, seed=fresh_seed(), **QUICK)
-    agent = training.make_agent(run.config, on_cluster=True)
+    agent = trainer.make_agent(run.config, on_cluster=True)
     seen, added = set(), False
     start = time.monotonic()
     for update in agent.updates():
@@ -165,10 +167,10 @@ def test_workers_that_find_no_room_join_when_there_is_some(nodes, tmp_path):
 
 def test_a_machine_with_other_versions_is_refused_in_one_line_that_names_both(nodes, tmp_path):
     run = trainers.create(tmp_path / "run", frames=10_000)
-    environments = functools.partial(training.make_environment, run.config)
-    trainer = os.getpid()
+    environments = functools.partial(trainer.make_environment, run.config)
+    trainer_pid = os.getpid()
     agent = distributed.DistributedA3C(
-        environments, run.config.agent, lambda: {"mujoco": "3.17.0" if os.getpid() == trainer else "3.16.0"}
+        environments, run.config.agent, lambda: {"mujoco": "3.17.0" if os.getpid() == trainer_pid else "3.16.0"}
     )
     with pytest.raises(a3c_agent.WorkerError, match=r"has mujoco 3\.16\.0, not 3\.17\.0; install") as caught:
         list(agent.updates())
@@ -177,20 +179,20 @@ def test_a_machine_with_other_versions_is_refused_in_one_line_that_names_both(no
 
 def test_a_loss_that_is_not_a_number_stops_training_and_leaves_the_batch(nodes, tmp_path):
     run = trainers.create(tmp_path / "run", frames=10**9)
-    tensors = training.make_agent(run.config).save()
+    tensors = trainer.make_agent(run.config).save()
     tensors["network/value.bias"][0] = 3e38  # Finite, but not its square.
     run.checkpointer.save(
         tensors, {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
     )
     with pytest.raises(RuntimeError, match="worker 0: loss -?(inf|nan).*failed_batch.npz.*last checkpoint"):
-        training.train(run, on_cluster=True)
+        trainer.train(run, on_cluster=True)
     assert (run.path / "failed_batch.npz").exists()
 
 
 def test_ppo_on_a_cluster_is_refused(tmp_path):
     run = trainers.create(tmp_path / "run", "ppo")
     with pytest.raises(ValueError, match="agent is ppo, which has one process; on a cluster train a3c"):
-        training.train(run, on_cluster=True)
+        trainer.train(run, on_cluster=True)
 
 
 def test_a_gradient_that_is_too_old_is_not_applied():
@@ -198,7 +200,7 @@ def test_a_gradient_that_is_too_old_is_not_applied():
     network = torch.nn.Linear(2, 1)
     variables = learning.Variables(network)
     gradients = [torch.ones_like(parameter) for parameter in network.parameters()]
-    episodes = evaluation.acting.Round(
+    episodes = playing.acting.Round(
         actions=torch.zeros(1, 1).numpy(),
         rewards=torch.zeros(1, 1).numpy(),
         lengths=torch.ones(1, dtype=int).numpy(),
@@ -256,7 +258,7 @@ def test_training_ends_without_workers_that_find_no_room_and_says_how_many(nodes
     config = trainers.create(tmp_path / "run", frames=500, num_workers=3, envs_per_worker=8).config
     lines = []
     agent = distributed.DistributedA3C(
-        functools.partial(training.make_environment, config),
+        functools.partial(trainer.make_environment, config),
         config.agent,
         run_lib.versions,
         lines.append,
@@ -273,7 +275,7 @@ def test_stopped_processes_of_a_cluster_hang_nobody(nodes, tmp_path):
     lines = []
     patience = types.SimpleNamespace(room=math.inf, silent=math.inf, stop=math.inf, answer=150.0)
     agent = distributed.DistributedA3C(
-        functools.partial(training.make_environment, config), config.agent, run_lib.versions, lines.append, patience
+        functools.partial(trainer.make_environment, config), config.agent, run_lib.versions, lines.append, patience
     )
     updates = agent.updates(poll_seconds=0.05)
     assert any(update is not None for update in updates)
@@ -291,7 +293,7 @@ def test_a_parameter_server_that_does_not_answer_counts_as_dead(nodes, tmp_path)
     config = trainers.create(tmp_path / "run", frames=10**9, num_workers=1, envs_per_worker=2).config
     patience = types.SimpleNamespace(room=math.inf, silent=math.inf, stop=math.inf, answer=150.0)
     agent = distributed.DistributedA3C(
-        functools.partial(training.make_environment, config), config.agent, run_lib.versions, patience=patience
+        functools.partial(trainer.make_environment, config), config.agent, run_lib.versions, patience=patience
     )
     updates = agent.updates(poll_seconds=0.05)
     assert any(update is not None for update in updates)

@@ -9,8 +9,8 @@ import torch
 import trainers
 
 from physexp import suite
-from physexp.analysis import run as run_lib
-from physexp.analysis import training
+from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer
 
 FRAMES = 24_000  # Some seconds, with several checkpoints in each.
 
@@ -19,7 +19,7 @@ FRAMES = 24_000  # Some seconds, with several checkpoints in each.
 def uninterrupted(request, tmp_path_factory):
     path = tmp_path_factory.mktemp("uninterrupted") / "run"
     run = trainers.create(path, request.param, frames=FRAMES, seed=trainers.fresh_seed())
-    training.train(run)
+    trainer.train(run)
     return run
 
 
@@ -79,7 +79,7 @@ def test_the_same_seed_gives_the_same_weights_to_the_last_bit(uninterrupted, tmp
     again = trainers.create(
         tmp_path / "run", agent.algorithm, frames=FRAMES, seed=agent.seed, checkpoint_seconds=1000.0
     )
-    training.train(again)
+    trainer.train(again)
     assert_same_weights(again, uninterrupted)
 
 

@@ -11,8 +11,9 @@ from trainers import fresh_seed
 
 from physexp import suite
 from physexp.agents import pretrained
-from physexp.analysis import evaluation, statistics
-from physexp.analysis import run as run_lib
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import playing
+from physexp.analysis.training import run as run_lib
 
 KEYS = [
     "episodes",
@@ -27,7 +28,7 @@ KEYS = [
 
 def test_the_summary_of_four_episodes_is_the_one_computed_by_hand():
     # Right at once; wrong after two pokes; out of time after 100 pokes; right after one poke.
-    played = evaluation.Episodes(
+    played = playing.Episodes(
         seeds=np.arange(4),
         numbers=np.zeros(4, int),
         hidden=np.zeros((4, 4)),
@@ -54,13 +55,13 @@ def test_the_summary_of_four_episodes_is_the_one_computed_by_hand():
 
 def test_wilsons_interval_is_that_of_the_formula_at_its_edges_and_of_scipy_between():
     # All of 10 right: from n / (n + z^2) = 10 / 13.841459 = 0.722467 to 1; none right: the mirror image.
-    assert statistics.wilson_interval(10, 10) == pytest.approx((0.722467, 1.0), abs=1e-6)
-    assert statistics.wilson_interval(0, 10) == pytest.approx((0.0, 1 - 0.722467), abs=1e-6)
+    assert estimates.wilson_interval(10, 10) == pytest.approx((0.722467, 1.0), abs=1e-6)
+    assert estimates.wilson_interval(0, 10) == pytest.approx((0.0, 1 - 0.722467), abs=1e-6)
     generator = np.random.default_rng(fresh_seed())
     for trials in generator.integers(1, 5000, 20):
         successes = int(generator.integers(trials + 1))
         expected = stats.binomtest(successes, int(trials)).proportion_ci(method="wilson")
-        assert statistics.wilson_interval(successes, int(trials)) == pytest.approx(tuple(expected), abs=1e-9)
+        assert estimates.wilson_interval(successes, int(trials)) == pytest.approx(tuple(expected), abs=1e-9)
 
 
 def test_randomized_interaction_passes_labels_and_draws_every_poke_anew():
@@ -68,7 +69,7 @@ def test_randomized_interaction_passes_labels_and_draws_every_poke_anew():
     generator = np.random.default_rng(seed)
     actions = generator.integers(0, 8, 40_000)
     actions[:8_000] = 2  # Whatever was wanted, most of all one block.
-    replaced = evaluation.randomize(4, actions, generator)
+    replaced = playing.randomize(4, actions, generator)
     labels = actions >= 4
     np.testing.assert_array_equal(replaced[labels], actions[labels])
     for wanted in range(4):  # Uniform over 0 to 3, given any poke that was wanted.
@@ -79,8 +80,8 @@ def test_randomized_interaction_passes_labels_and_draws_every_poke_anew():
 
 def test_evaluation_repeats_with_its_seed_and_differs_with_another(untrained):
     seed = fresh_seed()
-    first, again, other = (evaluation.evaluate(untrained, 300, seed=s) for s in (seed, seed, seed + 1))
-    for field in dataclasses.fields(evaluation.Episodes):
+    first, again, other = (playing.evaluate(untrained, 300, seed=s) for s in (seed, seed, seed + 1))
+    for field in dataclasses.fields(playing.Episodes):
         values, repeated = getattr(first, field.name), getattr(again, field.name)
         assert len(values) == len(repeated) == 300
         for value, same in zip(values, repeated, strict=True):
@@ -89,8 +90,8 @@ def test_evaluation_repeats_with_its_seed_and_differs_with_another(untrained):
 
 
 def test_an_untrained_agent_answers_by_chance_with_either_interaction(untrained):
-    for interaction in evaluation.INTERACTIONS:
-        played = evaluation.evaluate(untrained, 1000, interaction, seed=fresh_seed())
+    for interaction in playing.INTERACTIONS:
+        played = playing.evaluate(untrained, 1000, interaction, seed=fresh_seed())
         # Right with probability 1/4: the count stays within 6 standard deviations, 6 * sqrt(1000 * 3/16) = 82.
         assert abs((played.rewards > 0).sum() - 250) < 83
         assert set(np.unique(played.rewards)) == {-1.0, 1.0}
@@ -99,15 +100,15 @@ def test_an_untrained_agent_answers_by_chance_with_either_interaction(untrained)
 
 def test_evaluation_refuses_what_makes_no_sense(untrained, tmp_path):
     with pytest.raises(ValueError, match="interaction is 'guessed'; choose from learned, random"):
-        evaluation.evaluate(untrained, 10, "guessed")
+        playing.evaluate(untrained, 10, "guessed")
     with pytest.raises(ValueError, match="episodes is 0; give a number >= 1"):
-        evaluation.evaluate(untrained, 0)
+        playing.evaluate(untrained, 0)
     for path in untrained.checkpointer.paths():
         path.unlink()
     with pytest.raises(ValueError, match="holds no checkpoint yet"):
-        evaluation.evaluate(untrained, 10)
+        playing.evaluate(untrained, 10)
     with pytest.raises(ValueError, match="holds no run"):
-        evaluation.evaluate(run_lib.Run(tmp_path / "nothing"), 10)
+        playing.evaluate(run_lib.Run(tmp_path / "nothing"), 10)
 
 
 def test_the_evaluated_network_is_that_of_the_last_checkpoint(untrained):
@@ -117,13 +118,13 @@ def test_the_evaluated_network_is_that_of_the_last_checkpoint(untrained):
     tensors["network/policy.bias"].copy_(torch.tensor([0.0] * 7 + [100.0]))
     tensors["frames"] += 1
     untrained.checkpointer.save(tensors, facts)
-    played = evaluation.evaluate(untrained, 200, seed=fresh_seed())
+    played = playing.evaluate(untrained, 200, seed=fresh_seed())
     assert (played.lengths == 1).all() and not played.interactions.any()
     assert 0 < (played.rewards > 0).sum() < 200
 
 
 def test_every_episode_can_be_rebuilt_from_its_seed_number_and_actions(untrained):
-    played = evaluation.evaluate(untrained, 40, seed=fresh_seed())
+    played = playing.evaluate(untrained, 40, seed=fresh_seed())
     for index in range(0, 40, 7):
         environment = suite.load(
             "which_is_heavier", "features", task_kwargs={"random": int(played.seeds[index]), "difficulty": 10.0}
@@ -140,9 +141,9 @@ def test_every_episode_can_be_rebuilt_from_its_seed_number_and_actions(untrained
 
 @pytest.mark.parametrize("base", pretrained.names())
 def test_every_agent_is_found_by_name_and_by_difficulty(base):
-    network, config = evaluation.find_agent(base)
+    network, config = playing.find_agent(base)
     for name, difficulty in ((base, config.difficulty), (config.task_name, config.difficulty)):
-        other, other_config = evaluation.find_agent(name, difficulty)
+        other, other_config = playing.find_agent(name, difficulty)
         assert other_config == config
         assert all(torch.equal(value, network.state_dict()[key]) for key, value in other.state_dict().items())
 
@@ -164,28 +165,28 @@ THERE = "which_is_heavier-features-difficulty10, which_is_heavier-features-diffi
 )
 def test_an_agent_that_there_is_not_is_refused_with_a_list_of_those_there_are(target, difficulty, message):
     with pytest.raises(ValueError, match=message) as refused:
-        evaluation.find_agent(target, difficulty)
+        playing.find_agent(target, difficulty)
     assert "\n" not in str(refused.value)
 
 
 def test_a_run_has_the_difficulty_it_was_trained_at(untrained):
-    assert evaluation.find_agent(str(untrained.path), 10)[1] == untrained.config
+    assert playing.find_agent(str(untrained.path), 10)[1] == untrained.config
     with pytest.raises(ValueError, match="was trained at difficulty 10, and difficulty is 5"):
-        evaluation.find_agent(str(untrained.path), 5)
+        playing.find_agent(str(untrained.path), 5)
 
 
 def test_whole_rounds_are_played_until_there_are_enough_steps(untrained):
-    network = evaluation.load_network(untrained)
-    played = evaluation.play(network, untrained.config, 1, num_steps=5000)
+    network = playing.load_network(untrained)
+    played = playing.play(network, untrained.config, 1, num_steps=5000)
     assert played.lengths.sum() >= 5000
     assert len(played.lengths) % 256 == 0  # Nothing is cut off, which would leave out long episodes.
     assert played.lengths[:-256].sum() < 5000
 
 
 def test_a_run_that_keeps_its_agent_only_plays_as_before_to_half_precision(untrained):
-    before = evaluation.load_network(untrained).state_dict()
+    before = playing.load_network(untrained).state_dict()
     untrained.keep_agent_only()
-    after = evaluation.load_network(untrained).state_dict()
+    after = playing.load_network(untrained).state_dict()
     for name, value in before.items():
         # Half precision has 11 significant bits, and steps of 2^-24 below 2^-14.
         torch.testing.assert_close(after[name], value, rtol=2**-11, atol=2**-25)

@@ -17,8 +17,8 @@ import trainers
 from trainers import PHYSEXP, fresh_seed
 
 from physexp.agents import checkpointing
-from physexp.analysis import run as run_lib
-from physexp.analysis import training
+from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer
 
 KILLS = 5
 _PR_CAPBSET_DROP, _CAP_DAC_OVERRIDE = 24, 1
@@ -35,7 +35,7 @@ def resume(run, **kwargs):
 def trained(tmp_path_factory):
     """A finished run with two checkpoints, not to be changed."""
     run = trainers.create(tmp_path_factory.mktemp("trained") / "run", frames=8_000, seed=fresh_seed())
-    training.train(run)
+    trainer.train(run)
     assert len(run.checkpointer.paths()) == 2
     return run
 
@@ -230,7 +230,7 @@ def trained_until(path, happens):
             happens(run)
 
     with pytest.raises(RuntimeError) as caught:
-        training.train(run, report)
+        trainer.train(run, report)
     assert "\n" not in str(caught.value)
     return run, str(caught.value)
 
@@ -261,18 +261,18 @@ def test_a_trainer_whose_folder_is_moved_stops_and_the_run_can_be_resumed_where_
 
 def test_a_batch_that_cannot_be_saved_does_not_hide_why_training_stopped(tmp_path):
     run = trainers.create(tmp_path / "run", "ppo")
-    tensors = training.make_agent(run.config).save()
+    tensors = trainer.make_agent(run.config).save()
     tensors["network/value.bias"][0] = 3e38  # Finite, but not its square.
     run.checkpointer.save(tensors, {"task": run.config.task_name, "episodes": 0, "seconds": 0.0})
     (run.path / "failed_batch.npz").mkdir()
     with pytest.raises(RuntimeError, match="loss -?(inf|nan).*the batch could not be written to .*failed_batch.npz"):
-        training.train(run)
+        trainer.train(run)
 
 
 def test_a_clock_that_goes_backwards_changes_nothing(tmp_path, monkeypatch):
     run = trainers.create(tmp_path / "run", frames=8_000, seed=fresh_seed())
     now = iter(np.linspace(2e9, 1e9, 1_000_000))
     monkeypatch.setattr(time, "time", lambda: float(next(now)))
-    training.train(run)
+    trainer.train(run)
     seconds = [row["seconds"] for row in run.metrics()]
     assert seconds == sorted(seconds) and run.is_finished

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from trainers import fresh_seed
 
-from physexp.analysis import figures
+from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import EXPERIMENTS, conditions
 
 matplotlib.use("Agg")

@@ -16,14 +16,14 @@ import pytest
 import trainers
 
 from physexp.agents.a3c import agent as a3c
-from physexp.analysis import training
+from physexp.analysis.training import trainer
 
 
 def make_agent(tmp_path, num_workers, report):
     """An agent, and its patience, that lasts for ever until a test changes it."""
     config = trainers.create(tmp_path / "run", frames=10**9, num_workers=num_workers, envs_per_worker=2).config
     patience = types.SimpleNamespace(**dict.fromkeys(dataclasses.asdict(a3c.Patience()), math.inf))
-    environments = functools.partial(training.make_environment, config)
+    environments = functools.partial(trainer.make_environment, config)
     return a3c.A3C(environments, config.agent, report, patience), patience
 
 

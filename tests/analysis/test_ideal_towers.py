@@ -11,7 +11,7 @@ from trainers import fresh_seed
 from physexp import suite
 from physexp.agents import environment_loop
 from physexp.analysis.ideal import towers, trajectories
-from physexp.suite import tower
+from physexp.suite.parts import tower
 
 PATTERNS = trajectories.NUM_PATTERNS
 COUNTS = [tower.num_bodies(pattern) for pattern in tower.PATTERNS]

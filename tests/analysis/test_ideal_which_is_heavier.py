@@ -11,7 +11,7 @@ from physexp import suite
 from physexp.agents import environment_loop
 from physexp.analysis.ideal import playing, regret
 from physexp.analysis.ideal import which_is_heavier as ideal
-from physexp.suite import which_is_heavier
+from physexp.suite.domains import which_is_heavier
 
 
 def draw(generator, count, difficulty, blocks=4):

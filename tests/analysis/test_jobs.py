@@ -9,7 +9,8 @@ import time
 import pytest
 from waiting import wait_until
 
-from physexp.analysis import jobs, stopping
+from physexp.analysis.reproduction import jobs
+from physexp.analysis.training import stopping
 
 
 def wait_for(tell, path):

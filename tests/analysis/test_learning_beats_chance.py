@@ -3,7 +3,8 @@
 import pytest
 import trainers
 
-from physexp.analysis import evaluation, training
+from physexp.analysis.evaluation import playing
+from physexp.analysis.training import trainer
 
 # Small updates and an entropy cost that stays high: few frames suffice, and the agent does not learn to be silent.
 SHORT = {
@@ -23,9 +24,9 @@ def test_a_short_run_finds_the_heaviest_block_far_more_often_than_chance(algorit
         final_entropy_cost=0.03,
         checkpoint_seconds=60.0,
     )
-    training.train(run)
-    learned = evaluation.evaluate(run, 1000).summary(0.95)
-    random = evaluation.evaluate(run, 1000, "random").summary(0.95)
+    trainer.train(run)
+    learned = playing.evaluate(run, 1000).summary(0.95)
+    random = playing.evaluate(run, 1000, "random").summary(0.95)
     print(learned, random)
     # One of four blocks: chance is 0.25, and 1000 guesses stay below 0.25 + 6 * sqrt(0.25 * 0.75 / 1000) = 0.33.
     assert learned["success_rate"] > 0.6

@@ -13,16 +13,17 @@ import trainers
 
 from physexp import cli
 from physexp.agents import pretrained
-from physexp.analysis import config as config_lib
-from physexp.analysis import evaluation, publishing, training
-from physexp.analysis import run as run_lib
+from physexp.analysis.evaluation import playing, publishing
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer
 
 
 @pytest.fixture(scope="module")
 def published(tmp_path_factory):
     folder = tmp_path_factory.mktemp("published")
     run = trainers.create(folder / "run", frames=2000, seed=5)
-    training.train(run)
+    trainer.train(run)
     return run, publishing.publish(run, folder / "agents", num_episodes=200)
 
 
@@ -70,7 +71,7 @@ def test_every_field_of_an_agent_survives_the_way_over_the_command_line(task, al
 def test_the_agent_is_the_runs_rounded_to_half_precision(published):
     run, path = published
     agent = pretrained.load("which_is_heavier", "features", 10, folder=path.parent)
-    expected = evaluation.load_network(run).state_dict()
+    expected = playing.load_network(run).state_dict()
     for name, value in agent.network.state_dict().items():
         assert torch.equal(value, expected[name].half().float()), name
 
@@ -78,7 +79,7 @@ def test_the_agent_is_the_runs_rounded_to_half_precision(published):
 def test_what_the_card_evaluates_is_what_is_loaded(published):
     run, path = published
     agent = pretrained.load("which_is_heavier", "features", 10, folder=path.parent)
-    again = evaluation.play(agent.network, run.config, 200).summary(run.config.agent.discount)
+    again = playing.play(agent.network, run.config, 200).summary(run.config.agent.discount)
     assert json.loads(json.dumps(again)) == agent.card["evaluation"]["drawn"]
 
 
@@ -126,9 +127,9 @@ def test_weights_that_are_not_finite_are_refused_wherever_they_are_read(worst, p
     tensors["network/policy.bias"][0] = worst
     path = run.checkpointer.save(tensors, facts)
     for use in (
-        lambda: evaluation.find_agent(str(run.path)),
+        lambda: playing.find_agent(str(run.path)),
         lambda: publishing.publish(run, tmp_path / "agents", num_episodes=1),
-        lambda: training.train(run),
+        lambda: trainer.train(run),
     ):
         with pytest.raises(ValueError, match=f"^{path}: .*not finite in .*policy.bias") as refused:
             use()
@@ -156,7 +157,7 @@ def test_facts_that_make_no_sense_stop_a_run_from_being_resumed(facts, published
     path = run.checkpointer.save(tensors, {**good, **facts} if facts else {})
     metrics = (run.path / "metrics.csv").read_bytes()
     with pytest.raises(ValueError, match=str(tmp_path)) as refused:
-        training.train(run)
+        trainer.train(run)
     assert path.name in str(refused.value) and "\n" not in str(refused.value)
     assert (run.path / "metrics.csv").read_bytes() == metrics
 
@@ -164,17 +165,17 @@ def test_facts_that_make_no_sense_stop_a_run_from_being_resumed(facts, published
 def test_an_agent_kept_alone_that_is_damaged_is_refused_by_its_file(published, tmp_path):
     run = copy_of(published[0], tmp_path / "run")
     run.keep_agent_only()
-    assert evaluation.find_agent(str(run.path))
+    assert playing.find_agent(str(run.path))
     content = run.agent_path.read_bytes()
     for damaged in (content[:-1], b"", content[:-1] + bytes([content[-1] ^ 1])):
         run.agent_path.write_bytes(damaged)
         with pytest.raises(ValueError, match=f"^{run.agent_path} is damaged: .*; put back the agent's own$"):
-            evaluation.find_agent(str(run.path))
-    weights = evaluation.load_network(published[0]).half().state_dict()
+            playing.find_agent(str(run.path))
+    weights = playing.load_network(published[0]).half().state_dict()
     weights["policy.bias"][1] = math.inf
     run.agent_path.write_bytes(safetensors.save(weights))  # As files were before they had checksums.
     with pytest.raises(ValueError, match=f"^{run.agent_path} holds numbers that are not finite in policy.bias"):
-        evaluation.find_agent(str(run.path))
+        playing.find_agent(str(run.path))
 
 
 def test_a_configuration_of_a_larger_network_than_the_weights_have_is_refused_before_it_is_made(published, tmp_path):
@@ -184,7 +185,7 @@ def test_a_configuration_of_a_larger_network_than_the_weights_have_is_refused_be
     fields["train"]["agent"]["lstm_units"] = 65_536  # Would take 70 GB.
     (run.path / "config.json").write_text(json.dumps(fields))
     with pytest.raises(ValueError, match=f"^{run.agent_path} does not fit the configuration"):
-        evaluation.find_agent(str(run.path))
+        playing.find_agent(str(run.path))
 
 
 def test_a_run_names_its_commit_and_what_draws_its_images(tmp_path):

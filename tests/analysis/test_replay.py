@@ -22,9 +22,10 @@ from trainers import PHYSEXP, fresh_seed, wait_until
 
 from physexp import suite
 from physexp.agents import core, environment_loop
-from physexp.analysis import evaluation, replay
+from physexp.analysis import replay
+from physexp.analysis.evaluation import playing
 from physexp.analysis.replay import beliefs, live, palette, recording, selection, words, writing
-from physexp.suite import block, tower
+from physexp.suite.parts import block, tower
 
 TASKS = [("which_is_heavier", "features"), ("towers", "fist_features"), ("towers", "direct_pixels")]
 
@@ -322,8 +323,8 @@ def test_the_ideal_posterior_beside_an_agent_follows_its_pokes():
 
 @pytest.mark.parametrize(("domain", "task"), TASKS)
 def test_an_episode_known_by_its_numbers_is_enacted_as_it_was(domain, task):
-    network, config = evaluation.find_agent(f"{domain}/{task}")
-    played = evaluation.play(network, config, 3, seed=fresh_seed())
+    network, config = playing.find_agent(f"{domain}/{task}")
+    played = playing.play(network, config, 3, seed=fresh_seed())
     for index in range(3):
         episode = recording.reenact(network, config, played.seeds[index], played.numbers[index], played.actions[index])
         np.testing.assert_array_equal(episode.actions, played.actions[index])
@@ -402,8 +403,8 @@ def test_agents_of_different_tasks_are_not_compared(tmp_path):
 
 
 def test_a_selection_is_what_it_says():
-    network, config = evaluation.find_agent("which_is_heavier/features")
-    play = functools.partial(evaluation.play, network, config)
+    network, config = playing.find_agent("which_is_heavier/features")
+    play = functools.partial(playing.play, network, config)
     everything = play(256, seed=5)
     kinds = ("any", "right", "longest", "hardest")
     chosen = {kind: list(selection.select(network, config, 5, kind, seed=5)) for kind in kinds}

@@ -12,9 +12,10 @@ from pyarrow import parquet
 import pytest
 from trainers import PHYSEXP, group, wait_until
 
-from physexp.analysis import records, report, reproduce, sweep
-from physexp.analysis import run as run_lib
+from physexp.analysis.data import records
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions
+from physexp.analysis.reproduction import report, reproduce, sweep
+from physexp.analysis.training import run as run_lib
 
 NAMES = [f"which_is_heavier-features-difficulty{beta}-discount0.95-seed0" for beta in (3, 5, 10)]
 

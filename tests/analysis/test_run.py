@@ -10,8 +10,8 @@ import pytest
 import torch
 
 from physexp.agents.a3c import config as a3c
-from physexp.analysis import config as config_lib
-from physexp.analysis import run as run_lib
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
 
 ROUNDS = 50
 FOLDERS = ("checkpoints", "episodes.parquet", "replays", "tensorboard")

@@ -11,7 +11,7 @@ import pytest
 import trainers
 from trainers import PHYSEXP, wait_until
 
-from physexp.analysis import stopping
+from physexp.analysis.training import stopping
 
 ENDLESS = 10**9
 

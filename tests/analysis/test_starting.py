@@ -13,9 +13,10 @@ import trainers
 from trainers import PHYSEXP
 
 from physexp import cli
-from physexp.analysis import config as config_lib
-from physexp.analysis import demo, training
-from physexp.analysis import run as run_lib
+from physexp.analysis import demo
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer
 
 TASK = ("which_is_heavier", "features")
 
@@ -138,7 +139,7 @@ def test_records_without_a_checkpoint_are_not_resumed_but_moved_aside_by_a_new_s
     assert "holds no checkpoint to resume from; leave out --resume to start anew" in line
     assert everything(run.path) == before
     told = []
-    training.train(run, tell=told.append, start=small(seed=1))
+    trainer.train(run, tell=told.append, start=small(seed=1))
     assert everything(run.path / "superseded-1") == before
     assert told == [f"what an earlier attempt without a checkpoint had recorded is now in {run.path / 'superseded-1'}"]
     assert run.config.agent.seed == 1 and run.is_finished and 7 not in pd.DataFrame(run.metrics()).frames.tolist()

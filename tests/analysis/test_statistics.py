@@ -7,7 +7,7 @@ import pytest
 from scipy import stats
 from trainers import fresh_seed
 
-from physexp.analysis import statistics
+from physexp.analysis.data import estimates
 
 _NORMAL_975 = stats.norm.ppf(0.975)
 
@@ -31,21 +31,21 @@ def test_a_proportion_is_the_share_with_wilsons_interval():
     outcomes = [True, False, True, True]
     # 3 of 4: z^2 = 3.841459; centre (3/4 + z^2/8) / (1 + z^2/4) = 1.230182 / 1.960365 = 0.627527; half width
     # z / (1 + z^2/4) * sqrt(3/64 + z^2/64) = 0.999793 * sqrt(0.106898) = 0.326885.
-    assert_same(statistics.proportion(outcomes), (0.75, 0.300642, 0.954412), abs=1e-6)
-    assert statistics.proportion(np.array(outcomes)) == statistics.proportion(outcomes)
-    assert statistics.proportion([False] * 3).value == 0 and statistics.proportion([False] * 3).low == 0
+    assert_same(estimates.proportion(outcomes), (0.75, 0.300642, 0.954412), abs=1e-6)
+    assert estimates.proportion(np.array(outcomes)) == estimates.proportion(outcomes)
+    assert estimates.proportion([False] * 3).value == 0 and estimates.proportion([False] * 3).low == 0
 
 
 def test_intervals_of_proportions_hold_the_truth_on_average_over_truths():
     source, shares = generator(), []
     for _ in range(2000):  # At a single truth Wilson's coverage goes up and down around the level: one outcome is many.
         truth = source.uniform(0.1, 0.9)
-        estimate = statistics.proportion(source.random(40) < truth)
+        estimate = estimates.proportion(source.random(40) < truth)
         shares.append(estimate.low <= truth <= estimate.high)
     # The average over truths is that of the formula, from the binomial's probabilities.
     truths = np.linspace(0.1, 0.9, 401)
     counts = np.arange(41)
-    ends = np.array([statistics.wilson_interval(int(count), 40) for count in counts])
+    ends = np.array([estimates.wilson_interval(int(count), 40) for count in counts])
     held = (ends[:, :1] <= truths) & (truths <= ends[:, 1:])
     expected = (stats.binom.pmf(counts[:, None], 40, truths) * held).sum(axis=0).mean()
     assert abs(expected - 0.95) < 0.005
@@ -54,76 +54,76 @@ def test_intervals_of_proportions_hold_the_truth_on_average_over_truths():
 
 def test_the_interval_of_a_mean_is_students():
     # Of 1, 2, 3, 6: mean 3, variance 14 / 3, standard error sqrt(14 / 12) = 1.080123; t_3 at 97.5 % is 3.182446.
-    assert_same(statistics.mean([1, 2, 3, 6]), (3.0, 3 - 3.437434, 3 + 3.437434), abs=1e-5)
+    assert_same(estimates.mean([1, 2, 3, 6]), (3.0, 3 - 3.437434, 3 + 3.437434), abs=1e-5)
     source = generator()
     for count in (2, 5, 40):
         values = source.normal(source.normal(), 2, count)
         expected = stats.ttest_1samp(values, 0).confidence_interval(0.95)
-        assert_same(statistics.mean(values), (values.mean(), *expected), rel=1e-9)
+        assert_same(estimates.mean(values), (values.mean(), *expected), rel=1e-9)
 
 
 @pytest.mark.parametrize("count", [2, 3, 10])
 def test_intervals_of_means_hold_the_truth_even_with_few_agents(count):
     draws = generator().normal(0.7, 0.1, (1000, count))
-    assert_covers([statistics.mean(values) for values in draws], 0.7)
+    assert_covers([estimates.mean(values) for values in draws], 0.7)
 
 
 def test_the_interval_of_a_median_is_between_order_statistics():
     # The k-th smallest and k-th largest of n hold the median unless fewer than k are on one side, which happens with
     # probability 2 P(Binomial(n, 1/2) < k): for n = 10, 22 / 1024 = 2 % with k = 2, and 11 % with k = 3.
-    assert_same(statistics.median([7, 1, 10, 4, 2, 9, 5, 3, 8, 6]), (5.5, 2.0, 9.0))
+    assert_same(estimates.median([7, 1, 10, 4, 2, 9, 5, 3, 8, 6]), (5.5, 2.0, 9.0))
     # For n = 6 it is 2 / 64 = 3 % with k = 1; for n = 5 it is 2 / 32 = 6 %, which is too much for any interval.
-    assert_same(statistics.median([6, 1, 5, 2, 4, 3]), (3.5, 1.0, 6.0))
+    assert_same(estimates.median([6, 1, 5, 2, 4, 3]), (3.5, 1.0, 6.0))
     for count in (1, 5):
-        assert_same(statistics.median(np.arange(count)), ((count - 1) / 2, -math.inf, math.inf))
+        assert_same(estimates.median(np.arange(count)), ((count - 1) / 2, -math.inf, math.inf))
 
 
 def test_a_median_and_its_interval_are_those_of_the_sorted_values_whatever_their_order_and_type():
     source = generator()
     values = source.integers(0, 30, 101).astype(np.int16)
-    estimate = statistics.median(values)
+    estimate = estimates.median(values)
     # 2 P(Binomial(101, 1/2) < 41) = 0.046, and 0.072 with 42: the 41st smallest and the 41st largest.
     ranked = np.sort(values)
     assert_same(estimate, (ranked[50], ranked[40], ranked[60]))
-    assert estimate == statistics.median(source.permutation(values))
-    assert estimate == statistics.median(list(values.astype(float)))
+    assert estimate == estimates.median(source.permutation(values))
+    assert estimate == estimates.median(list(values.astype(float)))
 
 
 @pytest.mark.parametrize("count", [10, 101])
 def test_intervals_of_medians_hold_the_truth_of_a_skewed_distribution(count):
     draws = generator().exponential(1.0, (400, count))
     held = 1 - 2 * stats.binom.cdf({10: 1, 101: 40}[count], count, 0.5)  # As derived above: 98 % and 95 %.
-    assert_covers([statistics.median(values) for values in draws], math.log(2), level=held)
+    assert_covers([estimates.median(values) for values in draws], math.log(2), level=held)
 
 
 def test_the_interval_of_a_mean_share_ends_where_shares_do():
     # Of 0.9, 1: mean 0.95, standard error 0.05; t_1 at 97.5 % is 12.706205, so that Student's goes beyond both ends.
-    assert_same(statistics.mean([0.9, 1.0]), (0.95, 0.95 - 0.635310, 0.95 + 0.635310), abs=1e-5)
-    assert_same(statistics.mean_share([0.9, 1.0]), (0.95, 0.95 - 0.635310, 1.0), abs=1e-5)
-    assert_same(statistics.mean_share([0.1, 0.0]), (0.05, 0.0, 0.05 + 0.635310), abs=1e-5)
-    assert_same(statistics.mean_share([0.7]), (0.7, 0.0, 1.0))
+    assert_same(estimates.mean([0.9, 1.0]), (0.95, 0.95 - 0.635310, 0.95 + 0.635310), abs=1e-5)
+    assert_same(estimates.mean_share([0.9, 1.0]), (0.95, 0.95 - 0.635310, 1.0), abs=1e-5)
+    assert_same(estimates.mean_share([0.1, 0.0]), (0.05, 0.0, 0.05 + 0.635310), abs=1e-5)
+    assert_same(estimates.mean_share([0.7]), (0.7, 0.0, 1.0))
     inside = [0.4, 0.5, 0.6]
-    assert statistics.mean_share(inside) == statistics.mean(inside)
+    assert estimates.mean_share(inside) == estimates.mean(inside)
 
 
 def test_a_ratio_of_means_is_that_of_the_geometric_ones_with_welchs_interval():
     # Geometric means of (2, 8) and (1, 4): 4 and 2. Logarithms deviate by log 2 from their means: variances
     # 2 log(2)^2 each, standard error sqrt(2 log(2)^2) = 0.980258, 2 degrees of freedom, t_2 at 97.5 % 4.302653.
     half = 4.302653 * 0.980258
-    assert_same(statistics.ratio_of_means([2, 8], [1, 4]), (2.0, 2 * math.exp(-half), 2 * math.exp(half)), rel=1e-5)
+    assert_same(estimates.ratio_of_means([2, 8], [1, 4]), (2.0, 2 * math.exp(-half), 2 * math.exp(half)), rel=1e-5)
     source = generator()
     for counts in ((2, 3), (5, 10), (30, 4)):
         groups = [np.exp(source.normal(0, spread, count)) for spread, count in zip((0.2, 1), counts, strict=True)]
         logs = [np.log(group) for group in groups]
         interval = stats.ttest_ind(*logs, equal_var=False).confidence_interval(0.95)
         expected = np.exp([logs[0].mean() - logs[1].mean(), interval.low, interval.high])
-        assert_same(statistics.ratio_of_means(*groups), tuple(expected), rel=1e-9)
+        assert_same(estimates.ratio_of_means(*groups), tuple(expected), rel=1e-9)
 
 
 def test_the_ratio_turned_about_is_the_inverse():
     source = generator()
     groups = [np.exp(source.normal(0, 0.3, count)) for count in (5, 8)]
-    ratio, turned = statistics.ratio_of_means(*groups), statistics.ratio_of_means(*groups[::-1])
+    ratio, turned = estimates.ratio_of_means(*groups), estimates.ratio_of_means(*groups[::-1])
     assert_same(turned, (1 / ratio.value, 1 / ratio.high, 1 / ratio.low))
 
 
@@ -131,7 +131,7 @@ def test_the_ratio_turned_about_is_the_inverse():
 def test_intervals_of_ratios_hold_the_truth_with_unequal_spreads(counts):
     source = generator()
     found = [
-        statistics.ratio_of_means(
+        estimates.ratio_of_means(
             *(
                 np.exp(source.normal(mean, spread, count))
                 for mean, spread, count in zip((1.0, 0.2), (0.1, 0.4), counts, strict=True)
@@ -146,39 +146,39 @@ def test_intervals_of_ratios_hold_the_truth_with_unequal_spreads(counts):
 def test_a_ratio_allows_for_values_that_are_all_the_same_in_one_group():
     # Median interactions are whole numbers: agents often agree. Then only the other group's spread is left: Student's.
     varied = np.array([30.0, 29.0, 33.0])
-    expected = statistics.mean(np.log(varied / 2))
+    expected = estimates.mean(np.log(varied / 2))
     for same in ([2, 2, 2], np.full(4, 2, np.float32)):
-        estimate = statistics.ratio_of_means(varied, same)
+        estimate = estimates.ratio_of_means(varied, same)
         assert_same(estimate, tuple(np.exp([expected.value, expected.low, expected.high])), rel=1e-9)
-    assert_same(statistics.ratio_of_means([3, 3, 3], [2, 2]), (1.5, 1.5, 1.5))
+    assert_same(estimates.ratio_of_means([3, 3, 3], [2, 2]), (1.5, 1.5, 1.5))
 
 
 def test_a_ratio_of_what_is_not_positive_and_finite_has_an_infinite_interval():
     for wrong in ([0.0, 1.0, 2.0], [1.0, 2.0, math.inf], [math.inf] * 3):
         for groups in ((wrong, [1.0, 2.0]), ([1.0, 2.0], wrong), (wrong, wrong)):
-            estimate = statistics.ratio_of_means(*groups)
+            estimate = estimates.ratio_of_means(*groups)
             assert (estimate.low, estimate.high) == (0, math.inf)
 
 
 def test_a_bootstrapped_interval_is_made_of_the_statistic_of_values_drawn_again():
     # The mean of two values drawn from 0 and 1 is 0, 1/2 or 1, with probabilities 1/4, 1/2 and 1/4.
-    assert_same(statistics.bootstrap([0, 1], np.mean), (0.5, 0.0, 1.0))
+    assert_same(estimates.bootstrap([0, 1], np.mean), (0.5, 0.0, 1.0))
     # The largest of ten values is drawn again with probability 1 - 0.9^10 = 65 %; one of the largest two with 89 %, of
     # the three 97 %, of the four 99.4 %: 2.5 % of the draws are below the third largest or at most it.
-    estimate = statistics.bootstrap(np.arange(10), np.max)
+    estimate = estimates.bootstrap(np.arange(10), np.max)
     assert (estimate.value, estimate.high) == (9, 9) and estimate.low in (6, 7)
 
 
 def test_the_bootstrap_repeats_with_its_seed():
     values = generator().normal(size=12)
-    first, again, other = (statistics.bootstrap(values, np.mean, seed=seed) for seed in (1, 1, 2))
+    first, again, other = (estimates.bootstrap(values, np.mean, seed=seed) for seed in (1, 1, 2))
     assert first == again != other
     assert first.value == other.value == values.mean()
 
 
 def test_bootstrapped_intervals_of_means_hold_the_truth_as_often_as_the_method_does():
     draws = generator().normal(0.7, 0.1, (100, 10))
-    found = [statistics.bootstrap(values, _sum_over_ten) for values in draws]
+    found = [estimates.bootstrap(values, _sum_over_ten) for values in draws]
     # Means of values drawn again are spread by s sqrt((n - 1) / n) / sqrt(n): a normal interval of that width holds the
     # truth with P(|t| < 1.96 sqrt((n - 1) / n)), which is 90 % of the time for 10 values.
     level = 1 - 2 * stats.t.sf(_NORMAL_975 * math.sqrt(0.9), 9)
@@ -194,7 +194,7 @@ def test_a_slope_is_that_of_least_squares_with_whites_standard_error():
     # x = 0, 1, 2, y = 0, 0, 3: slope 3/2 about the means 1 and 1; residuals 1/2, -1, 1/2. Sum of squares of centred x
     # is 2; of them times squared residuals 1/4 + 0 + 1/4 = 1/2; times n / (n - 2) = 3: error sqrt(3/2) / 2 = 0.612372.
     half = 1.959964 * 0.612372
-    assert_same(statistics.slope(np.arange(3.0), np.array([0.0, 0, 3])), (1.5, 1.5 - half, 1.5 + half), abs=1e-5)
+    assert_same(estimates.slope(np.arange(3.0), np.array([0.0, 0, 3])), (1.5, 1.5 - half, 1.5 + half), abs=1e-5)
 
 
 def test_a_slope_is_that_of_the_sandwich_of_matrices():
@@ -208,7 +208,7 @@ def test_a_slope_is_that_of_the_sandwich_of_matrices():
     errors = np.sqrt(np.diag(bread @ (design.T * residuals**2) @ design @ bread) * 30 / 28)
     half = _NORMAL_975 * errors[1]
     expected = (coefficients[1], coefficients[1] - half, coefficients[1] + half)
-    assert_same(statistics.slope(x, y), expected, rel=1e-9)
+    assert_same(estimates.slope(x, y), expected, rel=1e-9)
     assert coefficients[1] == pytest.approx(stats.linregress(x, y).slope)
 
 
@@ -217,7 +217,7 @@ def test_intervals_of_slopes_hold_the_truth_where_the_spread_changes_with_x():
     for _ in range(1000):
         x = source.uniform(0, 1, 300)
         y = 1 - 2 * x + source.normal(0, 4 * np.abs(x - 0.5) ** 2)
-        found.append(statistics.slope(x, y))
+        found.append(estimates.slope(x, y))
         line = stats.linregress(x, y)
         textbook.append(abs(line.slope + 2) < _NORMAL_975 * line.stderr)
     assert_covers(found, -2, slack=0.007)  # The interval is exact for many pairs only.
@@ -230,31 +230,31 @@ def test_intervals_of_slopes_hold_the_truth_where_the_spread_changes_with_x():
 
 def test_a_line_without_spread_has_an_interval_without_width():
     x = np.arange(5.0)
-    assert_same(statistics.slope(x, 3 * x), (3.0, 3.0, 3.0))
-    assert_same(statistics.slope(x, np.full(5, 0.1)), (0.0, 0.0, 0.0), abs=1e-12)
+    assert_same(estimates.slope(x, 3 * x), (3.0, 3.0, 3.0))
+    assert_same(estimates.slope(x, np.full(5, 0.1)), (0.0, 0.0, 0.0), abs=1e-12)
 
 
 def test_equal_values_have_intervals_without_width():
     for count in (2, 7):
-        assert_same(statistics.mean([0.1] * count), (0.1, 0.1, 0.1))
-        assert_same(statistics.bootstrap([0.1] * count, np.median), (0.1, 0.1, 0.1))
-    assert_same(statistics.median([0.1] * 7), (0.1, 0.1, 0.1))
+        assert_same(estimates.mean([0.1] * count), (0.1, 0.1, 0.1))
+        assert_same(estimates.bootstrap([0.1] * count, np.median), (0.1, 0.1, 0.1))
+    assert_same(estimates.median([0.1] * 7), (0.1, 0.1, 0.1))
 
 
 def test_a_single_value_says_nothing_of_the_spread():
     everything = (-math.inf, math.inf)
-    for estimate in (statistics.mean([3]), statistics.median([3]), statistics.bootstrap([3], np.median)):
+    for estimate in (estimates.mean([3]), estimates.median([3]), estimates.bootstrap([3], np.median)):
         assert (estimate.value, estimate.low, estimate.high) == (3, *everything)
     for groups in (([3], [2]), ([3], [2, 2]), ([3, 3], [2])):
-        assert_same(statistics.ratio_of_means(*groups), (1.5, 0.0, math.inf))
+        assert_same(estimates.ratio_of_means(*groups), (1.5, 0.0, math.inf))
 
 
 def test_a_line_through_two_points_or_over_one_place_has_an_infinite_interval():
     everything = (-math.inf, math.inf)
-    two = statistics.slope(np.array([0.0, 1.0]), np.array([0.0, 2.0]))
+    two = estimates.slope(np.array([0.0, 1.0]), np.array([0.0, 2.0]))
     assert (two.value, two.low, two.high) == (2, *everything)
     for count in (1, 4):
-        estimate = statistics.slope(np.ones(count), np.arange(count, dtype=float))
+        estimate = estimates.slope(np.ones(count), np.arange(count, dtype=float))
         assert (estimate.low, estimate.high) == everything
 
 
@@ -263,11 +263,11 @@ def test_intervals_hold_their_estimates():
     for count in (2, 6, 25):
         values, others = source.gamma(2.0, size=count), source.gamma(2.0, size=count + 1)
         for estimate in (
-            statistics.mean(values),
-            statistics.median(values),
-            statistics.bootstrap(values, np.median),
-            statistics.ratio_of_means(values, others),
-            statistics.proportion(values > 1),
+            estimates.mean(values),
+            estimates.median(values),
+            estimates.bootstrap(values, np.median),
+            estimates.ratio_of_means(values, others),
+            estimates.proportion(values > 1),
         ):
             assert estimate.low <= estimate.value <= estimate.high
 
@@ -275,7 +275,7 @@ def test_intervals_hold_their_estimates():
 def test_the_ratio_of_pairs_is_the_geometric_mean_with_students_interval_of_the_logarithms():
     # Ratios 2, 8: logarithms log 2 and 3 log 2, mean 2 log 2: 4. Their deviation is sqrt(2) log 2, the error of the
     # mean log 2, and Student's factor for one degree of freedom 12.7062: from 4 / 2^12.7062 to 4 * 2^12.7062.
-    estimate = statistics.ratio_of_pairs([2.0, 24.0], [1.0, 3.0])
+    estimate = estimates.ratio_of_pairs([2.0, 24.0], [1.0, 3.0])
     assert estimate.value == pytest.approx(4)
     assert estimate.low == pytest.approx(4 / 2**12.7062, rel=1e-4)
     assert estimate.high == pytest.approx(4 * 2**12.7062, rel=1e-4)
@@ -283,16 +283,16 @@ def test_the_ratio_of_pairs_is_the_geometric_mean_with_students_interval_of_the_
 
 def test_pairs_that_differ_from_one_another_more_than_within_are_told_apart_only_as_pairs():
     bottom = np.array([1.0, 3.0, 9.0, 27.0])
-    assert statistics.ratio_of_pairs(1.1 * bottom, bottom).low == pytest.approx(1.1)
-    assert statistics.ratio_of_means(1.1 * bottom, bottom).low < 0.2
+    assert estimates.ratio_of_pairs(1.1 * bottom, bottom).low == pytest.approx(1.1)
+    assert estimates.ratio_of_means(1.1 * bottom, bottom).low < 0.2
 
 
 def test_a_ratio_of_pairs_with_a_zero_or_of_one_pair_has_an_infinite_interval():
     for top, bottom in (([0.0, 1.0], [1.0, 1.0]), ([1.0, 1.0], [1.0, math.inf]), ([2.0], [1.0])):
-        estimate = statistics.ratio_of_pairs(top, bottom)
+        estimate = estimates.ratio_of_pairs(top, bottom)
         assert (estimate.low, estimate.high) == (0.0, math.inf)
 
 
 def test_the_mean_of_nothing_says_nothing():
-    estimate = statistics.mean([])
+    estimate = estimates.mean([])
     assert math.isnan(estimate.value) and (estimate.low, estimate.high) == (-math.inf, math.inf)

@@ -13,8 +13,8 @@ import pytest
 import torch
 import trainers
 
-from physexp.analysis import run as run_lib
-from physexp.analysis import training
+from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer
 
 ENDLESS = 10**9  # Frames that no test waits for.
 FEW = 10_000  # Frames that take seconds.
@@ -24,7 +24,7 @@ FOR_EVER = 400  # s; what takes longer hangs.
 def save_first_checkpoint(run, poison=False):
     """Writes the checkpoint of an untrained agent, with a weight too large to learn with if asked for."""
     config = run.config
-    agent = training.make_agent(config)
+    agent = trainer.make_agent(config)
     tensors = agent.save()
     if poison:
         tensors["network/value.bias"][0] = 3e38  # Finite, but not its square.
@@ -38,7 +38,7 @@ def assert_last_checkpoint_fits(run):
     assert facts["versions"] == run_lib.versions()
     assert all(value.isfinite().all() for value in tensors.values())
     config = run.config
-    agent = training.make_agent(config)
+    agent = trainer.make_agent(config)
     agent.restore(tensors)
     assert agent.frames == int(tensors["frames"])
 
@@ -48,7 +48,7 @@ def test_a_loss_that_is_not_a_number_stops_training_and_leaves_the_batch(tmp_pat
     checkpoint = save_first_checkpoint(run, poison=True)
     content = checkpoint.read_bytes()
     with pytest.raises(RuntimeError, match="worker 0.*loss -?(inf|nan).*failed_batch.npz.*last checkpoint") as caught:
-        training.train(run)
+        trainer.train(run)
     path = re.search(r"\S+failed_batch\.npz", str(caught.value)).group()
     assert path == str(run.path / "failed_batch.npz")
     with np.load(path) as batch:
@@ -147,11 +147,11 @@ def test_a_checkpoint_of_another_network_is_refused(tmp_path):
     run = trainers.create(tmp_path / "run", lstm_units=10)
     save_first_checkpoint(run)
     config = run.config
-    other = training.make_agent(dataclasses.replace(config, agent=config.agent.replace(lstm_units=11)))
+    other = trainer.make_agent(dataclasses.replace(config, agent=config.agent.replace(lstm_units=11)))
     with pytest.raises(ValueError, match="does not fit the configuration.*lstm"):
         other.restore(run.checkpointer.latest()[0])
     fewer = {name: value for name, value in run.checkpointer.latest()[0].items() if name != "rounds"}
-    same = training.make_agent(config)
+    same = trainer.make_agent(config)
     with pytest.raises(ValueError, match="rounds"):
         same.restore(fewer)
     same.restore(run.checkpointer.latest()[0])

@@ -11,9 +11,9 @@ from pyarrow import parquet
 import pytest
 from trainers import fresh_seed
 
-from physexp.analysis import records, tables
-from physexp.analysis import run as run_lib
+from physexp.analysis.data import records, tables
 from physexp.analysis.experiments import base, ideal_towers
+from physexp.analysis.training import run as run_lib
 
 SCHEMA = run_lib.EPISODES
 TABLE = pyarrow.table(

@@ -5,8 +5,8 @@ import subprocess
 from tensorboard.backend.event_processing import event_accumulator
 from trainers import PHYSEXP
 
-from physexp.analysis import run as run_lib
-from physexp.analysis import tensorboard
+from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import tensorboard
 
 COMMAND = [PHYSEXP, "train", "which_is_heavier", "features", "--num-workers", "1", "--envs-per-worker", "32"]
 

@@ -6,8 +6,8 @@ import pytest
 
 from physexp import suite
 from physexp.agents.a3c import config as a3c
-from physexp.analysis import config as config_lib
-from physexp.analysis import run as run_lib
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
 
 
 def make_config(**changes):

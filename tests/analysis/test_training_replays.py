@@ -7,10 +7,10 @@ import pytest
 from rerun.chunk import RrdReader
 
 from physexp.agents.ppo import config as ppo
-from physexp.analysis import config as config_lib
-from physexp.analysis import run as run_lib
-from physexp.analysis import training
 from physexp.analysis.replay import writing
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer
 
 SMALL = config_lib.TrainConfig(
     domain="which_is_heavier",
@@ -23,7 +23,7 @@ SMALL = config_lib.TrainConfig(
 def trained(path, **changes):
     run = run_lib.Run(path)
     run.create(dataclasses.replace(SMALL, **changes))
-    training.train(run)
+    trainer.train(run)
     return run
 
 
@@ -44,7 +44,7 @@ def test_every_replay_shows_the_same_instance(tmp_path):
     names = {
         RrdReader(str(path)).recordings()[0].recording_id.split("-")[0] for path in (run.path / "replays").iterdir()
     }
-    assert names == {str(training._REPLAY_SEED)}
+    assert names == {str(trainer._REPLAY_SEED)}
 
 
 def test_without_the_option_there_are_none(tmp_path):

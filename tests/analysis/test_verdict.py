@@ -4,8 +4,8 @@ import pytest
 
 from physexp.agents.a3c import config as a3c
 from physexp.agents.ppo import config as ppo
-from physexp.analysis import config as config_lib
-from physexp.analysis import verdict
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import verdict
 
 
 def rows(*parts):

@@ -12,8 +12,8 @@ from waiting import wait_until
 
 from physexp.agents.a3c import config as a3c
 from physexp.agents.ppo import config as ppo
-from physexp.analysis import config as config_lib
-from physexp.analysis import run as run_lib
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
 
 PHYSEXP = Path(sys.executable).with_name("physexp")
 

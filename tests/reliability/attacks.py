@@ -35,10 +35,10 @@ _context.set_forkserver_preload(
         "pandas",
         "torch._dynamo",
         "physexp.cli",
-        "physexp.analysis.publishing",
+        "physexp.analysis.evaluation.publishing",
         "physexp.analysis.replay",
-        "physexp.analysis.reproduce",
-        "physexp.suite.rendering",
+        "physexp.analysis.reproduction.reproduce",
+        "physexp.suite.engine.rendering",
     ]
 )
 

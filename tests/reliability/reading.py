@@ -9,9 +9,10 @@ import subprocess
 import subjects
 
 from physexp.agents import pretrained
-from physexp.analysis import evaluation, records, tables
-from physexp.analysis import run as run_lib
+from physexp.analysis.data import records, tables
+from physexp.analysis.evaluation import playing
 from physexp.analysis.replay import recording, viewing, writing
+from physexp.analysis.training import run as run_lib
 
 
 def make(folder: Path) -> None:
@@ -56,7 +57,7 @@ def read_kept(folder):
 
 def read_published(folder):
     agent = pretrained.load("which_is_heavier", "features", 10.0, folder / "published")
-    return agent.card, _bytes(agent.network), evaluation.config_of(agent)
+    return agent.card, _bytes(agent.network), playing.config_of(agent)
 
 
 def read_records(folder):
@@ -81,7 +82,7 @@ def verify(path):
 
 
 def _network(path):
-    network, config = evaluation.find_agent(str(path))
+    network, config = playing.find_agent(str(path))
     return _bytes(network), config
 
 

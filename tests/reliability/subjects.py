@@ -8,9 +8,10 @@ import torch
 from physexp.agents import agent as agent_lib
 from physexp.agents import networks, pretrained
 from physexp.agents.ppo import config as ppo
-from physexp.analysis import config as config_lib
-from physexp.analysis import records, training
-from physexp.analysis import run as run_lib
+from physexp.analysis.data import records
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer
 
 SMALL = ppo.PPOConfig(
     num_threads=1, num_environments=4, num_minibatches=2, num_epochs=1, lstm_units=8, frames=60, checkpoint_seconds=1e-9
@@ -56,9 +57,9 @@ OPTIONS = [
 
 def train(path) -> None:
     """Trains a run to its end, from the start if it has no checkpoint, with a row of metrics for each update."""
-    training.ROW_SECONDS = -1.0
+    trainer.ROW_SECONDS = -1.0
     run = run_lib.Run(path)
-    training.train(run, start=None if run.checkpointer.paths() else config())
+    trainer.train(run, start=None if run.checkpointer.paths() else config())
 
 
 def contents(run: run_lib.Run):
@@ -72,7 +73,7 @@ def contents(run: run_lib.Run):
 
 def network(number: float) -> networks.RecurrentActorCritic:
     """A network of the small agent, of which every variable is a number."""
-    made = agent_lib.make_network(training.make_environment(config(), 0, 1, 1), SMALL)
+    made = agent_lib.make_network(trainer.make_environment(config(), 0, 1, 1), SMALL)
     with torch.no_grad():
         for value in made.state_dict().values():
             value.fill_(number)
@@ -81,7 +82,7 @@ def network(number: float) -> networks.RecurrentActorCritic:
 
 def card(number: int) -> dict:
     """A card of such a network."""
-    environment = training.make_environment(config(), 0, 1, 1)
+    environment = trainer.make_environment(config(), 0, 1, 1)
     observations = {
         name: [list(spec.shape), np.dtype(spec.dtype).name] for name, spec in environment.observation_spec().items()
     }

@@ -17,7 +17,7 @@ import pytest
 import reading
 import subjects
 
-from physexp.analysis import run as run_lib
+from physexp.analysis.training import run as run_lib
 
 pytestmark = pytest.mark.long
 

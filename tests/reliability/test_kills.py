@@ -11,10 +11,13 @@ import subjects
 import torch
 
 from physexp.agents import checkpointing
-from physexp.analysis import evaluation, records, sweep, training
-from physexp.analysis import run as run_lib
+from physexp.analysis.data import records
+from physexp.analysis.evaluation import playing
 from physexp.analysis.experiments import base
 from physexp.analysis.replay import recording, writing
+from physexp.analysis.reproduction import sweep
+from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer
 
 pytestmark = pytest.mark.long
 
@@ -187,7 +190,7 @@ JOB = sweep.Job(
 
 
 def sweep_one(folder):
-    training.ROW_SECONDS = -1.0  # A row for each update, however long they take.
+    trainer.ROW_SECONDS = -1.0  # A row for each update, however long they take.
     sweep._work(print, JOB, base.Results(folder))
 
 
@@ -278,7 +281,7 @@ def test_a_network_that_is_kept_alone_is_there_at_every_moment(uninterrupted, tm
 
 def variables(run):
     """Those of a run's network, to half precision."""
-    return {name: value.half().numpy().tobytes() for name, value in evaluation.load_network(run).state_dict().items()}
+    return {name: value.half().numpy().tobytes() for name, value in playing.load_network(run).state_dict().items()}
 
 
 def keep(path):

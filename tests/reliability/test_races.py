@@ -6,7 +6,7 @@ import attacks
 import pytest
 import subjects
 
-from physexp.analysis import run as run_lib
+from physexp.analysis.training import run as run_lib
 
 pytestmark = pytest.mark.long
 

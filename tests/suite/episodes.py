@@ -7,7 +7,7 @@ import secrets
 import numpy as np
 
 from physexp import suite
-from physexp.suite import towers
+from physexp.suite.domains import towers
 
 # From the operating system, or from PHYSEXP_TEST_SEED to replay a failure.
 SEED = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from physexp import suite
-from physexp.suite import towers
+from physexp.suite.domains import towers
 
 FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
 every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_TASKS)

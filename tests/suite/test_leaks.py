@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from physexp import suite
-from physexp.suite import task as task_lib
-from physexp.suite import tower
+from physexp.suite.engine import task as task_lib
+from physexp.suite.parts import tower
 
 pytestmark = pytest.mark.usefixtures("seed")
 

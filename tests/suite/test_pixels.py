@@ -15,7 +15,8 @@ import pytest
 from scipy import spatial
 
 from physexp import suite
-from physexp.suite import block, rendering, tower
+from physexp.suite.engine import rendering
+from physexp.suite.parts import block, tower
 
 import mujoco  # isort: skip  # The suite chooses the GL backend, which mujoco looks at once.
 

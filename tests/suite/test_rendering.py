@@ -13,7 +13,7 @@ import pytest
 
 from physexp import suite
 from physexp.analysis import doctor
-from physexp.suite import rendering
+from physexp.suite.engine import rendering
 
 import mujoco  # isort: skip  # The suite chooses the GL backend, which mujoco looks at once.
 
@@ -159,7 +159,7 @@ def test_without_gl_libraries_features_are_played_and_pixels_say_what_to_install
         f"""
 {HIDE_GL}
 {PLAY}
-from physexp.suite import rendering
+from physexp.suite.engine import rendering
 found["played"] = play_features()
 found["drawn"] = draw()
 found["name"] = rendering.renderer_name()
@@ -290,7 +290,7 @@ def test_a_closed_renderer_says_so_and_may_be_closed_again():
 
 
 FORGETFUL = {
-    "kept": "from physexp.suite import rendering\nrendering.renderer_name()",
+    "kept": "from physexp.suite.engine import rendering\nrendering.renderer_name()",
     "closed in part, and dropped": "env.close()\nbatch.itself = batch\ndel env, batch",
     "exits": "import sys\nsys.exit(0)",
 }
@@ -391,7 +391,7 @@ def test_drawing_by_software_on_a_machine_with_a_gpu_warns_exactly_once(on_a_mac
     assert len(warned) == 1
     assert LLVMPIPE in str(warned[0].message)
     found, stderr = _run(f"""
-from physexp.suite import rendering
+from physexp.suite.engine import rendering
 rendering.gpu_is_present = lambda: True
 rendering.warn_if_software({LLVMPIPE!r})
 """)

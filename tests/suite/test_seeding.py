@@ -10,7 +10,7 @@ import pytest
 from scipy import stats
 
 from physexp import suite
-from physexp.suite import seeding
+from physexp.suite.engine import seeding
 
 P_VALUE = 1e-4  # A right generator fails one test in ten thousand.
 

@@ -9,7 +9,8 @@ import pytest
 from scipy import stats
 
 from physexp import suite
-from physexp.suite import tower, towers
+from physexp.suite.domains import towers
+from physexp.suite.parts import tower
 
 P_VALUE = 1e-4  # A right distribution fails one test in ten thousand.
 

@@ -8,7 +8,7 @@ import pytest
 from scipy import stats
 
 from physexp import suite
-from physexp.suite import which_is_heavier as heavier
+from physexp.suite.domains import which_is_heavier as heavier
 
 P_VALUE = 1e-4  # A right distribution fails one test in ten thousand.
 

@@ -5,11 +5,12 @@ import dataclasses
 from pathlib import Path
 from typing import Any
 
-from physexp.analysis import claims as claims_lib
-from physexp.analysis import config as config_lib
-from physexp.analysis import figures, records
-from physexp.analysis import run as run_lib
+from physexp.analysis.data import records
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import claims as claims_lib
 from physexp.analysis.experiments import conditions
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

@@ -2,7 +2,7 @@
 
 import re
 
-from physexp.analysis import config as config_lib
+from physexp.analysis.training import config as config_lib
 
 DIFFICULTIES = (3.0, 5.0, 10.0)
 OBSERVATIONS = ("features", "pixels")

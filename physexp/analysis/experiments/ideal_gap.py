@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from physexp.analysis import claims, figures, records, statistics
-from physexp.analysis.experiments import base, conditions, ideal_towers
+from physexp.analysis.data import estimates, records
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import base, claims, conditions, ideal_towers
 from physexp.analysis.ideal import regret
 from physexp.analysis.ideal import which_is_heavier as ideal
 
@@ -73,7 +74,7 @@ def _of_towers(rows: list[dict]) -> dict[str, float]:
 
 def median_of_top_half(values: np.ndarray) -> float:
     """The median of the larger half of some values."""
-    return float(np.median(values[statistics.better_half(values)]))
+    return float(np.median(values[estimates.better_half(values)]))
 
 
 def find_claims(frame) -> list[claims.Claim]:
@@ -90,7 +91,7 @@ def find_claims(frame) -> list[claims.Claim]:
                     section="ours",
                     condition=condition,
                     statistic="share of the ideal's return, median of the better half of the agents",
-                    estimate=statistics.bootstrap(shares, median_of_top_half),
+                    estimate=estimates.bootstrap(shares, median_of_top_half),
                     above=least,
                 )
             )
@@ -103,7 +104,7 @@ def find_claims(frame) -> list[claims.Claim]:
                 condition=condition,
                 statistic="share of the ideal's return, the best agent; interval: of its episodes; "
                 "1 % allowed for luck",
-                estimate=statistics.Estimate(shares[best], shares[best] - margin, shares[best] + margin),
+                estimate=estimates.Estimate(shares[best], shares[best] - margin, shares[best] + margin),
                 below=1.01,
             )
         )

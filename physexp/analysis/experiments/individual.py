@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from physexp.analysis import claims, figures, statistics
-from physexp.analysis.experiments import base, conditions
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import base, claims, conditions
 from physexp.analysis.ideal import which_is_heavier as ideal
-from physexp.suite import which_is_heavier
+from physexp.suite.domains import which_is_heavier
 
 _SHOWN = 4000  # Episodes drawn as dots.
 _FEWEST = 20  # Episodes that a mean is drawn of.
@@ -20,7 +21,7 @@ def find_claims(frame) -> list[claims.Claim]:
         if not len(rows):
             continue
         slopes = [
-            statistics.slope(agent.mass_gap.to_numpy(float), agent.interactions.to_numpy(float))
+            estimates.slope(agent.mass_gap.to_numpy(float), agent.interactions.to_numpy(float))
             for _, agent in rows.groupby("training_seed")
         ]
         worst = max(slopes, key=lambda estimate: estimate.high)
@@ -31,7 +32,7 @@ def find_claims(frame) -> list[claims.Claim]:
                 section="5.3",
                 condition=f"{beta:g}-F",
                 statistic=f"slope of pokes on mass gap (OLS), mean of {len(slopes)} agents",
-                estimate=statistics.mean([estimate.value for estimate in slopes]),
+                estimate=estimates.mean([estimate.value for estimate in slopes]),
                 below=0,
             )
         )
@@ -78,7 +79,7 @@ def draw(frame):
             capsize=1.5,
             label="mean and standard deviation",
         )
-        trend = statistics.slope(gaps, pokes)
+        trend = estimates.slope(gaps, pokes)
         ends = np.array([0.0, 1.0])
         axes.plot(ends, pokes.mean() + trend.value * (ends - gaps.mean()), color=figures.COLORS[2], label="OLS")
         axes.plot(*_ideal_means(beta), color=figures.COLORS[1], linestyle=figures.DASHES[1], label="ideal")

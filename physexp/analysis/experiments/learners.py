@@ -1,8 +1,9 @@
 """Two learners on the same network: A3C, the paper's, and PPO. Ours: the paper has one."""
 
-from physexp.analysis import claims, figures, statistics
-from physexp.analysis import config as config_lib
-from physexp.analysis.experiments import base, conditions, learning
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import base, claims, conditions, learning
+from physexp.analysis.training import config as config_lib
 
 _NAMES = {"ppo": "PPO", "a3c": "A3C"}
 _LEARNED = 0.9  # The success whose first moment is compared.
@@ -53,7 +54,7 @@ def find_claims(frame) -> list[claims.Claim]:
                         section="ours",
                         condition=task,
                         statistic=f"{unit} to {_LEARNED:.0%} right answers, PPO over A3C, ratio of means",
-                        estimate=statistics.ratio_of_means(ppo, a3c),
+                        estimate=estimates.ratio_of_means(ppo, a3c),
                         below=1,
                         reason=_REASON,
                     )

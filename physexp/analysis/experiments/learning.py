@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from physexp.analysis import figures, statistics
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures
 
 _POINTS = 120
 _WINDOW = 2000  # Episodes over which success is averaged, whatever the speed of the machine they were played on.
@@ -42,7 +43,7 @@ def smoothed(frame, along: str = "frames"):
     for condition, rows in frame.groupby("condition", sort=False):
         grid = np.linspace(0, rows.groupby("training_seed")[along].max().min(), _POINTS)
         runs = [moving_success(run, along) for _, run in rows.groupby("training_seed")]
-        best = [runs[index] for index in statistics.better_half([success[-1] for _, success in runs])]
+        best = [runs[index] for index in estimates.better_half([success[-1] for _, success in runs])]
         lines = [np.interp(grid, places, success, left=np.nan) for places, success in best]
         curves[condition] = (grid / AXES[along][0], np.array(lines))
     return curves

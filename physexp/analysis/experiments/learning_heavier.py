@@ -1,7 +1,8 @@
 """Success in learning Which is Heavier (paper, Section 5.3; Figure 2)."""
 
-from physexp.analysis import claims, figures, statistics
-from physexp.analysis.experiments import base, conditions, learning
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import base, claims, conditions, learning
 from physexp.analysis.ideal import which_is_heavier as ideal
 
 _CHANCE = 0.25
@@ -19,7 +20,7 @@ def find_claims(frame) -> list[claims.Claim]:
                 section="5.3",
                 condition=name,
                 statistic="share of right answers at the end of training, mean of agents; twice chance is 0.5",
-                estimate=statistics.mean_share(rates),
+                estimate=estimates.mean_share(rates),
                 above=2 * _CHANCE,
             )
         )
@@ -34,7 +35,7 @@ def find_claims(frame) -> list[claims.Claim]:
                         section="5.3",
                         condition=f"{easier} against {harder}",
                         statistic="ratio of the shares of right answers",
-                        estimate=statistics.ratio_of_means(rates[easier], rates[harder]),
+                        estimate=estimates.ratio_of_means(rates[easier], rates[harder]),
                         above=1,
                     )
                 )

@@ -1,7 +1,8 @@
 """Success in learning Towers (paper, Section 6.3; Figure 6)."""
 
-from physexp.analysis import claims, figures, statistics
-from physexp.analysis.experiments import base, conditions, learning
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import base, claims, conditions, learning
 
 _CHANCE = 0.2
 _NEARLY_PERFECT = 0.95
@@ -20,7 +21,7 @@ def find_claims(frame) -> list[claims.Claim]:
                 section="6.3",
                 condition=name,
                 statistic="share of right answers at the end of training, mean of agents",
-                estimate=statistics.mean_share(rates),
+                estimate=estimates.mean_share(rates),
                 above=_NEARLY_PERFECT,
             )
         )
@@ -34,7 +35,7 @@ def find_claims(frame) -> list[claims.Claim]:
                     section="6.3",
                     condition=kind,
                     statistic=f"environment steps to {_LEARNED:.0%} right answers, fist over direct, ratio of means",
-                    estimate=statistics.ratio_of_means(fist, direct),
+                    estimate=estimates.ratio_of_means(fist, direct),
                     below=1,
                     reason="Every push touches the tower, while the fist must first travel to it, though our "
                     "configurations start it in the right direction: what is slow here is reaching the tower, not "

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from physexp.analysis import claims, figures, statistics
-from physexp.analysis.experiments import base, conditions
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import base, claims, conditions
 
 _EPISODES = 200_000
 _SMALL = 0.1  # A gap that is hard to tell from none.
@@ -13,7 +14,7 @@ def load(results: base.Results):
     """Mass gaps of the first episodes of seed 0, drawn as the task draws them."""
     import pandas
 
-    from physexp.suite import which_is_heavier
+    from physexp.suite.domains import which_is_heavier
 
     seeds, episodes = np.zeros(_EPISODES, np.int64), np.arange(_EPISODES)
     frames = []
@@ -28,8 +29,8 @@ def find_claims(frame) -> list[claims.Claim]:
     found = []
     for harder, easier in zip(conditions.DIFFICULTIES, conditions.DIFFICULTIES[1:], strict=False):
         small = [frame.mass_gap[frame.difficulty == beta] < _SMALL for beta in (harder, easier)]
-        low, high = (statistics.proportion(values) for values in small)
-        difference = statistics.Estimate(low.value - high.value, low.low - high.high, low.high - high.low)
+        low, high = (estimates.proportion(values) for values in small)
+        difference = estimates.Estimate(low.value - high.value, low.low - high.high, low.high - high.low)
         found.append(
             claims.Claim(
                 text="Lower values of beta make small mass gaps, hence hard instances, likelier",

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from physexp.analysis import claims, figures, statistics
-from physexp.analysis.experiments import base, conditions
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import base, claims, conditions
 from physexp.analysis.ideal import which_is_heavier as ideal
 
 _ALL_BLOCKS = 4
@@ -25,7 +26,7 @@ def find_claims(frame) -> list[claims.Claim]:
             **common,
             condition="10-F",
             statistic="modal number of pokes, all agents pooled; interval: range over agents",
-            estimate=statistics.Estimate(float(easy.interactions.mode()[0]), float(modes.min()), float(modes.max())),
+            estimate=estimates.Estimate(float(easy.interactions.mode()[0]), float(modes.min()), float(modes.max())),
             above=0.5,
             below=3.5,
         )
@@ -35,7 +36,7 @@ def find_claims(frame) -> list[claims.Claim]:
             **common,
             condition="10-F",
             statistic="mean number of pokes, mean of agents; the paper says two",
-            estimate=statistics.mean(agents.mean()),
+            estimate=estimates.mean(agents.mean()),
             above=1.5,
             below=2.5,
         )
@@ -47,7 +48,7 @@ def find_claims(frame) -> list[claims.Claim]:
             section="5.3",
             condition="3-F",
             statistic="share of episodes with at least four pokes, mean of agents",
-            estimate=statistics.mean_share(shares),
+            estimate=estimates.mean_share(shares),
             above=0.5,
         )
     )
@@ -58,7 +59,7 @@ def find_claims(frame) -> list[claims.Claim]:
             section="5.3",
             condition="all",
             statistic="share of such episodes, mean of agents",
-            estimate=statistics.mean_share(short),
+            estimate=estimates.mean_share(short),
             above=0.95,
         )
     )

@@ -2,8 +2,7 @@
 
 import functools
 
-from physexp.analysis import claims
-from physexp.analysis.experiments import base, conditions, randomized
+from physexp.analysis.experiments import base, claims, conditions, randomized
 from physexp.analysis.ideal import which_is_heavier as ideal
 
 _NAMES = [

@@ -1,7 +1,6 @@
 """Randomized interaction in Towers (paper, Section 6.3; Figure 7)."""
 
-from physexp.analysis import claims
-from physexp.analysis.experiments import base, conditions, ideal_towers, randomized
+from physexp.analysis.experiments import base, claims, conditions, ideal_towers, randomized
 
 _NAMES = [conditions.label(condition.domain, condition.task, None) for condition in conditions.TOWERS]
 

@@ -4,8 +4,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from physexp.analysis import claims, figures, statistics
-from physexp.analysis.experiments import conditions
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import claims, conditions
 
 COLUMNS = ["label", "reward", "interactions", "time"]
 
@@ -37,18 +38,18 @@ def more_accurate(frame, section: str) -> list[claims.Claim]:
                 section=section,
                 condition=condition,
                 statistic="difference of the shares of right answers, mean of agents",
-                estimate=statistics.mean(learned - random),
+                estimate=estimates.mean(learned - random),
                 above=0,
             )
         )
     return found
 
 
-def length_ratios(frame) -> dict[str, statistics.Estimate]:
+def length_ratios(frame) -> dict[str, estimates.Estimate]:
     """By condition: pokes before an answer, learned over randomized."""
     agents = per_agent(frame)
     return {
-        condition: statistics.ratio_of_pairs(*_paired(agents, condition, "length"))
+        condition: estimates.ratio_of_pairs(*_paired(agents, condition, "length"))
         for condition in agents.condition.unique()
     }
 

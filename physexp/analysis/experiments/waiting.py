@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from physexp.analysis import claims, figures, statistics
-from physexp.analysis.experiments import base, conditions
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import base, claims, conditions
 
 CONTROL_TIMESTEPS = tuple(round(0.01 * number, 2) for number in range(1, 11))  # s; the last is that of training
 CONDITIONS = tuple(condition for condition in conditions.TOWERS if condition.task.startswith("fist"))
@@ -40,7 +41,7 @@ def find_claims(frame) -> list[claims.Claim]:
                 **common,
                 text="With smaller control steps the time to answer stays about the same, in up to ten times the steps",
                 statistic=f"median time to the answer, control steps of {_FINEST:g} s over {_TRAINED:g} s, mean ratio",
-                estimate=statistics.ratio_of_pairs(*fine.time.align(trained.time, join="inner")),
+                estimate=estimates.ratio_of_pairs(*fine.time.align(trained.time, join="inner")),
                 above=0.5,
                 below=2,
             )
@@ -51,7 +52,7 @@ def find_claims(frame) -> list[claims.Claim]:
                 **common,
                 text="Accuracy drops little with the control step",
                 statistic="share of right answers at the worst control step, mean of agents; chance is 0.2",
-                estimate=statistics.mean_share(worst),
+                estimate=estimates.mean_share(worst),
                 above=0.6,
                 reason="Our agents were trained for few frames, with control steps of one size, and part of what "
                 "tells them to answer is how many steps have passed: with smaller ones they answer after less time, "
@@ -87,7 +88,7 @@ def _draw_times(axes, rows) -> None:
     rows = rows.assign(step=rows.control_timestep.round(3))
     one = rows[rows.training_seed == rows.training_seed.min()]
     steps = np.sort(one.step.unique())
-    medians = [statistics.median(one.time[one.step == step]) for step in steps]
+    medians = [estimates.median(one.time[one.step == step]) for step in steps]
     middle = np.array([estimate.value for estimate in medians])
     error = [[e.value - e.low for e in medians], [e.high - e.value for e in medians]]
     axes.errorbar(

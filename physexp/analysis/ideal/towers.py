@@ -15,9 +15,9 @@ import numpy as np
 
 from physexp import suite
 from physexp.agents import core
-from physexp.analysis import config
 from physexp.analysis.ideal import trajectories as trajectories_lib
-from physexp.suite import tower
+from physexp.analysis.training import config
+from physexp.suite.parts import tower
 
 OBJECTIVES = ("return", "time")
 _COUNTS = np.array([tower.num_bodies(pattern) for pattern in tower.PATTERNS])

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from physexp import suite
-from physexp.suite import tower
+from physexp.suite.parts import tower
 
 NUM_PATTERNS = len(tower.PATTERNS)
 _SEQUENCES = 32  # Simulated side by side.

@@ -14,8 +14,8 @@ import numpy as np
 from scipy import interpolate, special
 from scipy.stats import qmc
 
-from physexp.analysis import config
-from physexp.suite import which_is_heavier
+from physexp.analysis.training import config
+from physexp.suite.domains import which_is_heavier
 
 _HEAVIEST_NODES, _RATIO_NODES = 400, 33
 _QUADRATURE_NODES = 48  # Per half of each density; many more where there is only one state to integrate from.

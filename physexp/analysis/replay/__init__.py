@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 import functools
 from pathlib import Path
 
-from physexp.analysis import evaluation
+from physexp.analysis.evaluation import playing
 from physexp.analysis.replay import recording, selection, writing
 from physexp.analysis.replay.recording import Episode, EpisodeRecorder
 from physexp.analysis.replay.viewing import check_display, view
@@ -18,7 +18,7 @@ def replay(
     output: Path,
     interaction: str = "learned",
     select: selection.Selection = "any",
-    seed: int = evaluation.SEED,
+    seed: int = playing.SEED,
     report: Callable[[str], None] = lambda line: None,
     difficulty: float | None = None,
 ) -> Path:
@@ -30,7 +30,7 @@ def replay(
       output: the file.
       interaction, select, seed: see `selection.select`.
       report: called with lines that tell how it goes.
-      difficulty: of the agents that come with the package, see `evaluation.find_agent`.
+      difficulty: of the agents that come with the package, see `playing.find_agent`.
 
     Returns:
       The path of the file.
@@ -41,7 +41,7 @@ def replay(
         else than a regular file at `output`.
     """
     writing.check_output(output)
-    agents = [evaluation.find_agent(target, difficulty) for target in targets]
+    agents = [playing.find_agent(target, difficulty) for target in targets]
     network, config = agents[0]
     for _, other in agents[1:]:
         if _what(other) != _what(config):

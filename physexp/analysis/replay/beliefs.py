@@ -4,7 +4,7 @@ import numpy as np
 
 from physexp.analysis.ideal import which_is_heavier as ideal
 from physexp.analysis.replay import recording
-from physexp.suite import which_is_heavier
+from physexp.suite.domains import which_is_heavier
 
 
 def of_policy(policies: np.ndarray, num_interactions: int) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 import functools
+from typing import Any
 
 import numpy as np
 import rerun as rr
@@ -54,11 +55,11 @@ def _column(episode: recording.Episode, root: str) -> rrb.Container:
 def _scene(episode: recording.Episode, root: str) -> rrb.Tabs:
     """The scene without what is hidden, and, behind it, with it."""
     eye, origin = _eye(episode), f"{root}/world"
-    without = {f"{root}/world/hidden": rrb.EntityBehavior(visible=False)}
+    without: Any = {f"{root}/world/hidden": rrb.EntityBehavior(visible=False)}
     return rrb.Tabs(
         rrb.Spatial3DView(
             origin=origin, name=titled(root, episode.agent or "scene"), eye_controls=eye, overrides=without
-        ),  # type: ignore[arg-type]
+        ),
         rrb.Spatial3DView(origin=origin, name=titled(root, words.HIDDEN_TAB), eye_controls=eye),
         active_tab=0,
     )

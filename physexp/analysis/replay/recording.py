@@ -9,7 +9,7 @@ import numpy as np
 
 from physexp import suite
 from physexp.agents import acting, core, environment_loop, networks
-from physexp.analysis import config as config_lib
+from physexp.analysis.training import config as config_lib
 
 
 @dataclasses.dataclass(frozen=True)

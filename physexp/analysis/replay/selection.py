@@ -6,9 +6,9 @@ from typing import Literal
 import numpy as np
 
 from physexp.agents import networks
-from physexp.analysis import config as config_lib
-from physexp.analysis import evaluation
-from physexp.suite import which_is_heavier
+from physexp.analysis.evaluation import playing
+from physexp.analysis.training import config as config_lib
+from physexp.suite.domains import which_is_heavier
 
 Selection = Literal["any", "wrong", "right", "longest", "hardest"]
 _MOST = 10_000  # Episodes played in search of enough.
@@ -20,12 +20,12 @@ def select(
     count: int,
     selection: Selection = "any",
     interaction: str = "learned",
-    seed: int = evaluation.SEED,
+    seed: int = playing.SEED,
 ) -> Iterator[tuple[int, int, np.ndarray]]:
     """Plays episodes and chooses some.
 
     Args:
-      network, config, interaction, seed: as for `evaluation.play`.
+      network, config, interaction, seed: as for `playing.play`.
       count: how many are wanted, >= 1.
       selection: the first ones, the first wrong or right ones, those with the most interactions, or the hardest: with
         the smallest mass gap, or the glue patterns that take this agent the longest.
@@ -40,7 +40,7 @@ def select(
         raise ValueError(f"episodes is {count}; give a number >= 1")
     size = max(count, 256)
     while True:
-        played = evaluation.play(network, config, size if selection != "any" else count, interaction, seed=seed)
+        played = playing.play(network, config, size if selection != "any" else count, interaction, seed=seed)
         order = _order(played, selection)
         if len(order) >= count or size >= _MOST or selection == "any":
             break
@@ -51,7 +51,7 @@ def select(
         yield int(played.seeds[index]), int(played.numbers[index]), played.actions[index]
 
 
-def _order(played: evaluation.Episodes, selection: Selection) -> np.ndarray:
+def _order(played: playing.Episodes, selection: Selection) -> np.ndarray:
     """Indices of the episodes that are as wanted, the best first."""
     if selection == "wrong":
         return np.flatnonzero(played.rewards < 0)

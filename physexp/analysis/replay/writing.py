@@ -28,7 +28,7 @@ from physexp.agents import files
 from physexp.analysis.replay import beliefs, layout, palette, recording, words
 from physexp.analysis.replay.layout import TIMELINE
 from physexp.analysis.replay.viewing import PROGRAM, last_line
-from physexp.suite import block
+from physexp.suite.parts import block
 
 _ARROW_LENGTH = 0.25  # m
 _MERGE_SECONDS = 300.0  # A few hundred times what it takes.

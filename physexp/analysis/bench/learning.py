@@ -1,0 +1,65 @@
+"""What the feature agents of the experiments reach, and how long experiments, report and ideal experimenters take."""
+
+from collections.abc import Iterator
+from pathlib import Path
+import sys
+
+from physexp.analysis.bench import measuring
+from physexp.analysis.data import records
+from physexp.analysis.experiments import EXPERIMENTS, base, conditions, ideal_gap
+from physexp.analysis.ideal import which_is_heavier as ideal
+from physexp.analysis.reproduction import sweep
+
+RETURN = {3.0: 0.79, 5.0: 0.83, 10.0: 0.86}  # Mean discounted return in the median of the better half of the agents.
+SUCCESS = {"fist_features": 0.98, "direct_features": 0.95}  # Share of right answers, in the same.
+HOURS = 12.0  # For all experiments on features.
+
+
+def run(results_dir: Path) -> Iterator[dict]:
+    """Trains the agents that are missing, reads what all of them reached, and takes the time of the rest."""
+    results = base.Results(results_dir)
+    features = sweep.jobs(list(EXPERIMENTS.values()), ["features"], conditions.SEEDS.__getitem__)
+    sweep.run(features, results, sweep.num_cores(), lambda line: print(line, file=sys.stderr, flush=True))
+    for condition in (*conditions.HEAVIER, *conditions.TOWERS):
+        if conditions.observations(condition) == "features":
+            yield from _reached(results, condition)
+    seconds = [results.run(job.config).metrics()[-1]["seconds"] for job in features]
+    yield measuring.row(
+        "training all agents of the experiments on features, two at a time",
+        sum(seconds) / 2 / 3600,
+        "h",
+        HOURS,
+        at_most=True,
+        agents=len(seconds),
+    )
+    yield measuring.timed("physexp report from stored data", ["report", "--results-dir", str(results_dir)], 60)
+    yield measuring.timed("physexp ideal which_is_heavier", ["ideal", "which_is_heavier", "--difficulty", "3"], 20)
+
+
+def _reached(results: base.Results, condition) -> Iterator[dict]:
+    frame = results.episodes([base.EVALUATION], [condition], ["reward", "length", "label"])
+    agents = frame.assign(agent_return=records.discounted_return(frame), right=frame.reward > 0).groupby(
+        "training_seed"
+    )
+    returns, success = agents.agent_return.mean().to_numpy(), agents.right.mean().to_numpy()
+    absolute = {
+        "agents": len(returns),
+        "worst_return": returns.min(),
+        "best_return": returns.max(),
+        "right": success.mean(),
+        "million_frames": condition.agent.frames / 1e6,
+    }
+    reached = ideal_gap.median_of_top_half
+    name = frame.condition.iloc[0]
+    if condition.domain == "towers":
+        yield measuring.row(f"right answers: {name}", reached(success), "", SUCCESS[condition.task], **absolute)
+        return
+    best = ideal.solve(condition.difficulty, condition.agent.discount).value
+    yield measuring.row(f"return: {name}", reached(returns), "", RETURN[condition.difficulty], **absolute)
+    yield measuring.row(
+        f"return / ideal experimenter's: {name}",
+        reached(returns) / best,
+        "x",
+        ideal_gap.LEAST[condition.difficulty],
+        ideal=best,
+    )

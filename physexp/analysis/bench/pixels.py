@@ -1,0 +1,175 @@
+"""What pixels cost: drawing them, and learning from them, each beside what bounds it."""
+
+from collections.abc import Callable, Iterator
+import multiprocessing
+import time
+
+import numpy as np
+
+from physexp import suite  # Before mujoco and dm_control, for which it chooses the GL backend.
+from physexp.analysis.bench import measuring
+from physexp.suite.engine import rendering
+from physexp.suite.parts import block, tower
+
+from dm_control import composer, mjcf  # isort: skip
+import mujoco  # isort: skip
+
+BATCH = 64
+TASKS = {
+    "heavier": ("which_is_heavier", "pixels"),
+    "direct": ("towers", "direct_pixels"),
+    "fist": ("towers", "fist_pixels"),
+}
+_ROUND_STEPS = 6
+_SECONDS = 20.0  # Of training, or of the bare network, for one rate.
+
+
+def rendering_figures() -> Iterator[dict]:
+    """Frames per second of a batch, against what MuJoCo needs to draw the same scene, and a composer scene."""
+    for name in TASKS:
+        drawn, bare = measuring.rates(_batch_drawing(name), bare_rendering(name))
+        yield measuring.row(
+            f"batched drawing / bare mjr_render and mjr_readPixels: {name}",
+            drawn / bare,
+            "x",
+            0.85,
+            batched=drawn,
+            bare=bare,
+        )
+    ours, theirs = measuring.rates(bare_rendering("direct"), composer_rendering())
+    yield measuring.row(
+        "a frame of our scene / of composer's default arena: direct",
+        ours / theirs,
+        "x cheaper",
+        20,
+        our_microseconds=1e6 / ours,
+        composer_microseconds=1e6 / theirs,
+    )
+    for name, task in TASKS.items():
+        environment = suite.load(*task, task_kwargs={"random": 0})
+        batch, loop = measuring.rates(measuring.random_batch(task, BATCH), measuring.random_loop(environment))
+        environment.close()
+        yield measuring.row(
+            f"pixel batch of {BATCH} / loop over suite.load: {name}", batch / loop, "x", 10, batch=batch, loop=loop
+        )
+
+
+def training_figures() -> Iterator[dict]:
+    """Frames per second of training, against the bare network on random images."""
+    for name in ("fist", "heavier"):
+        trained = measuring.training_rate(TASKS[name], _SECONDS)
+        bare = bare_network_rate(TASKS[name])
+        yield measuring.row(
+            f"pixel training / bare network acting and training: {name}",
+            trained / bare,
+            "x",
+            0.7,
+            training=trained,
+            bare=bare,
+        )
+
+
+def _batch_drawing(name: str) -> Callable[[], int]:
+    """Draws the states of a batch that has been played for a while, as a step of it does."""
+    task = suite.load_task(*TASKS[name], {"random": 0})
+    geom_xpos, geom_xmat = _played_poses(name)
+    observations = {"pixels": np.zeros((BATCH, rendering.SIZE, rendering.SIZE, 3), np.uint8)}
+    state, touched, rows = {"geom_xpos": geom_xpos, "geom_xmat": geom_xmat}, np.ones(BATCH, bool), np.arange(BATCH)
+    apparatus = task.build_apparatus(0)
+
+    def draw() -> int:
+        task.look(apparatus, state, touched, rows, observations)
+        return BATCH
+
+    return draw
+
+
+def _played_poses(name: str) -> tuple[np.ndarray, np.ndarray]:
+    """Poses of the geoms after some random interactions in each of `BATCH` environments."""
+    domain, task = TASKS[name]
+    task = task.replace("pixels", "features")
+    poses = []
+    generator = np.random.default_rng(0)
+    environment = suite.load(domain, task, task_kwargs={"random": 0})
+    for _ in range(BATCH):
+        environment.reset()
+        for action in generator.integers(environment.task.num_interactions, size=5):
+            environment.step(action)
+        poses.append((environment.physics.data.geom_xpos.copy(), environment.physics.data.geom_xmat.copy()))
+    environment.close()
+    return np.stack([position for position, _ in poses]), np.stack([rotation for _, rotation in poses])
+
+
+def bare_rendering(name: str) -> Callable[[], int]:
+    """MuJoCo's own drawing and read-back of a task's scene, which stays as it is."""
+    model = suite.load_task(*TASKS[name], {"random": 0}).build_apparatus(0).model
+    renderer = rendering.Renderer(model)
+    size = rendering.SIZE
+    context, scene, buffers = renderer.context, renderer.scene, renderer.buffers
+    image, rectangle = np.zeros((size, size, 3), np.uint8), mujoco.MjrRect(0, 0, size, size)
+
+    def draw(renderer=renderer) -> int:  # Keeps the renderer alive.
+        with rendering.current(context):
+            for _ in range(BATCH):
+                mujoco.mjr_render(rectangle, scene, buffers)
+                mujoco.mjr_readPixels(image, None, rectangle, buffers)
+        return BATCH
+
+    return draw
+
+
+def composer_rendering() -> Callable[[], int]:
+    """The blocks of a tower in composer's default arena, seen by its default camera, drawn by dm_control."""
+    arena = composer.Arena()
+    for k in range(tower.NUM_BLOCKS):
+        cube = block.Block(rgba=block.COLORS[k], mass=1.0, name=f"block_{k}")
+        arena.attach(cube).pos = [0, 0, (2 * k + 1) * block.HALF_SIZE]
+    physics = mjcf.Physics.from_mjcf_model(arena.mjcf_model)
+
+    def draw() -> int:
+        physics.render(rendering.SIZE, rendering.SIZE)
+        return 1
+
+    return draw
+
+
+def bare_network_rate(task: tuple[str, str], num_processes: int = 2) -> float:
+    """Frames per second of a preset's network that acts and trains on random images, in as many processes."""
+    context = multiprocessing.get_context("spawn")
+    with context.Pool(num_processes) as pool:
+        return sum(pool.map(_bare_network_rate, [task] * num_processes, chunksize=1))
+
+
+def _bare_network_rate(task: tuple[str, str]) -> float:
+    """Each image passes forward once to act, and forward and backward to train, in rounds like those of training."""
+    import torch
+
+    from physexp.agents import agent as agent_lib
+    from physexp.agents import losses
+    from physexp.analysis.training import config as config_lib
+
+    torch.set_num_threads(1)
+    config = config_lib.A3C[task]
+    environment = suite.load_batch(*task, 1)
+    network = agent_lib.make_network(environment, config)
+    shape = (_ROUND_STEPS, config.envs_per_worker, rendering.SIZE, rendering.SIZE, 3)
+    images = torch.randint(256, shape, dtype=torch.uint8, generator=torch.Generator().manual_seed(0))
+    batch_sizes = torch.full((_ROUND_STEPS,), config.envs_per_worker)
+    num_frames = int(batch_sizes.sum())
+    actions, returns = torch.zeros(num_frames, dtype=torch.int64), torch.ones(num_frames)
+    frames, start = 0, 0.0
+    for repetition in range(10**9):
+        with torch.no_grad():
+            state = network.initial_state(config.envs_per_worker)
+            for seen in images:
+                _, _, state = network.step(network.encode({"pixels": seen}), state)
+        network.zero_grad()
+        logits, values = network.unroll(network.encode({"pixels": images.flatten(0, 1)}), batch_sizes)
+        sum(losses.actor_critic_losses(logits, values, actions, returns, returns)).backward()
+        if repetition == 0:  # The first one warms up.
+            start = time.perf_counter()
+            continue
+        frames += num_frames
+        if time.perf_counter() - start > _SECONDS:
+            break
+    return frames / (time.perf_counter() - start)

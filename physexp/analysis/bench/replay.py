@@ -1,0 +1,79 @@
+"""What it costs to record, to write replays, and to start."""
+
+from collections.abc import Iterator
+from pathlib import Path
+import tempfile
+import time
+
+import numpy as np
+
+from physexp import suite
+from physexp.agents import environment_loop, pretrained
+from physexp.analysis import replay
+from physexp.analysis.bench import measuring
+from physexp.analysis.evaluation import playing
+from physexp.analysis.replay import recording, writing
+from physexp.analysis.training import config as config_lib
+
+_PAIRS, _EPISODES = 100, 8  # Measurements of each side, and what is played in one.
+
+
+def run() -> Iterator[dict]:
+    """Measures the recorder, a replay in training, `physexp replay` and `physexp --help`."""
+    for name, task in measuring.TASKS.items():
+        yield _recording(name, task)
+    for name, task in measuring.TASKS.items():
+        yield _replay_in_training(name, task)
+    with tempfile.TemporaryDirectory() as folder:
+        arguments = ["replay", "towers/fist_features", "--episodes", "4", "--output", f"{folder}/replay.rrd"]
+        yield measuring.timed("physexp replay towers/fist_features --episodes 4", arguments, 15)
+    yield measuring.timed("physexp --help", ["--help"], 0.5)
+
+
+def _recording(name: str, task: tuple[str, str]) -> dict:
+    """What recording adds to playing with a trained agent: the same episodes with and without it, in turns."""
+    environment, actor = suite.load(*task, task_kwargs={"random": 0}), pretrained.load(*task).actor(greedy=True)
+    recorder = replay.EpisodeRecorder(environment, *task, {}, actor)
+    loops = [environment_loop.EnvironmentLoop(environment, actor, observers) for observers in ([], [recorder])]
+    seconds = np.zeros((_PAIRS, 2))
+    for pair in range(_PAIRS):
+        for side in (0, 1) if pair % 2 else (1, 0):
+            environment.task.next_episode = pair * _EPISODES
+            start = time.process_time()
+            loops[side].run(_EPISODES)
+            seconds[pair, side] = time.process_time() - start
+    plain, recorded = seconds.sum(axis=0).tolist()
+    added = float(np.median(seconds[:, 1] / seconds[:, 0])) - 1
+    return measuring.row(
+        f"what recording adds to evaluation: {name}",
+        added,
+        "",
+        0.03,
+        at_most=True,
+        recorded_seconds=recorded,
+        plain_seconds=plain,
+    )
+
+
+def _replay_in_training(name: str, task: tuple[str, str]) -> dict:
+    """Processor time of a replay over that of training from one to the next, on two workers."""
+    agent = pretrained.load(*task)
+    config = playing.config_of(agent)
+    seconds = []
+    with tempfile.TemporaryDirectory() as folder:
+        for number in range(3):  # The first one imports.
+            start = time.process_time()
+            episode = recording.reenact(agent.network, config, 0, number, None)
+            writing.write(Path(folder) / "replay.rrd", [lambda episode=episode: [episode]])  # type: ignore[misc]
+            seconds.append(time.process_time() - start)
+    steps = config_lib.REPLAY_EVERY
+    training = measuring.THREADS * steps / measuring.training_rate(task, 10.0)
+    return measuring.row(
+        f"a replay / training for {steps:,} steps: {name}",
+        seconds[-1] / training,
+        "",
+        0.02,
+        at_most=True,
+        replay_seconds=seconds[-1],
+        training_seconds=training,
+    )

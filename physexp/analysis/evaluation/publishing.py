@@ -1,0 +1,84 @@
+"""Publishing: turns a run's agent into one that comes with the package, with a card that says where it comes from."""
+
+import dataclasses
+from pathlib import Path
+
+from physexp.agents import checkpointing, pretrained
+from physexp.analysis.evaluation import playing
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
+
+
+def publish(run: run_lib.Run, folder: Path, num_episodes: int) -> Path:
+    """Evaluates a run's agent as it will be kept, in half precision, and writes it and its card; returns the card.
+
+    Args:
+      run: a run with a checkpoint.
+      folder: where the agent goes.
+      num_episodes: how many episodes the evaluation plays.
+
+    Raises:
+      OSError: if it cannot be written.
+      ValueError: if the run's files are damaged or say too little; the line says what to do. Nothing is written then.
+    """
+    config, created = run.config, run.facts
+    frames, seconds = _progress(run)
+    network = playing.load_network(run)
+    checkpointing.agent_bytes(network.state_dict())  # Refuses weights that cannot be kept before anything is played.
+    network = pretrained.halved(network)
+    figures = {
+        way: playing.play(network, config, num_episodes, greedy=way == "greedy").summary(config.agent.discount)
+        for way in ("drawn", "greedy")
+    }
+    card = {
+        "domain": config.domain,
+        "task": config.task,
+        "difficulty": config.difficulty,
+        "command": command(config),
+        "commit": created.get("commit", "not recorded"),
+        "versions": created.get("versions", "not recorded"),
+        "renderer": created.get("renderer", "not recorded"),
+        "seed": config.agent.seed,
+        "frames": frames,
+        "seconds": seconds,
+        "evaluation": {"seed": playing.SEED, **figures},
+        "agent": config.to_json()["agent"],
+        "network": playing.network_facts(config),
+    }
+    return pretrained.save(network.cpu(), card, folder)
+
+
+def _progress(run: run_lib.Run) -> tuple[int, int]:
+    """Frames trained on, and seconds that took."""
+    path = run.path / "metrics.csv"
+    try:
+        last = run.metrics()[-1]
+        frames, seconds = int(last["frames"]), round(last["seconds"])
+        if frames < 0 or seconds < 0:
+            raise ValueError("negative numbers")
+    except (IndexError, KeyError, TypeError, ValueError, OverflowError):
+        raise ValueError(
+            f"{path} does not say in its last row how long the agent was trained; resume the run or put the file back"
+        ) from None
+    return frames, seconds
+
+
+def command(config: config_lib.TrainConfig) -> str:
+    """The command that trains such a run: what differs from the task's preset is spelled out."""
+    words = ["physexp", "train", config.domain, config.task]
+    for name, value in config.task_kwargs.items():
+        words += [f"--{name.replace('_', '-')}", f"{value:g}"]
+    preset = dataclasses.asdict(config_lib.preset(config.domain, config.task, algorithm=config.agent.algorithm))
+    if config.agent.algorithm != config_lib.preset().algorithm:
+        words += ["--agent", config.agent.algorithm]
+    for name, value in dataclasses.asdict(config.agent).items():
+        if value != preset[name]:
+            words += _flag(name, value)
+    return " ".join(words)
+
+
+def _flag(name: str, value) -> list[str]:
+    flag = name.replace("_", "-")
+    if isinstance(value, bool):
+        return [f"--{flag}" if value else f"--no-{flag}"]
+    return [f"--{flag}", *(str(item) for item in (value if isinstance(value, (list, tuple)) else [value]))]

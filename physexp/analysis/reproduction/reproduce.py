@@ -1,0 +1,69 @@
+"""Reproducing the paper: trains the agents of experiments, lets them play, draws the figures and tests the claims."""
+
+from collections.abc import Callable, Sequence
+from concurrent import futures
+
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import EXPERIMENTS, base, conditions
+from physexp.analysis.reproduction import sweep
+
+ALL = "all"
+
+
+def choose(name: str) -> list[base.Experiment]:
+    """The experiments that a name stands for.
+
+    Raises:
+      ValueError: for an unknown name.
+    """
+    if name == ALL:
+        return list(EXPERIMENTS.values())
+    if name not in EXPERIMENTS:
+        raise ValueError(f"experiment is {name!r}; choose from {', '.join([ALL, *EXPERIMENTS])}")
+    return [EXPERIMENTS[name]]
+
+
+def run(
+    experiments: Sequence[base.Experiment],
+    results: base.Results,
+    *,
+    observations: Sequence[str],
+    num_seeds: int | None = None,
+    num_processes: int | None = None,
+    frames: int | None = None,
+    submit: Callable[[sweep.Job], futures.Future] | None = None,
+    report: Callable[[str], None],
+) -> None:
+    """Does everything for some experiments that is not done yet.
+
+    Args:
+      experiments: which.
+      results: where everything goes.
+      observations: kinds of observations whose agents are trained.
+      num_seeds: agents in each condition; by default `conditions.SEEDS`.
+      num_processes: agents trained at a time; by default as many as there are cores.
+      frames: environment steps of training, for a rehearsal; by default each condition's own budget.
+      submit: trains an agent elsewhere; by default agents are trained here.
+      report: called with lines that tell how it goes.
+
+    Raises:
+      ValueError: for numbers that make no sense, or a folder whose runs are not these.
+      RuntimeError: if some agents could not be trained.
+    """
+    for name, value, most in (("seeds", num_seeds, 1_000), ("jobs", num_processes, 1_000), ("frames", frames, 10**12)):
+        if value is not None and not 1 <= value <= most:
+            raise ValueError(f"{name} is {value}; give an integer >= 1 and <= {most}")
+    wanted = sweep.jobs(experiments, observations, lambda kind: num_seeds or conditions.SEEDS[kind], frames)
+    sweep.run(wanted, results, num_processes or sweep.num_cores(), report, submit)
+    for experiment in experiments:
+        if experiment.prepare is not None:
+            experiment.prepare(results, report)
+        frame = experiment.load(results)
+        for path in figures.save(experiment.figure(frame), results.path / "figures", experiment.name):
+            report(str(path))
+        for claim in experiment.claims(frame):
+            estimate = claim.estimate
+            report(
+                f"{claim.verdict:9}  {claim.text} ({claim.condition}): {estimate.value:.3g}, 95 % interval "
+                f"{estimate.low:.3g} to {estimate.high:.3g}, wanted {claim.wanted}"
+            )

@@ -1,0 +1,95 @@
+"""Shows how training goes: a live table on a terminal, plain lines elsewhere."""
+
+from collections.abc import Callable, Iterator
+import contextlib
+import sys
+import time
+from typing import Any
+
+from physexp.analysis.training import config as config_lib
+
+_COLUMNS = (
+    ("frames", "{:,.0f}"),
+    ("frames_per_second", "{:,.0f}"),
+    ("success_rate", "{:.3f}"),
+    ("episode_return", "{:.3f}"),
+    ("interactions", "{:.2f}"),
+    ("entropy", "{:.3f}"),
+)
+_LINE_SECONDS = 10.0
+
+
+class Progress:
+    """Reports rows of metrics while training runs; use it as a context manager."""
+
+    def __init__(self, config: config_lib.TrainConfig, file=None):
+        """Prepares a display of a run on `file`, by default standard error."""
+        self._config, self._file = config, file or sys.stderr
+        self._live: Any = None
+        self._printed = 0.0
+        self._rates: list[float] = []
+
+    def __enter__(self):
+        if self._file.isatty():
+            from rich import console, live  # Only a terminal needs it.
+
+            self._live = live.Live(console=console.Console(file=self._file), auto_refresh=False)
+            self._live.start()
+        return self
+
+    def __exit__(self, *_):
+        if self._live is not None:
+            self._live.stop()
+
+    def __call__(self, row: dict) -> None:
+        """Shows a row of metrics; where the terminal is gone, training is not."""
+        with contextlib.suppress(OSError):
+            self._show(row)
+
+    def _show(self, row: dict) -> None:
+        self._rates = [*self._rates[-11:], row["frames_per_second"]]
+        left = (self._config.agent.frames - row["frames"]) / max(1.0, sum(self._rates) / len(self._rates))
+        cells = {name: form.format(row[name]) for name, form in _COLUMNS}
+        cells["time left"] = duration(max(0.0, left))
+        if self._live is not None:
+            from rich import table
+
+            grid = table.Table(title=self._config.name)
+            for name in cells:
+                grid.add_column(name.replace("_", " "), justify="right")
+            grid.add_row(*cells.values())
+            self._live.update(grid, refresh=True)
+        elif time.monotonic() - self._printed > _LINE_SECONDS or row["frames"] >= self._config.agent.frames:
+            self._printed = time.monotonic()
+            print(
+                "  ".join(f"{name.replace('_', ' ')} {value}" for name, value in cells.items()),
+                file=self._file,
+                flush=True,
+            )
+
+
+@contextlib.contextmanager
+def bar(name: str, total: int, file=None) -> Iterator[Callable[[int], None]]:
+    """A context with a function to be called with how many of `total` are done: it moves a bar on a terminal.
+
+    Elsewhere than on a terminal nothing is shown. By default `file` is standard error.
+    """
+    from rich import console, progress
+
+    columns = (
+        progress.TextColumn("{task.description}"),
+        progress.BarColumn(),
+        progress.MofNCompleteColumn(),
+        progress.TimeRemainingColumn(),
+    )
+    terminal = console.Console(file=file or sys.stderr)
+    with progress.Progress(*columns, console=terminal, transient=True, disable=not terminal.is_terminal) as shown:
+        task = shown.add_task(name, total=total)
+        yield lambda done: shown.update(task, completed=done)
+
+
+def duration(seconds: float) -> str:
+    """Hours, minutes and seconds, as in 1:02:03."""
+    minutes, seconds = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02d}:{seconds:02d}"

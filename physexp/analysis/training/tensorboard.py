@@ -1,0 +1,40 @@
+"""Metrics for TensorBoard, beside `metrics.csv`."""
+
+from typing import Any
+
+from physexp.analysis.training import run as run_lib
+
+
+class TensorBoard:
+    """Writes rows of metrics into `tensorboard/` in a run's folder; use it as a context manager.
+
+    The first row makes the log: a start that fails leaves none.
+    """
+
+    def __init__(self, run: run_lib.Run):
+        self._run = run
+        self._writer: Any = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self._writer is not None:
+            self._writer.close()
+
+    def __call__(self, row: dict[str, float]) -> None:
+        """Logs a row of `run.METRICS`, the last of the run's, at its environment steps."""
+        if self._writer is None:
+            self._writer = self._open()
+        for name in run_lib.METRICS:
+            if name != "frames":
+                self._writer.add_scalar(name, row[name], int(row["frames"]))
+        self._writer.flush()
+
+    def _open(self):
+        """Opens the log; of a run that is resumed, it hides what was logged after the checkpoint it goes on from."""
+        from torch.utils import tensorboard
+
+        earlier = self._run.metrics()[:-1]
+        resumed = int(earlier[-1]["frames"]) + 1 if earlier else 0
+        return tensorboard.SummaryWriter(str(self._run.path / "tensorboard"), purge_step=resumed)

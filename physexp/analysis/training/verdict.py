@@ -1,0 +1,59 @@
+"""Whether an agent has learned anything: training that came to nothing ends like any other, so it has to be said."""
+
+from collections.abc import Sequence
+
+from physexp import suite
+from physexp.analysis.data import estimates
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
+
+_EPISODES = 1000  # At least so many of the last, where there are: their share of right answers is then known to 3 %.
+
+
+def verdict(rows: Sequence[dict[str, float]], num_labels: int) -> str | None:
+    """Returns what is wrong with an agent at the end of its training, in plain words; None if nothing is.
+
+    Something is if more than half of its last episodes ended without an answer, or if its share of right answers is not
+    above chance: chance lies in or above the share's 95 % interval.
+
+    Args:
+      rows: of `metrics.csv`, of the whole run.
+      num_labels: how many answers the question has; chance is one in so many.
+    """
+    episodes, right, unanswered = 0.0, 0.0, 0.0
+    before = [0.0, *(row["episodes"] for row in rows)]
+    for row, earlier in zip(reversed(rows), reversed(before[:-1]), strict=True):
+        count = row["episodes"] - earlier
+        episodes += count
+        right += count * row["success_rate"]
+        unanswered += count * row["timeouts"]
+        if episodes >= _EPISODES:
+            break
+    if not episodes:
+        return None
+    last, chance = f"its last {episodes:,.0f} episodes", f"chance is {1 / num_labels:.1%}"
+    if unanswered > episodes / 2:
+        return (
+            f"the agent fell silent: {unanswered / episodes:.1%} of {last} ended without an answer, "
+            f"{right / episodes:.1%} with the right one ({chance})"
+        )
+    low, _ = estimates.wilson_interval(round(right), round(episodes))
+    if low <= 1 / num_labels:
+        return f"the agent is no better than chance: {right / episodes:.1%} of {last} were answered right ({chance})"
+    return None
+
+
+def of_run(run: run_lib.Run) -> str | None:
+    """Returns the verdict on a run's agent."""
+    config = run.config
+    return verdict(run.metrics(), suite.load_task(config.domain, config.task, config.task_kwargs).num_labels)
+
+
+def advice(config: config_lib.TrainConfig) -> str:
+    """Returns what may help an agent that has learned nothing."""
+    agent = config.agent
+    other = "--agent ppo, " if agent.algorithm != "ppo" else ""
+    return (
+        f"train anew, in another --run-dir, with --frames {2 * agent.frames} or more (learning rate and entropy cost "
+        f"decay over them, so --resume adds none), {other}or a larger --entropy-cost than {agent.entropy_cost:g}"
+    )

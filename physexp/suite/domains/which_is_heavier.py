@@ -1,0 +1,180 @@
+"""Which is Heavier: four equal blocks, and the question which of them is heaviest (paper, Section 5)."""
+
+import dataclasses
+
+from dm_control.utils import containers
+import numpy as np
+
+from physexp.suite.engine import checks, seeding, senses, task
+from physexp.suite.parts import arena, block
+
+SUITE = containers.TaggedTasks()
+
+NUM_BLOCKS = 4
+SPACING = 0.16  # m, between the centres of neighbours
+
+PHYSICS_TIMESTEP = 0.025  # s; the paper's example: four simulation steps to a control step
+
+# A block slides on a vertical rail, with no gravity: a spring and a damper bring it back. Both vanish exactly at
+# rest, whatever the mass, and no contact solver joins one block to another, so nothing tells of a mass before its
+# block is poked. Even the heaviest block is critically damped (damping >= 2 sqrt(stiffness * mass)), so no block
+# ever sinks below its rest. One poke lifts the lightest block almost to the ceiling, where the rail ends.
+LIGHTEST, HEAVIEST = 0.2, 1.0  # kg
+STIFFNESS = 6.25  # N/m
+DAMPING = 5.0  # N s/m
+POKE_FORCE = 20.0  # N
+FLOOR, CEILING = -0.01, 0.4  # m, displacements from rest at which the rail ends
+
+# m: a block rises by at most force / damping in a second. So it passes the rail's end by one physics step at that speed
+# before it feels it, and by less than another one before it is stopped.
+HIGHEST = CEILING + 2 * POKE_FORCE / DAMPING * PHYSICS_TIMESTEP
+
+_ROOM = dict(mat_size=[0.36, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.28], fovy=14.5)
+_MAX_DRAWS = 16
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Options(task.Options):
+    """The `task_kwargs` of this domain.
+
+    Attributes:
+      difficulty: the paper's beta, >= 1; the larger, the easier.
+    """
+
+    physics_timestep = PHYSICS_TIMESTEP
+
+    time_limit: float = 10.0  # 100 control steps (Section 5.1)
+    difficulty: float = 5.0  # the middle one of the paper's three
+
+    def __post_init__(self):
+        super().__post_init__()
+        object.__setattr__(self, "difficulty", checks.number("difficulty", self.difficulty, 1, "the paper's beta"))
+
+
+class WhichIsHeavier(task.QuestionTask):
+    """Four blocks in a line that move only vertically; their masses are hidden."""
+
+    options: Options
+    question = "Which of the four blocks is heaviest?"
+
+    def __init__(self, options: Options, sense: senses.Sense):
+        """Builds the scene."""
+        room = arena.Laboratory(**_ROOM)
+        room.mjcf_model.option.gravity = [0, 0, 0]
+        room.mjcf_model.option.flag.contact = "disable"
+        self.blocks, self._joints, motors = [], [], room.mjcf_model.actuator
+        for k in range(NUM_BLOCKS):
+            cube = block.Block(rgba=block.COLORS[k], mass=HEAVIEST, name=f"block_{k}")
+            frame = room.attach(cube)
+            frame.pos = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, block.HALF_SIZE]
+            self._joints.append(
+                frame.add(
+                    "joint",
+                    name="rail",
+                    type="slide",
+                    axis=[0, 0, 1],
+                    stiffness=STIFFNESS,
+                    damping=DAMPING,
+                    limited=True,
+                    range=[FLOOR, CEILING],
+                )
+            )
+            motors.add("motor", name=f"poke_{k}", joint=self._joints[-1])
+            self.blocks.append(cube)
+        self._height_sensors = [
+            room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=joint)
+            for k, joint in enumerate(self._joints)
+        ]
+        super().__init__(room, options, sense, num_interactions=NUM_BLOCKS, num_labels=NUM_BLOCKS)
+
+    @property
+    def controls(self):
+        return POKE_FORCE * np.eye(NUM_BLOCKS)
+
+    @property
+    def effects(self):
+        return [(f"block_{k}", (0.0, 0.0, POKE_FORCE)) for k in range(NUM_BLOCKS)]
+
+    @property
+    def interaction_names(self):
+        return [f"poke block {k}" for k in range(NUM_BLOCKS)]
+
+    @property
+    def label_names(self):
+        return [f"block {k} is heaviest" for k in range(NUM_BLOCKS)]
+
+    @property
+    def sensors(self):
+        return {"heights": (self._height_sensors, (NUM_BLOCKS,))}
+
+    @property
+    def bounds(self):
+        return {"heights": (FLOOR, HIGHEST)}
+
+    def draw(self, seeds, episodes):
+        """Masses on the paper's scale, float64 [N, 4] in [0, 1]; to kilograms: `kilograms`."""
+        return draw_masses(seeds, episodes, self.options.difficulty)
+
+    def answers(self, hidden):
+        return hidden.argmax(axis=1)
+
+    @property
+    def hidden_joints(self):
+        return self._joints
+
+    def hidden_masses(self, hidden):
+        return kilograms(hidden)
+
+
+def kilograms(masses):
+    """Maps the paper's masses in [0, 1] linearly to what the agent's strength can lift, kg."""
+    return LIGHTEST + (HEAVIEST - LIGHTEST) * masses
+
+
+def draw_masses(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
+    """Masses of some episodes (paper, Section 5.1), float64 [N, 4] in [0, 1].
+
+    One block, drawn uniformly, is from Beta(difficulty, 1), the others from Beta(1, difficulty). Both have inverse
+    distribution functions in closed form: u^(1 / difficulty) and 1 - (1 - u)^(1 / difficulty).
+
+    Args:
+      seeds, episodes: environment seeds and episode indices, int64 [N].
+      difficulty: the paper's beta.
+
+    Raises:
+      RuntimeError: if the two heaviest blocks tie in every one of many draws.
+    """
+    masses = masses_from(seeding.uniforms(seeds, episodes, NUM_BLOCKS + 1), difficulty)
+    for attempt in range(1, _MAX_DRAWS):
+        tied = mass_gaps(masses) == 0
+        if not tied.any():
+            return masses
+        again = seeding.uniforms(seeds[tied], episodes[tied], NUM_BLOCKS + 1, attempt)
+        masses[tied] = masses_from(again, difficulty)
+    raise RuntimeError(f"difficulty {difficulty} makes blocks tie in {_MAX_DRAWS} draws; choose one closer to 1")
+
+
+def mass_gaps(masses: np.ndarray) -> np.ndarray:
+    """By how much the heaviest block is heavier than the second, [N], of masses [N, num_blocks] in [0, 1]."""
+    two_heaviest = np.partition(masses, -2, axis=1)[:, -2:]
+    return two_heaviest[:, 1] - two_heaviest[:, 0]
+
+
+def masses_from(draws: np.ndarray, difficulty: float) -> np.ndarray:
+    """Masses [N, B] of B blocks from numbers [N, B + 1], uniform in (0, 1): the first chooses the heavy block."""
+    masses = -np.expm1(np.log1p(-draws[:, 1:]) / difficulty)
+    rows, heavy = np.arange(len(draws)), (draws[:, 0] * masses.shape[1]).astype(np.int64)
+    masses[rows, heavy] = np.exp(np.log(draws[rows, 1 + heavy]) / difficulty)
+    return masses
+
+
+@SUITE.add("features")
+def features(options):
+    """Observes `heights`, float32 (4,): how far each block is above its rest, m."""
+    return WhichIsHeavier(options, senses.Features())
+
+
+@SUITE.add("pixels")
+def pixels(options):
+    """Observes `pixels`, uint8 (84, 84, 3): the blocks from the front."""
+    return WhichIsHeavier(options, senses.Pixels())

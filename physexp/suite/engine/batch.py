@@ -1,0 +1,331 @@
+"""Many environments of one task that step together in C++ threads."""
+
+import functools
+import logging
+
+import dm_env
+import mujoco
+from mujoco.batch import Batch
+import numpy as np
+
+from physexp.suite.engine import checks, guard, rendering, seeding
+from physexp.suite.engine import task as task_lib
+
+_LOG = logging.getLogger(__name__)
+MOST_ENVIRONMENTS = 65_536
+
+_FIRST, _MID, _LAST = (int(kind) for kind in dm_env.StepType)
+
+
+class BatchEnvironment:
+    """Environments that share a task but no randomness: each has its own seed and episodes.
+
+    Environment `i` behaves, bit for bit, as `Environment` does with the seed `environment_seed(seed, i)`, whatever
+    the number of environments and threads.
+
+    Attributes:
+      num_environments: how many there are.
+      num_divergences: episodes that ended because the simulation diverged.
+    """
+
+    def __init__(self, task: task_lib.QuestionTask, num_environments: int, num_threads: int = 1):
+        """Builds the environments of a task.
+
+        Args:
+          task: what they play; its seed is the batch's.
+          num_environments: how many, from 1 to 65,536.
+          num_threads: threads that simulate, from 1 to 1,024.
+
+        Raises:
+          ValueError: if one of the numbers is another.
+        """
+        self._guard = guard.Guard("batch")
+        self.num_environments = checks.integer("num_environments", num_environments, 1, MOST_ENVIRONMENTS)
+        self._num_threads = checks.integer("num_threads", num_threads, 1, 1_024)
+        self.num_divergences = 0
+        self._closed = False
+        self._task = task
+        self._controls = task.controls
+        self._everyone = np.arange(self.num_environments)
+        self.reseed(task.options.random)
+        self._structures = np.zeros(self.num_environments, np.int64)
+        self._answers = np.zeros(self.num_environments, np.int64)
+        self._steps = np.zeros(self.num_environments, np.int64)
+        self._touched = np.zeros(self.num_environments, bool)
+        self._hidden: np.ndarray | None = None
+        self._groups: dict[int, _Group] = {}
+        self._observations = task.blank_observations(self.num_environments)
+        self._renderer: rendering.Renderer | None = None  # Of images for people.
+
+    def reseed(self, random) -> None:
+        """Takes another seed: every environment starts its first episode next; `random` as in `task_kwargs`."""
+        with self._guard:
+            self._task.reseed(random)
+            seed = self._task.options.random
+            self._seeds = np.array([seeding.environment_seed(seed, i) for i in range(self.num_environments)])
+            self._next_episodes = np.zeros(self.num_environments, np.int64)
+            self._needs_reset = np.ones(self.num_environments, bool)
+
+    # Specs are those of the single environment.
+
+    def action_spec(self) -> dm_env.specs.DiscreteArray:
+        return self._task.action_spec()
+
+    def observation_spec(self) -> dict[str, dm_env.specs.Array]:
+        return self._task.observation_spec()
+
+    def reward_spec(self) -> dm_env.specs.Array:
+        return dm_env.specs.Array((), float, "reward")
+
+    def discount_spec(self) -> dm_env.specs.BoundedArray:
+        return dm_env.specs.BoundedArray((), float, 0.0, 1.0, "discount")
+
+    @property
+    def task(self) -> task_lib.QuestionTask:
+        """The task that all environments play, with its rules and options."""
+        return self._task
+
+    @property
+    def correct_answers(self) -> np.ndarray:
+        """Indices of the right labels in the current episodes, int64 [B]; never observable."""
+        return self._task.answers(self.hidden)
+
+    @property
+    def hidden(self) -> np.ndarray:
+        """Returns the hidden properties of the current episodes, [B, ...], which are never part of an observation."""
+        if self._hidden is None:
+            raise RuntimeError("no episode has been started; call reset() first")
+        return self._hidden.copy()
+
+    @property
+    def seeds(self) -> np.ndarray:
+        """Returns the seeds of the environments, int64 [B]; `load` with one of them makes that environment alone."""
+        return self._seeds.copy()
+
+    @property
+    def episodes(self) -> np.ndarray:
+        """Indices of the current episodes, int64 [B]; -1 before the first."""
+        return self._next_episodes - 1
+
+    def reset(self, environments: np.ndarray | None = None, episode: int | None = None) -> dm_env.TimeStep:
+        """Starts new episodes.
+
+        Args:
+          environments: which environments, sorted indices int [N]; all of them by default.
+          episode: index of the episode to start, the same in each; by default the one after the current.
+
+        Returns:
+          As `step`.
+
+        Raises:
+          ValueError: for indices that there are not.
+          RuntimeError: if the batch is closed, or another thread is using it.
+        """
+        with self._guard:
+            chosen = self._choose(environments)
+            if episode is not None:
+                self._next_episodes[chosen] = checks.integer("episode", episode, 0, seeding.LAST_EPISODE)
+            self._reset(chosen)
+            return self._time_step(chosen, np.full(len(chosen), _FIRST), np.zeros(len(chosen)), np.ones(len(chosen)))
+
+    def step(self, actions: np.ndarray, environments: np.ndarray | None = None) -> dm_env.TimeStep:
+        """Takes one action in each environment; one whose episode is over starts a new one instead.
+
+        Args:
+          actions: one action for each of the chosen environments, int [N].
+          environments: which environments to step, sorted indices int [N]; all of them by default.
+
+        Returns:
+          A TimeStep whose fields are arrays with a leading axis [N]. Where an episode starts, the reward is 0 and the
+          discount 1.
+
+        Raises:
+          ValueError: if an action is not one of the action spec's; nothing has moved then.
+          RuntimeError: if the batch is closed, or another thread is using it.
+        """
+        with self._guard:
+            return self._step(actions, environments)
+
+    def _step(self, actions, environments) -> dm_env.TimeStep:
+        chosen = self._choose(environments)
+        actions = self._task.rules.check_type(actions, (len(chosen),))
+        starting = self._needs_reset[chosen]
+        playing, taken = chosen[~starting], actions[~starting]
+        self._task.rules.check_range(taken)
+        self._reset(chosen[starting])
+        self._steps[playing] += 1
+        interacting = taken < self._task.num_interactions
+        diverged = self._interact(playing[interacting], taken[interacting])
+        rewards, last = self._task.rules.judge(taken, self._answers[playing], self._steps[playing])
+        if len(diverged):
+            lost = np.isin(playing, diverged)
+            rewards, last = np.where(lost, 0.0, rewards), last | lost
+        self._needs_reset[playing] = last
+        step_types = np.full(len(chosen), _FIRST)
+        step_types[~starting] = np.where(last, _LAST, _MID)
+        all_rewards = np.zeros(len(chosen))
+        all_rewards[~starting] = rewards
+        return self._time_step(chosen, step_types, all_rewards, np.where(step_types == _LAST, 0.0, 1.0))
+
+    def render(self, size: int = rendering.SIZE_FOR_PEOPLE) -> np.ndarray:
+        """Returns images for people of all environments, uint8 [B, size, size, 3].
+
+        Raises:
+          RuntimeError: if there is no episode to show, the batch is closed, another thread is using it, or no GL
+            backend works.
+        """
+        with self._guard:
+            chosen = self._choose(None)
+            if self._hidden is None:
+                raise RuntimeError("no episode has been started; call reset() first")
+            images = np.zeros((len(chosen), size, size, 3), np.uint8)
+            for group, members in self._by_structure(chosen):
+                rows = chosen[members]
+                if self._renderer is None or self._renderer.size != size:
+                    self._close_renderer()
+                    self._renderer = rendering.Renderer(group.kit.model, size=size)
+                positions, rotations = group.poses(rows)
+                self._renderer.render(positions, rotations, rows, images)
+            return images
+
+    def close(self) -> None:
+        """Frees the simulations. Closing twice does nothing.
+
+        Raises:
+          RuntimeError: if another thread is using the batch.
+        """
+        with self._guard:
+            self._groups = {}
+            self._close_renderer()
+            self._task.close()
+            self._closed = True
+
+    def _close_renderer(self) -> None:
+        if self._renderer is not None:
+            self._renderer.close()
+            self._renderer = None
+
+    def _choose(self, environments) -> np.ndarray:
+        if self._closed:
+            raise RuntimeError("the batch is closed; load another")
+        if environments is None:
+            return self._everyone
+        try:
+            chosen = np.asarray(environments)
+        except ValueError:  # Lists of different lengths.
+            chosen = np.zeros(())
+        if chosen.ndim == 1 and chosen.dtype.kind in "iu":
+            inside = not chosen.size or (chosen.min() >= 0 and chosen.max() < self.num_environments)
+            if inside and (np.diff(chosen.astype(np.int64)) > 0).all():
+                return chosen.astype(np.int64)
+        last = self.num_environments - 1
+        raise ValueError(f"environments is {checks.shown(environments)}; give increasing indices from 0 to {last}")
+
+    def _group(self, structure: int) -> "_Group":
+        if structure not in self._groups:
+            kit = self._task.build_apparatus(structure)
+            self._groups[structure] = _Group(self._task, kit, self.num_environments, self._num_threads)
+        return self._groups[structure]
+
+    def _by_structure(self, chosen: np.ndarray):
+        """Splits environments by structure: pairs of a group and the positions in `chosen` that belong to it."""
+        structures = self._structures[chosen]
+        if self._task.num_structures == 1:
+            return [(self._group(0), slice(None))] if len(chosen) else []
+        return [(self._group(int(s)), np.flatnonzero(structures == s)) for s in np.unique(structures)]
+
+    def _reset(self, chosen: np.ndarray) -> None:
+        if not len(chosen):
+            return
+        hidden = self._task.draw(self._seeds[chosen], self._next_episodes[chosen])
+        if self._hidden is None:
+            self._hidden = np.zeros((self.num_environments, *hidden.shape[1:]), hidden.dtype)
+        self._hidden[chosen] = hidden
+        self._answers[chosen] = self._task.answers(hidden)
+        self._structures[chosen] = self._task.structures(hidden)
+        self._next_episodes[chosen] += 1
+        self._steps[chosen] = 0
+        self._touched[chosen] = False
+        self._needs_reset[chosen] = False
+        for group, members in self._by_structure(chosen):
+            rows = chosen[members]
+            group.reset(rows, hidden[members])
+            for name, value in group.first_observation.items():
+                self._observations[name][rows] = value
+
+    def _interact(self, chosen: np.ndarray, actions: np.ndarray) -> np.ndarray:
+        """Simulates one control step; returns the environments that diverged."""
+        diverged = []
+        for group, members in self._by_structure(chosen):
+            rows = chosen[members]
+            lost = group.step(rows, self._controls[actions[members]], self._task.options.substeps)
+            if len(lost):  # Their last observation stays the one before, as in composer.
+                diverged.append(lost)
+                rows = np.setdiff1d(rows, lost)
+            self._touched[rows] |= group.moved(rows)
+            self._task.look(group.kit, group.state(rows), self._touched[rows], rows, self._observations)
+        if not diverged:
+            return np.zeros(0, np.int64)
+        lost = np.concatenate(diverged)
+        self.num_divergences += len(lost)
+        _LOG.warning("the simulation diverged in environments %s; their episodes end without reward", lost)
+        return lost
+
+    def _time_step(self, chosen, step_types, rewards, discounts) -> dm_env.TimeStep:
+        observation = {name: value[chosen] for name, value in self._observations.items()}
+        return dm_env.TimeStep(step_types, rewards, discounts, observation)
+
+
+class _Group:
+    """The simulations of one structure: row `i` serves environment `i` whenever it has this structure."""
+
+    def __init__(self, task, kit, size, num_threads):
+        self._task, self.kit = task, kit
+        self._batch = Batch(kit.model, size, num_threads)
+        self._batch.reset(stage=mujoco.mjtStage.mjSTAGE_NONE)
+        self._rest = self._batch.state[0].copy()
+        self._qpos, self._control = (self._batch.bind(name) for name in ("qpos", "ctrl"))
+        self._looked_at = {field: self._batch.bind(field) for field in task.sense.fields}
+
+    @functools.cached_property
+    def first_observation(self) -> dict[str, np.ndarray]:
+        """The observation at the start of every episode."""
+        first = self._task.blank_observations(1)
+        rest = {field: self.kit.rest[field][None] for field in self._task.sense.fields}
+        self._task.look(self.kit, rest, np.zeros(1, bool), np.zeros(1, np.intp), first)
+        return {name: value[0] for name, value in first.items()}
+
+    def reset(self, rows, hidden) -> None:
+        self._batch.state[rows] = self._rest
+        if self.kit.hidden_bodies.size:
+            for field, (addresses, values) in self.kit.mass_fields(self._task.hidden_masses(hidden)).items():
+                self._batch.expand(field)[rows[:, None], addresses] = values
+
+    def step(self, rows, controls, substeps) -> np.ndarray:
+        """Simulates a control step; returns the rows that diverged."""
+        self._control[rows] = controls
+        self._batch.warning[rows] = 0  # A row that diverges is reset by MuJoCo, its counters too.
+        self._batch.step(ids=rows, nstep=substeps, stage=mujoco.mjtStage.mjSTAGE_POS)
+        return rows[(self._batch.warning[rows] != 0).reshape(len(rows), -1).any(axis=1)]
+
+    def moved(self, rows) -> np.ndarray:
+        """Whether held parts have moved: bool [number of rows]."""
+        return self.kit.moved(self._qpos[rows], task_lib.TOUCH_TOLERANCE)
+
+    def poses(self, rows) -> tuple[np.ndarray, np.ndarray]:
+        """Where the geoms are, as the simulations stand: positions, m, and rotations, [number of rows, ngeom, 3 and 9].
+
+        They follow from the coordinates alone: what a row keeps of them is older after a reset.
+        """
+        data = mujoco.MjData(self.kit.model)
+        shape = (len(rows), self.kit.model.ngeom)
+        positions, rotations = np.zeros((*shape, 3)), np.zeros((*shape, 9))
+        for i, row in enumerate(rows):
+            data.qpos[:] = self._qpos[row]
+            mujoco.mj_kinematics(self.kit.model, data)
+            positions[i], rotations[i] = data.geom_xpos, data.geom_xmat
+        return positions, rotations
+
+    def state(self, rows) -> dict[str, np.ndarray]:
+        """The fields that the sense looks at, float64 [number of rows, ...]."""
+        return {field: values[rows] for field, values in self._looked_at.items()}

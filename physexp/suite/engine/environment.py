@@ -1,0 +1,128 @@
+"""One environment: dm_control's composer environment, with each structure of the task compiled only once."""
+
+import copy
+
+from dm_control import composer, mjcf
+from dm_control.mujoco import wrapper
+from dm_control.rl import control
+import dm_env
+from dm_env import specs
+import numpy as np
+
+from physexp.suite.engine import checks, guard, rendering
+
+
+class Environment(composer.Environment):
+    """A composer environment that keeps one compiled physics for each structure of its task.
+
+    Composer recompiles at every episode; here a reset picks the physics that the hidden property calls for.
+    """
+
+    def __init__(self, task, raise_exception_on_physics_error=False, flat_observation=False):
+        """Builds the environment.
+
+        Args:
+          task: a `QuestionTask`.
+          raise_exception_on_physics_error: raise when the simulation diverges, instead of ending that episode
+            with a warning.
+          flat_observation: observe one vector, `observations`, of all arrays sorted by name, as dm_control's own
+            suite does.
+
+        Raises:
+          ValueError: for an argument that is neither true nor false.
+        """
+        self._guard = guard.Guard("environment")
+        self._flat = checks.flag("flat_observation", flat_observation)
+        raises = checks.flag("raise_exception_on_physics_error", raise_exception_on_physics_error)
+        self._compiled = {}  # Apparatus and physics of each structure used so far.
+        self._current_structure = None
+        super().__init__(
+            task, random_state=0, strip_singleton_obs_buffer_dim=True, raise_exception_on_physics_error=raises
+        )
+
+    def reset(self) -> dm_env.TimeStep:
+        """Starts the next episode.
+
+        Raises:
+          RuntimeError: if the environment is closed, or another thread is using it.
+        """
+        with self._guard:
+            self._check_open()
+            return self._flattened(super().reset())
+
+    def step(self, action) -> dm_env.TimeStep:
+        """Takes one action, an integer.
+
+        Raises:
+          ValueError: if the action is not one of the action spec's; the episode stays as it was.
+          RuntimeError: if the environment is closed, or another thread is using it.
+        """
+        with self._guard:
+            self._check_open()
+            return self._flattened(super().step(action))
+
+    def observation_spec(self):
+        """What is observed: by name, bounded where the task knows bounds."""
+        described = super().observation_spec()
+        if not self._flat:
+            return described
+        blank = control.flatten_observation(
+            type(described)((name, np.zeros(spec.shape, spec.dtype)) for name, spec in described.items())
+        )
+        return type(described)((name, specs.Array(value.shape, value.dtype, name)) for name, value in blank.items())
+
+    def render(self) -> np.ndarray:
+        """Returns an image of the scene for people, uint8 [480, 480, 3].
+
+        Raises:
+          RuntimeError: if the environment is closed, another thread is using it, or no GL backend works.
+        """
+        with self._guard:
+            self._check_open()
+            size = rendering.SIZE_FOR_PEOPLE
+            return self.physics.render(size, size, camera_id="observer")
+
+    def close(self) -> None:
+        """Frees the simulations. Closing twice does nothing.
+
+        Raises:
+          RuntimeError: if another thread is using the environment.
+        """
+        with self._guard:
+            for _, physics in self._compiled.values():
+                physics.free()
+            self._compiled = {}
+            self._task.close()
+            self._physics = self._physics_proxy = None
+
+    def _flattened(self, timestep: dm_env.TimeStep) -> dm_env.TimeStep:
+        if not self._flat:
+            return timestep
+        return timestep._replace(observation=control.flatten_observation(timestep.observation))
+
+    def _check_open(self):
+        if self._physics is None:
+            raise RuntimeError("the environment is closed; load another")
+
+    def _recompile_physics_and_update_observables(self):
+        if self._task.structure != self._current_structure:
+            super()._recompile_physics_and_update_observables()
+            self._current_structure = self._task.structure
+
+    def _recompile_physics(self):
+        structure = self._task.structure
+        if structure not in self._compiled:
+            kit = self._task.build_apparatus(structure)
+            physics = mjcf.Physics.from_model(wrapper.MjModel(copy.copy(kit.model)))
+            physics.legacy_step = self._legacy_step
+            self._compiled[structure] = (kit, physics)
+        self._task.apparatus, self._physics = self._compiled[structure]
+
+    def _substep(self, action):
+        if self._task.answered:  # An answer ends the episode at once: nothing moves any more.
+            return
+        try:
+            super()._substep(action)
+        except control.PhysicsError:
+            self._task.note_divergence()
+            raise

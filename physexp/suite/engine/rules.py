@@ -1,0 +1,76 @@
+"""The rules that every question shares (paper, Section 3), written once for one environment and for a batch.
+
+An episode is a question. *Interaction* actions, numbered from 0, act on the world; the *labeling* actions that
+follow answer the question and end the episode. Running out of time counts as a wrong answer.
+"""
+
+import dataclasses
+
+import numpy as np
+
+from physexp.suite.engine import checks
+
+RIGHT, WRONG = 1.0, -1.0
+
+
+@dataclasses.dataclass(frozen=True)
+class Rules:
+    """How actions are read and judged.
+
+    Attributes:
+      num_interactions: number of interaction actions.
+      num_labels: number of labeling actions.
+      step_limit: control steps after which an unanswered episode ends.
+    """
+
+    num_interactions: int
+    num_labels: int
+    step_limit: int
+
+    @property
+    def num_actions(self) -> int:
+        return self.num_interactions + self.num_labels
+
+    def check_type(self, actions, shape: tuple[int, ...]) -> np.ndarray:
+        """Returns `actions` as an array, if it holds integers in the given shape.
+
+        Raises:
+          ValueError: if it does not.
+        """
+        try:
+            array = np.asarray(actions)
+        except ValueError:
+            kind = "lists of different lengths"
+        else:
+            if array.shape == shape and array.dtype.kind in "iu":
+                return array
+            kind = f"shape {array.shape}, {array.dtype}"
+        raise ValueError(
+            f"action is {checks.shown(actions)} ({kind}); "
+            f"give integers of shape {shape} from 0 to {self.num_actions - 1}"
+        )
+
+    def check_range(self, actions: np.ndarray) -> None:
+        """Raises ValueError unless every action is one of `num_actions`."""
+        if actions.size and (actions.min() < 0 or actions.max() >= self.num_actions):
+            bad = actions[(actions < 0) | (actions >= self.num_actions)].flat[0]
+            raise ValueError(
+                f"action is {bad}; allowed are 0 to {self.num_interactions - 1} (interact) and "
+                f"{self.num_interactions} to {self.num_actions - 1} (label)"
+            )
+
+    def judge(self, actions: np.ndarray, answers: np.ndarray, steps: np.ndarray):
+        """Rewards and endings of one control step.
+
+        Args:
+          actions: the actions taken, int [N].
+          answers: indices of the right labels, int [N].
+          steps: control steps taken in the episode, this one included, int [N].
+
+        Returns:
+          Rewards, float64 [N], and whether the episode ends, bool [N].
+        """
+        labeled = actions >= self.num_interactions
+        last = labeled | (steps >= self.step_limit)
+        right = actions - self.num_interactions == answers
+        return np.where(right, RIGHT, np.where(last, WRONG, 0.0)), last

@@ -1,0 +1,71 @@
+"""Seeds and draws: pure functions of integers, the same for one environment and for thousands.
+
+An episode's hidden property depends on `(environment seed, episode index)` alone, so any episode can be
+rebuilt without playing those before it, and a batch draws all its resets in one vectorised call.
+"""
+
+import numpy as np
+
+from physexp.suite.engine import checks
+
+LARGEST_SEED = 2**63 - 1
+LAST_EPISODE = 2**62 - 1  # Nobody plays on from there to where 64 bits end.
+
+_GOLDEN = np.uint64(0x9E3779B97F4A7C15)
+
+
+def _mix(x: np.ndarray) -> np.ndarray:
+    """One step of the SplitMix64 generator (Steele et al., 2014): a bijection of 64-bit integers."""
+    x = x + _GOLDEN
+    x = (x ^ (x >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    x = (x ^ (x >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return x ^ (x >> np.uint64(31))
+
+
+def environment_seed(seed: int, index: int) -> int:
+    """Returns the seed of environment `index` in a batch seeded with `seed`: an integer in [0, 2**32).
+
+    Raises:
+      ValueError: if one of them is no integer in [0, 2**63).
+    """
+    seed = checks.integer("seed", seed, 0, LARGEST_SEED)
+    index = checks.integer("index", index, 0, LARGEST_SEED)
+    key = _mix(np.array([seed], np.uint64))
+    return int(_mix(key ^ np.array([index], np.uint64))[0] >> np.uint64(32))
+
+
+def uniforms(seeds: np.ndarray, episodes: np.ndarray, count: int, attempt: int = 0) -> np.ndarray:
+    """Independent uniform numbers of some episodes.
+
+    Args:
+      seeds: environment seeds, int64 [N].
+      episodes: episode indices, int64 [N].
+      count: numbers per episode.
+      attempt: 0, 1, ... for further, independent numbers of the same episodes.
+
+    Returns:
+      float64 [N, count], in the open interval (0, 1).
+    """
+    keys = _mix(_mix(seeds.astype(np.uint64)) ^ episodes.astype(np.uint64))
+    steps = np.arange(attempt * count + 1, (attempt + 1) * count + 1, dtype=np.uint64) * _GOLDEN
+    bits = _mix(keys[:, None] + steps) >> np.uint64(12)
+    return (bits.astype(np.float64) + 0.5) * 2.0**-52
+
+
+def seed_from(random) -> int:
+    """The environment seed that a `random` argument stands for, as in dm_control's tasks.
+
+    Args:
+      random: an integer in [0, 2**63), a `numpy.random.RandomState` (one number is drawn from it), or None
+        for a seed from the operating system.
+
+    Raises:
+      ValueError: if it is none of these.
+    """
+    if random is None:
+        random = np.random.RandomState()
+    if isinstance(random, np.random.RandomState):
+        return int(random.randint(2**32, dtype=np.uint64))
+    if checks.is_integer(random) and 0 <= random <= LARGEST_SEED:
+        return int(random)
+    raise ValueError(f"random is {checks.shown(random)}; give an integer in [0, 2**63), a numpy RandomState, or None")

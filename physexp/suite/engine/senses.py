@@ -1,0 +1,93 @@
+"""The senses: how a task shows its state, as features or as pixels.
+
+One environment and a batch look through the same sense, which is why they see the same.
+"""
+
+import abc
+from collections.abc import Mapping
+from typing import ClassVar
+
+import numpy as np
+
+from physexp.suite.engine import apparatus as apparatus_lib
+from physexp.suite.engine import rendering
+
+
+class Sense(abc.ABC):
+    """Turns fields of the simulation's state into observations."""
+
+    fields: ClassVar[tuple[str, ...]]
+    """The fields of `MjData` that are looked at."""
+
+    needs_gl: ClassVar[bool]
+    """Whether images are drawn."""
+
+    @abc.abstractmethod
+    def blank(self, sensors: Mapping[str, tuple], size: int) -> dict[str, np.ndarray]:
+        """Arrays for the observations of `size` environments.
+
+        Args:
+          sensors: for each feature, its sensors and its shape.
+          size: how many environments.
+        """
+
+    @abc.abstractmethod
+    def look(
+        self,
+        apparatus: apparatus_lib.Apparatus,
+        state: Mapping[str, np.ndarray],
+        rows: np.ndarray,
+        observations: Mapping[str, np.ndarray],
+    ) -> None:
+        """Writes the observations.
+
+        Args:
+          apparatus: what is looked at.
+          state: the fields, float64 [N, ...].
+          rows: where the observations go, int [N].
+          observations: arrays with a leading axis that `rows` index; written to.
+        """
+
+    @abc.abstractmethod
+    def close(self) -> None:
+        """Frees what the sense holds."""
+
+
+class Features(Sense):
+    """Sensor values as float32 arrays."""
+
+    fields = ("sensordata",)
+    needs_gl = False
+
+    def blank(self, sensors, size):
+        return {name: np.zeros((size, *shape), np.float32) for name, (_, shape) in sensors.items()}
+
+    def look(self, apparatus, state, rows, observations):
+        for name, addresses in apparatus.readings.items():
+            observations[name][rows] = state["sensordata"][:, addresses]
+
+    def close(self):
+        """Needs nothing: features hold nothing."""
+
+
+class Pixels(Sense):
+    """One image, `pixels`, from the task's camera. The GL context is made when the first image is drawn."""
+
+    fields = ("geom_xpos", "geom_xmat")
+    needs_gl = True
+
+    def __init__(self):
+        self._renderer: rendering.Renderer | None = None
+
+    def blank(self, sensors, size):
+        return {"pixels": np.zeros((size, rendering.SIZE, rendering.SIZE, 3), np.uint8)}
+
+    def look(self, apparatus, state, rows, observations):
+        if self._renderer is None:  # All structures of a task have the same geoms: one renderer draws them all.
+            self._renderer = rendering.Renderer(apparatus.model)
+        self._renderer.render(state["geom_xpos"], state["geom_xmat"], rows, observations["pixels"])
+
+    def close(self):
+        if self._renderer is not None:
+            self._renderer.close()
+            self._renderer = None

@@ -1,0 +1,105 @@
+"""The room in which questions are asked: a lit floor and one fixed camera."""
+
+from dm_control import composer
+import numpy as np
+
+from physexp.suite.parts import material
+
+FLOOR_HALF_SIZE = 8.0  # m: the floor fills the view
+FLOOR_RGBA = (0.72, 0.72, 0.70, 1.0)
+MAT_RGBA = (0.86, 0.86, 0.84, 1.0)
+
+
+class Laboratory(composer.Arena):
+    """A floor at height zero, two lights and the camera `observer`.
+
+    The visible floor is a box, much cheaper to draw than a plane; a plane that is not drawn carries the contacts.
+    """
+
+    def _build(self, mat_size, camera_pos, camera_target, fovy, name="laboratory"):
+        """Builds the room.
+
+        Args:
+          mat_size: half the sizes in x and y of a mat, a brighter part of the floor, where everything happens, m (2,).
+          camera_pos: position of the camera, m (3,).
+          camera_target: the point that it looks at, m (3,).
+          fovy: vertical field of view, degrees.
+          name: name of the MJCF model.
+        """
+        super()._build(name=name)
+        root = self.mjcf_model
+        # MuJoCo's own defaults instead of composer's: no slip correction and pyramidal friction cones, at half the
+        # cost, and no extra mass on the massless bodies that carry attached entities.
+        root.option.set_attributes(cone="pyramidal", noslip_iterations=0)
+        root.compiler.set_attributes(boundmass=0, boundinertia=0)
+        root.visual.headlight.set_attributes(ambient=[0.4] * 3, diffuse=[0.3] * 3, specular=[0.0] * 3)
+        root.visual.map.set_attributes(znear=0.01, zfar=50)
+        root.visual.quality.set_attributes(shadowsize=0, offsamples=0, numslices=8, numstacks=8, numquads=1)
+        world = root.worldbody
+        world.add(
+            "light",
+            name="lamp",
+            directional=True,
+            castshadow=False,
+            pos=[0, 0, 3],
+            dir=[-0.3, 0.5, -0.8],
+            diffuse=[0.5] * 3,
+            specular=[0.0] * 3,
+        )
+        self.floor = world.add(
+            "geom",
+            name="floor",
+            type="box",
+            size=[FLOOR_HALF_SIZE, FLOOR_HALF_SIZE, 0.01],
+            pos=[0, 0, -0.015],
+            rgba=FLOOR_RGBA,
+            contype=0,
+            conaffinity=0,
+        )
+        world.add(
+            "geom",
+            name="mat",
+            type="box",
+            size=[*mat_size, 0.001],
+            pos=[0, 0, 0],
+            rgba=MAT_RGBA,
+            contype=0,
+            conaffinity=0,
+        )
+        self.ground = world.add("geom", name="ground", type="plane", size=[1, 1, 0.1], group=4, **material.solid())
+        self.camera = world.add(
+            "camera", name="observer", pos=camera_pos, fovy=fovy, xyaxes=_looking_at(camera_pos, camera_target)
+        )
+
+    def add_walls(self, distance: float, height: float) -> None:
+        """Adds four walls and a ceiling that are not drawn, so that nothing leaves the view.
+
+        They are boxes, not planes: the broad phase skips a box that is far away, which a plane never is.
+
+        Args:
+          distance: of the walls from the centre, m.
+          height: of the ceiling above the floor, m.
+        """
+        half, side = 0.25, distance + 0.5
+        boxes = [
+            ([half if x else side, half if y else side, height], [x * (distance + half), y * (distance + half), height])
+            for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))
+        ]
+        boxes.append(([side, side, half], [0, 0, height + half]))
+        for number, (size, pos) in enumerate(boxes):
+            self.mjcf_model.worldbody.add(
+                "geom",
+                name=f"wall_{number}",
+                type="box",
+                size=size,
+                pos=pos,
+                group=4,
+                **material.solid(material.WALL_FRICTION),
+            )
+
+
+def _looking_at(pos, target) -> np.ndarray:
+    """The right and up directions (6,) of an upright camera at `pos` that looks at `target`."""
+    forward = np.subtract(target, pos) / np.linalg.norm(np.subtract(target, pos))
+    right = np.cross(forward, [0, 0, 1])
+    return np.concatenate([right, np.cross(right, forward)])

@@ -1,0 +1,32 @@
+"""The block: the one thing that every question is built from."""
+
+from dm_control import composer, mjcf
+
+from physexp.suite.parts import material
+
+HALF_SIZE = 0.05  # m, half the edge of a cube
+# One colour a position, never a property: apart in hue and, for grey prints, in lightness.
+COLORS = (
+    (0.85, 0.25, 0.20, 1.0),
+    (0.95, 0.75, 0.20, 1.0),
+    (0.25, 0.60, 0.35, 1.0),
+    (0.25, 0.50, 0.85, 1.0),
+    (0.50, 0.30, 0.60, 1.0),
+)
+
+
+class Block(composer.Entity):
+    """A cube of edge 0.1 m with a site at its centre of mass."""
+
+    def _build(self, rgba, mass, name="block"):
+        """Builds a cube of the given colour and mass (kg)."""
+        self._root = mjcf.RootElement(model=name)
+        world = self._root.worldbody
+        self.geom = world.add(
+            "geom", name="geom", type="box", size=[HALF_SIZE] * 3, mass=mass, rgba=rgba, **material.solid()
+        )
+        self.center = world.add("site", name="center", size=[0.001], group=5)
+
+    @property
+    def mjcf_model(self):
+        return self._root
