@@ -14,10 +14,11 @@ import sys
 import pytest
 
 import physexp as package
-from physexp import cli, extras, suite
+from physexp import extras, suite
 from physexp.analysis import doctor
 from physexp.analysis.evaluation import playing
 from physexp.analysis.training import progress
+from physexp.cli import parsing
 
 PHYSEXP = Path(sys.executable).with_name("physexp")
 
@@ -45,7 +46,7 @@ def run(monkeypatch, capsys, tmp_path):
         monkeypatch.setattr(sys, "argv", ["physexp", *map(str, arguments)])
         capsys.readouterr()
         try:
-            cli.main()
+            parsing.main()
             status = 0
         except SystemExit as error:
             status = error.code or 0
@@ -142,7 +143,7 @@ def test_tasks_prints_each_question_and_a_line_for_each_task(run):
 
 def test_a_table_in_a_pipe_has_a_line_for_each_row_however_long(capsys):
     rows = [{"name": "a", "text": "x" * 500}, {"name": "[b]", "text": "two words"}]
-    cli._show_rows(rows, as_json=False)
+    parsing._show_rows(rows, as_json=False)
     assert capsys.readouterr().out == f"name  text\na     {'x' * 500}\n[b]   two words\n"
 
 
@@ -232,8 +233,8 @@ def test_what_cannot_be_done_is_refused_in_one_line(run, arguments, words):
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        ([], f"give a command: {', '.join(cli._COMMANDS)}; see physexp --help"),
-        (["fly"], f"'fly' is no command; choose from {', '.join(cli._COMMANDS)}; see physexp --help"),
+        ([], f"give a command: {', '.join(parsing._COMMANDS)}; see physexp --help"),
+        (["fly"], f"'fly' is no command; choose from {', '.join(parsing._COMMANDS)}; see physexp --help"),
         (["train"], "train needs DOMAIN TASK; see physexp train --help"),
         (["train", "towers"], "train needs TASK; see physexp train --help"),
         (["evaluate", "a", "b"], "evaluate does not take 'b'; see physexp evaluate --help"),

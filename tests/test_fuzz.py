@@ -14,9 +14,10 @@ from hypothesis import strategies as st
 import numpy as np
 import pytest
 
-from physexp import cli, suite
+from physexp import suite
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
+from physexp.cli import parsing
 
 FEATURES = [names for names in suite.ALL_TASKS if names[1].endswith("features")]
 QUICKLY = hypothesis.settings(
@@ -196,7 +197,7 @@ def test_the_command_line_takes_anything(tmp_path_factory, arguments):
     out, err = io.StringIO(), io.StringIO()
     with contextlib.chdir(folder), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         try:
-            command = cli._parse(arguments)
+            command = parsing._parse(arguments)
         except SystemExit as exit_:  # Of --help.
             assert exit_.code == 0, (arguments, out.getvalue(), err.getvalue())
             assert err.getvalue() == ""
@@ -278,7 +279,7 @@ def test_a_command_that_makes_no_sense_is_one_readable_line_and_makes_nothing(li
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "argv", ["physexp", *line.split()])
     with pytest.raises(SystemExit) as exit_:
-        cli.main()
+        parsing.main()
     out, err = capsys.readouterr()
     assert exit_.value.code == 2, err
     assert out == "" and err.startswith("physexp: ") and err.count("\n") == 1

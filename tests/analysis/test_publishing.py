@@ -11,12 +11,12 @@ from safetensors import torch as safetensors
 import torch
 import trainers
 
-from physexp import cli
 from physexp.agents import pretrained
 from physexp.analysis.evaluation import playing, publishing
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
+from physexp.cli import parsing
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,7 @@ def test_the_card_says_what_was_done_and_what_came_of_it(published):
 def test_the_command_on_the_card_describes_the_same_run(published):
     run, path = published
     _, *arguments = shlex.split(json.loads(path.read_text())["command"])
-    train = cli._parse(arguments)
+    train = parsing._parse(arguments)
     assert (train.domain, train.task, train.difficulty) == ("which_is_heavier", "features", 10.0)
     assert train.config == run.config.agent
 
@@ -50,7 +50,7 @@ def test_the_command_on_the_card_describes_the_same_run(published):
 def test_the_commands_of_the_agents_that_come_with_the_package_describe_them_still(card):
     said = json.loads(card.read_text())
     _, *arguments = shlex.split(said["command"])
-    train = cli._parse(arguments)
+    train = parsing._parse(arguments)
     assert (train.domain, train.task, train.difficulty) == (said["domain"], said["task"], said["difficulty"])
     fields = {name: said[name] for name in ("domain", "task", "agent")}
     assert train.config == config_lib.TrainConfig.from_json(fields).agent
@@ -65,7 +65,7 @@ def test_every_field_of_an_agent_survives_the_way_over_the_command_line(task, al
     )
     config = config_lib.TrainConfig(domain=domain, task=name, agent=changed)
     _, *arguments = shlex.split(publishing.command(config))
-    assert cli._parse(arguments).config == changed
+    assert parsing._parse(arguments).config == changed
 
 
 def test_the_agent_is_the_runs_rounded_to_half_precision(published):

@@ -92,9 +92,9 @@ def test_a_lost_terminal_ends_training_with_a_checkpoint(tmp_path):
 def test_a_command_that_trains_nothing_ends_with_one_line():
     code = """
         import os, signal, sys
-        from physexp import cli
+        from physexp.cli import parsing
 
-        cli.Doctor.run = lambda self: (os.kill(os.getpid(), signal.SIGTERM), signal.pause())
+        parsing.Doctor.run = lambda self: (os.kill(os.getpid(), signal.SIGTERM), signal.pause())
         sys.argv = ["physexp", "doctor"]
         cli.main()
     """

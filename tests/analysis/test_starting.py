@@ -12,11 +12,11 @@ import torch
 import trainers
 from trainers import PHYSEXP
 
-from physexp import cli
 from physexp.analysis import demo
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
+from physexp.cli import parsing
 
 TASK = ("which_is_heavier", "features")
 
@@ -24,7 +24,7 @@ TASK = ("which_is_heavier", "features")
 def refusal(capsys, *arguments):
     """The one line with which `physexp` refuses arguments, with exit status 2; it runs in this process."""
     with pytest.raises(SystemExit) as ended:
-        cli._run([str(argument) for argument in arguments])
+        parsing._run([str(argument) for argument in arguments])
     output, errors = capsys.readouterr()
     assert ended.value.code == 2 and output == "" and errors.count("\n") == 1, errors
     return errors
