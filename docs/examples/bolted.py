@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from physexp.suite.engine import seeding, senses, task
+from physexp.suite.engine import declarations, options, seeding, senses, task
 from physexp.suite.parts import arena, block
 
 NUM_BLOCKS = 3
@@ -13,7 +13,7 @@ PULL_FORCE = 5.0  # N
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class Options(task.Options):
+class Options(options.Options):
     """What a user may choose; `physics_timestep` and `time_limit` are the task's own."""
 
     physics_timestep = 0.025  # s
@@ -28,8 +28,10 @@ class WhichIsBolted(task.QuestionTask):
     num_structures = NUM_BLOCKS  # Bolted is what is compiled in: one model for each answer.
 
     def __init__(self, options, sense):
+        """Builds the scene."""
         room = arena.Laboratory(mat_size=[0.3, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.2], fovy=14.5)
         room.mjcf_model.option.gravity = [0, 0, 0]
+        room.mjcf_model.option.flag.contact = "disable"
         self._rails, self._heights = [], []
         for k in range(NUM_BLOCKS):
             frame = room.attach(block.Block(rgba=block.COLORS[k], mass=1.0, name=f"block_{k}"))
@@ -38,25 +40,20 @@ class WhichIsBolted(task.QuestionTask):
             room.mjcf_model.actuator.add("motor", name=f"pull_{k}", joint=rail)
             self._heights.append(room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=rail))
             self._rails.append(rail)
-        super().__init__(room, options, sense, num_interactions=NUM_BLOCKS, num_labels=NUM_BLOCKS)
+        super().__init__(room, options, sense)
 
     # What actions do, and what is seen.
 
     @property
-    def controls(self):
-        return PULL_FORCE * np.eye(NUM_BLOCKS)
+    def interactions(self):
+        return [
+            declarations.Interaction(f"pull block {k}", control, f"block_{k}", (0.0, 0.0, PULL_FORCE))
+            for k, control in enumerate(PULL_FORCE * np.eye(NUM_BLOCKS))
+        ]
 
     @property
-    def sensors(self):
-        return {"heights": (self._heights, (NUM_BLOCKS,))}
-
-    @property
-    def effects(self):
-        return [(f"block_{k}", (0.0, 0.0, PULL_FORCE)) for k in range(NUM_BLOCKS)]
-
-    @property
-    def interaction_names(self):
-        return [f"pull block {k}" for k in range(NUM_BLOCKS)]
+    def readings(self):
+        return {"heights": declarations.Reading(self._heights, (NUM_BLOCKS,))}
 
     @property
     def label_names(self):
@@ -76,6 +73,9 @@ class WhichIsBolted(task.QuestionTask):
     def arrange(self, structure):
         for k, rail in enumerate(self._rails):
             rail.damping = 1e6 if k == structure else 10  # N s/m
+
+    def reveal(self, hidden):
+        return declarations.Revealed(marks={f"block_{int(hidden)}": "bolted"})
 
 
 def features(random=None, **options):

@@ -38,7 +38,7 @@ def _facts() -> dict:
     import torch
 
     from physexp.analysis.training import run
-    from physexp.suite.engine import rendering
+    from physexp.suite.engine import gl
 
     return {
         **run.versions(),
@@ -46,8 +46,8 @@ def _facts() -> dict:
         "torch_threads": torch.get_num_threads(),
         "omp_num_threads": os.environ.get("OMP_NUM_THREADS", "not set"),
         "gpu": torch.cuda.get_device_name() if torch.cuda.is_available() else "none",
-        "gl_backend": rendering.choose_backend(),
-        "gl_renderer": rendering.renderer_name(),
+        "gl_backend": gl.choose_backend(),
+        "gl_renderer": gl.renderer_name(),
     }
 
 
@@ -108,14 +108,12 @@ def _versions(extra: str) -> Iterator[dict]:
 
 
 def _hardware(facts: dict) -> Iterator[dict]:
-    from physexp.suite.engine import rendering
+    from physexp.suite.engine import gl
 
     backend, renderer = facts["gl_backend"], facts["gl_renderer"]
     if renderer.startswith("none"):
-        yield _check(
-            "OpenGL", renderer, MISSING, f"features need none; for pixels, install {rendering.DEBIAN_PACKAGES}"
-        )
-    elif rendering.is_software(renderer) and rendering.gpu_is_present():
+        yield _check("OpenGL", renderer, MISSING, f"features need none; for pixels, install {gl.DEBIAN_PACKAGES}")
+    elif gl.is_software(renderer) and gl.gpu_is_present():
         yield _check(
             "OpenGL",
             f"{backend}: {renderer}",
@@ -124,7 +122,7 @@ def _hardware(facts: dict) -> Iterator[dict]:
         )
     else:
         yield _check("OpenGL", f"{backend}: {renderer}")
-    if facts["gpu"] == "none" and rendering.gpu_is_present():
+    if facts["gpu"] == "none" and gl.gpu_is_present():
         yield _check("GPU", "torch sees none", MISSING, "there is one: install its driver and a CUDA build of torch")
     else:
         yield _check("GPU", facts["gpu"] if facts["gpu"] != "none" else "none; no task needs one")

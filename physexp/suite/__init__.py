@@ -3,36 +3,63 @@
 from collections.abc import Mapping
 import inspect
 
-from physexp.suite.engine import rendering
+from physexp.suite.engine import gl
 
-rendering.choose_backend()
+gl.choose_backend()
 
-from physexp.suite.domains import towers, which_is_heavier  # noqa: E402
-from physexp.suite.engine import batch as _batch  # noqa: E402
-from physexp.suite.engine import checks  # noqa: E402
-from physexp.suite.engine import environment as _environment  # noqa: E402
-from physexp.suite.engine.batch import BatchEnvironment  # noqa: E402
-from physexp.suite.engine.environment import Environment  # noqa: E402
-from physexp.suite.engine.seeding import environment_seed  # noqa: E402
+from physexp.suite.domains import DOMAINS as _DOMAINS
+from physexp.suite.engine import batch as _batch
+from physexp.suite.engine import checks
+from physexp.suite.engine import environment as _environment
+from physexp.suite.engine.batch import BatchEnvironment
+from physexp.suite.engine.environment import Environment
+from physexp.suite.engine.options import Options
+from physexp.suite.engine.seeding import environment_seed
 
 __all__ = [
     "ALL_TASKS",
     "TASKS_BY_DOMAIN",
     "BatchEnvironment",
     "Environment",
+    "Options",
     "environment_seed",
     "load",
     "load_batch",
     "load_task",
+    "options",
+    "tagged",
+    "tags",
 ]
-
-_DOMAINS = {"which_is_heavier": which_is_heavier, "towers": towers}
 
 TASKS_BY_DOMAIN = {name: tuple(domain.SUITE) for name, domain in _DOMAINS.items()}
 """A mapping from each domain name to the names of its tasks."""
 
 ALL_TASKS = tuple((domain, task) for domain, tasks in TASKS_BY_DOMAIN.items() for task in tasks)
 """All (domain name, task name) pairs."""
+
+
+def tags(domain_name, task_name) -> frozenset[str]:
+    """Returns what kind of task it is: `features` or `pixels`, and the domain's own words.
+
+    Raises:
+      ValueError: for an unknown name.
+    """
+    suite = _find_suite(domain_name, task_name)
+    return frozenset(tag for tag in suite.tags() if task_name in suite.tagged(tag))
+
+
+def tagged(*wanted: str) -> tuple[tuple[str, str], ...]:
+    """Returns the (domain name, task name) pairs of the tasks that have all of these tags."""
+    return tuple(pair for pair in ALL_TASKS if tags(*pair).issuperset(wanted))
+
+
+def options(domain_name) -> type[Options]:
+    """Returns the class of a domain's options: the fields and defaults of its `task_kwargs`.
+
+    Raises:
+      ValueError: for an unknown name.
+    """
+    return _find_domain(domain_name).Options
 
 
 def load(domain_name, task_name, task_kwargs=None, environment_kwargs=None, visualize_reward=False) -> Environment:
@@ -77,12 +104,23 @@ def load_task(domain_name, task_name, task_kwargs=None):
     Raises:
       ValueError: for an unknown name or a bad keyword argument.
     """
+    factory = _find_suite(domain_name, task_name)[task_name]
+    return factory(_call(_find_domain(domain_name).Options, "task_kwargs", task_kwargs))
+
+
+def _find_domain(domain_name):
+    """Returns the module of a domain."""
     if not isinstance(domain_name, str) or domain_name not in _DOMAINS:
         raise ValueError(f"domain_name is {checks.shown(domain_name)}; known domains: {', '.join(_DOMAINS)}")
-    domain = _DOMAINS[domain_name]
-    if not isinstance(task_name, str) or task_name not in domain.SUITE:
-        raise ValueError(f"task_name is {checks.shown(task_name)}; tasks of {domain_name}: {', '.join(domain.SUITE)}")
-    return domain.SUITE[task_name](_call(domain.Options, "task_kwargs", task_kwargs))
+    return _DOMAINS[domain_name]
+
+
+def _find_suite(domain_name, task_name):
+    """Returns the tasks of a domain that has one of this name."""
+    suite = _find_domain(domain_name).SUITE
+    if not isinstance(task_name, str) or task_name not in suite:
+        raise ValueError(f"task_name is {checks.shown(task_name)}; tasks of {domain_name}: {', '.join(suite)}")
+    return suite
 
 
 def _call(function, name, kwargs, *args):

@@ -13,8 +13,8 @@ from physexp.suite.engine import rendering
 def test_the_poses_that_are_drawn_are_those_of_environments_that_were_played(name):
     geom_xpos, geom_xmat = bench_pixels._played_poses(name)
     assert len(geom_xpos) == len(geom_xmat) == bench_pixels.BATCH
-    model = suite.load_task(*bench_pixels.TASKS[name], {"random": 0}).build_apparatus(0).model
-    renderer = rendering.Renderer(model)
+    apparatus = suite.load_task(*bench_pixels.TASKS[name], {"random": 0}).build_apparatus(0)
+    renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms)
     images = np.zeros((bench_pixels.BATCH, rendering.SIZE, rendering.SIZE, 3), np.uint8)
     renderer.render(geom_xpos, geom_xmat, np.arange(bench_pixels.BATCH), images)
     renderer.close()

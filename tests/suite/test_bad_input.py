@@ -419,7 +419,7 @@ def test_an_episode_that_diverges_ends_without_reward_and_the_next_is_played_as_
 
 
 def _overwrite_velocity(batch, environment: int, velocity: float) -> None:
-    batch._groups[int(batch._structures[environment])]._batch.bind("qvel")[environment, 0] = velocity
+    batch.view("qvel", environment)[0] = velocity
 
 
 @every_feature_task

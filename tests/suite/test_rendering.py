@@ -13,7 +13,7 @@ import pytest
 
 from physexp import suite
 from physexp.analysis import doctor
-from physexp.suite.engine import rendering
+from physexp.suite.engine import gl, rendering
 
 import mujoco  # isort: skip  # The suite chooses the GL backend, which mujoco looks at once.
 
@@ -24,7 +24,7 @@ NO_DISPLAY = {"DISPLAY": None, "WAYLAND_DISPLAY": None}
 # What draws is not what is tested here, but where it is said.
 pytestmark = pytest.mark.filterwarnings("ignore:PIXELS ARE DRAWN BY THE PROCESSOR")
 
-needs_gl = pytest.mark.skipif(rendering.choose_backend() == "disable", reason="no GL library is here")
+needs_gl = pytest.mark.skipif(gl.choose_backend() == "disable", reason="no GL library is here")
 
 
 def _needs_library(name: str) -> None:
@@ -159,10 +159,10 @@ def test_without_gl_libraries_features_are_played_and_pixels_say_what_to_install
         f"""
 {HIDE_GL}
 {PLAY}
-from physexp.suite.engine import rendering
+from physexp.suite.engine import gl
 found["played"] = play_features()
 found["drawn"] = draw()
-found["name"] = rendering.renderer_name()
+found["name"] = gl.renderer_name()
 found["played_again"] = play_features()
 """,
         MUJOCO_GL=None,
@@ -251,7 +251,7 @@ for _ in range(3):
 counts.append(len(made))
 single.close(), batch.close()
 """,
-        MUJOCO_GL=rendering.choose_backend(),
+        MUJOCO_GL=gl.choose_backend(),
     )
     assert found["counts"] == [0, 0, 0, 1, 2]
 
@@ -275,12 +275,12 @@ def test_a_context_is_made_by_the_thread_that_draws(contexts):
 
 @needs_gl
 def test_a_closed_renderer_says_so_and_may_be_closed_again():
-    model = suite.load_task(*HEAVIER).build_apparatus(0).model
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
+    apparatus = suite.load_task(*HEAVIER).build_apparatus(0)
+    data = mujoco.MjData(apparatus.model)
+    mujoco.mj_forward(apparatus.model, data)
     images = np.zeros((1, rendering.SIZE, rendering.SIZE, 3), np.uint8)
     poses = (data.geom_xpos[None], data.geom_xmat[None], np.array([0]), images)
-    renderer = rendering.Renderer(model)
+    renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms)
     renderer.render(*poses)
     assert images.std() > 10, "nothing was drawn"
     renderer.close()
@@ -290,7 +290,7 @@ def test_a_closed_renderer_says_so_and_may_be_closed_again():
 
 
 FORGETFUL = {
-    "kept": "from physexp.suite.engine import rendering\nrendering.renderer_name()",
+    "kept": "from physexp.suite.engine import gl\ngl.renderer_name()",
     "closed in part, and dropped": "env.close()\nbatch.itself = batch\ndel env, batch",
     "exits": "import sys\nsys.exit(0)",
 }
@@ -343,8 +343,8 @@ def test_the_renderers_name_is_gls_own_and_what_the_doctor_shows():
     context.make_current()
     name = GL.glGetString(GL.GL_RENDERER).decode()
     context.free()
-    rendering.renderer_name.cache_clear()
-    assert name and doctor.examine()["gl_renderer"] == rendering.renderer_name() == name
+    gl.renderer_name.cache_clear()
+    assert name and doctor.examine()["gl_renderer"] == gl.renderer_name() == name
 
 
 @needs_gl
@@ -355,8 +355,8 @@ def test_asking_for_the_renderers_name_disturbs_no_environment():
         env.reset()
         for action in (0, 1):
             if ask:
-                rendering.renderer_name.cache_clear()
-                rendering.renderer_name()
+                gl.renderer_name.cache_clear()
+                gl.renderer_name()
             images.append(env.step(action).observation["pixels"])
         env.close()
     np.testing.assert_array_equal(images[:2], images[2:])
@@ -364,20 +364,20 @@ def test_asking_for_the_renderers_name_disturbs_no_environment():
 
 @pytest.mark.parametrize("name", ["llvmpipe (LLVM 15.0.6, 256 bits)", "softpipe", "Software Rasterizer", "swrast"])
 def test_software_is_known_by_its_name(name):
-    assert rendering.is_software(name)
+    assert gl.is_software(name)
 
 
 @pytest.mark.parametrize("name", ["NVIDIA H100/PCIe/SSE2", "Mesa Intel(R) UHD Graphics 620 (KBL GT2)", "AMD Radeon"])
 def test_hardware_is_no_software(name):
-    assert not rendering.is_software(name)
+    assert not gl.is_software(name)
 
 
 @pytest.fixture
 def on_a_machine_with_a_gpu(monkeypatch):
     """Or without one, if it is called with False. Nothing has been said yet, and is remembered afterwards."""
-    monkeypatch.setenv(rendering._SAID, "")
-    monkeypatch.delenv(rendering._SAID)
-    return lambda present=True: monkeypatch.setattr(rendering, "gpu_is_present", lambda: present)
+    monkeypatch.setenv(gl._SAID, "")
+    monkeypatch.delenv(gl._SAID)
+    return lambda present=True: monkeypatch.setattr(gl, "gpu_is_present", lambda: present)
 
 
 LLVMPIPE = "llvmpipe (LLVM 15.0.6, 256 bits)"
@@ -387,20 +387,20 @@ def test_drawing_by_software_on_a_machine_with_a_gpu_warns_exactly_once(on_a_mac
     on_a_machine_with_a_gpu()
     with pytest.warns(RuntimeWarning, match="PIXELS ARE DRAWN BY THE PROCESSOR") as warned:
         for _ in range(3):
-            rendering.warn_if_software(LLVMPIPE)
+            gl.warn_if_software(LLVMPIPE)
     assert len(warned) == 1
     assert LLVMPIPE in str(warned[0].message)
     found, stderr = _run(f"""
-from physexp.suite.engine import rendering
-rendering.gpu_is_present = lambda: True
-rendering.warn_if_software({LLVMPIPE!r})
+from physexp.suite.engine import gl
+gl.gpu_is_present = lambda: True
+gl.warn_if_software({LLVMPIPE!r})
 """)
     assert stderr == "", "a process that this one starts says it again"
 
 
 @needs_gl
 def test_environments_that_draw_by_software_on_a_machine_with_a_gpu_warn_once_in_all(on_a_machine_with_a_gpu):
-    if not rendering.is_software(rendering.renderer_name()):
+    if not gl.is_software(gl.renderer_name()):
         pytest.skip("hardware draws here")
     on_a_machine_with_a_gpu()
     with pytest.warns(RuntimeWarning, match="PIXELS ARE DRAWN BY THE PROCESSOR") as warned:
@@ -416,7 +416,7 @@ def test_environments_that_draw_by_software_on_a_machine_with_a_gpu_warn_once_in
 @pytest.mark.parametrize("name, present", [(LLVMPIPE, False), ("NVIDIA H100/PCIe/SSE2", True)])
 def test_nothing_is_said_without_a_gpu_or_when_it_draws(on_a_machine_with_a_gpu, name, present):
     on_a_machine_with_a_gpu(present)
-    rendering.warn_if_software(name)
+    gl.warn_if_software(name)
 
 
 DRAW_ALL = """

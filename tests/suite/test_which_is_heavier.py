@@ -91,14 +91,14 @@ def test_random_pokes_take_no_block_above_the_ceiling(seed, difficulty):
 
 @pytest.mark.parametrize("pokes_first", [0, 20], ids=["random pokes", "pushed to the ceiling first"])
 def test_the_masses_act_as_if_they_were_compiled_into_the_model(seed, pokes_first):
-    """`mass_fields` writes three fields where `mj_setConst` would write them all; nothing else may matter."""
+    """`slide_masses` writes three fields where `mj_setConst` would write them all; nothing else may matter."""
     rng = np.random.default_rng(seed)
     env = suite.load("which_is_heavier", "features", task_kwargs={"random": seed, "difficulty": 1})
     for _ in range(3):
         env.reset()
-        kit = env.task.apparatus
-        model = copy.copy(kit.model)
-        model.body_mass[kit.hidden_bodies] = LIGHTEST + (HEAVIEST - LIGHTEST) * env.task.hidden
+        model = copy.copy(env.task.apparatus.model)
+        blocks = [model.body(f"block_{k}/").id for k in range(4)]
+        model.body_mass[blocks] = LIGHTEST + (HEAVIEST - LIGHTEST) * env.task.hidden
         mujoco.mj_setConst(model, mujoco.MjData(model))
         data = mujoco.MjData(model)
         highest = 0.0

@@ -8,7 +8,7 @@ import numpy as np
 
 from physexp import suite  # Before mujoco and dm_control, for which it chooses the GL backend.
 from physexp.analysis.bench import measuring
-from physexp.suite.engine import rendering
+from physexp.suite.engine import gl, rendering
 from physexp.suite.parts import block, tower
 
 from dm_control import composer, mjcf  # isort: skip
@@ -74,8 +74,10 @@ def _batch_drawing(name: str) -> Callable[[], int]:
     task = suite.load_task(*TASKS[name], {"random": 0})
     geom_xpos, geom_xmat = _played_poses(name)
     observations = {"pixels": np.zeros((BATCH, rendering.SIZE, rendering.SIZE, 3), np.uint8)}
-    state, touched, rows = {"geom_xpos": geom_xpos, "geom_xmat": geom_xmat}, np.ones(BATCH, bool), np.arange(BATCH)
-    apparatus = task.build_apparatus(0)
+    apparatus, rows = task.build_apparatus(0), np.arange(BATCH)
+    sensordata = np.repeat(apparatus.rest["sensordata"][None], BATCH, axis=0)
+    state = {"geom_xpos": geom_xpos, "geom_xmat": geom_xmat, "sensordata": sensordata}
+    touched = np.ones((BATCH, len(apparatus.held)), bool)
 
     def draw() -> int:
         task.look(apparatus, state, touched, rows, observations)
@@ -102,14 +104,14 @@ def _played_poses(name: str) -> tuple[np.ndarray, np.ndarray]:
 
 def bare_rendering(name: str) -> Callable[[], int]:
     """MuJoCo's own drawing and read-back of a task's scene, which stays as it is."""
-    model = suite.load_task(*TASKS[name], {"random": 0}).build_apparatus(0).model
-    renderer = rendering.Renderer(model)
+    apparatus = suite.load_task(*TASKS[name], {"random": 0}).build_apparatus(0)
+    renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms)
     size = rendering.SIZE
     context, scene, buffers = renderer.context, renderer.scene, renderer.buffers
     image, rectangle = np.zeros((size, size, 3), np.uint8), mujoco.MjrRect(0, 0, size, size)
 
     def draw(renderer=renderer) -> int:  # Keeps the renderer alive.
-        with rendering.current(context):
+        with gl.current(context):
             for _ in range(BATCH):
                 mujoco.mjr_render(rectangle, scene, buffers)
                 mujoco.mjr_readPixels(image, None, rectangle, buffers)

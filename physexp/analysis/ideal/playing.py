@@ -55,8 +55,8 @@ def calibrate(task_kwargs: Mapping[str, Any] | None = None) -> Callable[[float],
     data = mujoco.MjData(kit.model)
     masses, heights = np.linspace(0, 1, _CALIBRATION_NODES), []
     for mass in masses:
-        hidden = task.hidden_masses(np.full((1, task.num_interactions), mass))
-        for field, (addresses, values) in kit.mass_fields(hidden).items():
+        hidden = np.full((1, task.num_interactions), mass)
+        for field, (addresses, values) in task.hidden_fields(kit, hidden).items():
             getattr(kit.model, field)[addresses] = values[0]
         mujoco.mj_resetData(kit.model, data)
         data.ctrl[:] = task.controls[0]

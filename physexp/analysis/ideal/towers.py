@@ -17,12 +17,11 @@ from physexp import suite
 from physexp.agents import core
 from physexp.analysis.ideal import trajectories as trajectories_lib
 from physexp.analysis.training import config
+from physexp.suite.domains import towers
 from physexp.suite.parts import tower
 
 OBJECTIVES = ("return", "time")
-_COUNTS = np.array([tower.num_bodies(pattern) for pattern in tower.PATTERNS])
-# The count is uniform, the pattern uniform given the count.
-_PRIOR = np.array([1 / tower.NUM_BLOCKS / math.comb(tower.NUM_BLOCKS - 1, count - 1) for count in _COUNTS])
+_COUNTS, _PRIOR = towers.NUM_BODIES, towers.PRIOR
 _EVERYTHING = tuple(range(len(_COUNTS)))
 _PRECISION = 1e-9
 _WIDTH = 4  # Actions looked into at a time.

@@ -39,7 +39,6 @@ class Trajectories:
         self._batch = suite.load_batch("towers", task_name, NUM_PATTERNS * _SEQUENCES, kwargs, num_threads)
         self.task = self._batch.task
         self.steps = 0
-        self._episodes = _episodes_with_every_pattern(self._batch)
         self._apart: dict[Actions, np.ndarray] = {(): np.zeros((NUM_PATTERNS, NUM_PATTERNS))}
 
     def is_expanded(self, sequence: Actions) -> bool:
@@ -69,8 +68,7 @@ class Trajectories:
     def _play(self, sequences: list[Actions]):
         """Plays sequences of one length side by side, each in 16 environments."""
         rows = np.arange(NUM_PATTERNS * len(sequences))
-        for episode in np.unique(self._episodes[rows]):
-            self._batch.reset(rows[self._episodes[rows] == episode], episode=int(episode))
+        self._batch.reset(rows, hidden=rows % NUM_PATTERNS)
         for actions in np.array(sequences).T:
             timestep = self._batch.step(np.repeat(actions, NUM_PATTERNS), rows)
             self.steps += len(rows)
@@ -79,18 +77,6 @@ class Trajectories:
         for number, sequence in enumerate(sequences):
             its = slice(NUM_PATTERNS * number, NUM_PATTERNS * (number + 1))
             yield sequence, {name: value[its].copy() for name, value in timestep.observation.items()}
-
-
-def _episodes_with_every_pattern(batch) -> np.ndarray:
-    """For each environment i the first episode in which its pattern is i modulo 16."""
-    wanted = np.arange(batch.num_environments) % NUM_PATTERNS
-    episodes = np.full(batch.num_environments, -1)
-    for episode in range(10_000):
-        drawn = batch.task.draw(batch.seeds, np.full(batch.num_environments, episode))
-        episodes[(episodes < 0) & (drawn == wanted)] = episode
-        if (episodes >= 0).all():
-            return episodes
-    raise RuntimeError("some glue pattern is not drawn in 10 000 episodes; is its probability zero?")
 
 
 def distances(observation: Mapping[str, np.ndarray]) -> np.ndarray:

@@ -60,7 +60,7 @@ def _named(label: str, things: recording.Things) -> str | None:
 
 def sensed_things(task) -> dict[str, list[str]]:
     """The names of the things that the components of each feature tell of, in the order of its sensors."""
-    return {name: [_owner(sensor) for sensor in sensors] for name, (sensors, _) in task.sensors.items()}
+    return {name: [_owner(sensor) for sensor in reading.sensors] for name, reading in task.readings.items()}
 
 
 def _owner(sensor: Any) -> str:

@@ -5,10 +5,10 @@ from typing import Literal
 
 import numpy as np
 
+from physexp import suite
 from physexp.agents import networks
 from physexp.analysis.evaluation import playing
 from physexp.analysis.training import config as config_lib
-from physexp.suite.domains import which_is_heavier
 
 Selection = Literal["any", "wrong", "right", "longest", "hardest"]
 _MOST = 10_000  # Episodes played in search of enough.
@@ -27,8 +27,8 @@ def select(
     Args:
       network, config, interaction, seed: as for `playing.play`.
       count: how many are wanted, >= 1.
-      selection: the first ones, the first wrong or right ones, those with the most interactions, or the hardest: with
-        the smallest mass gap, or the glue patterns that take this agent the longest.
+      selection: the first ones, the first wrong or right ones, those with the most interactions, or the hardest: as the
+        task has it, or else those that take this agent the longest.
 
     Yields:
       Seed, number and actions of each chosen episode; fewer than wanted where there are not enough.
@@ -39,9 +39,10 @@ def select(
     if count < 1:
         raise ValueError(f"episodes is {count}; give a number >= 1")
     size = max(count, 256)
+    task = suite.load_task(config.domain, config.task, config.task_kwargs)
     while True:
         played = playing.play(network, config, size if selection != "any" else count, interaction, seed=seed)
-        order = _order(played, selection)
+        order = _order(played, selection, task.hardness(played.hidden))
         if len(order) >= count or size >= _MOST or selection == "any":
             break
         size = min(4 * size, _MOST)
@@ -51,7 +52,7 @@ def select(
         yield int(played.seeds[index]), int(played.numbers[index]), played.actions[index]
 
 
-def _order(played: playing.Episodes, selection: Selection) -> np.ndarray:
+def _order(played: playing.Episodes, selection: Selection, hardness: np.ndarray | None) -> np.ndarray:
     """Indices of the episodes that are as wanted, the best first."""
     if selection == "wrong":
         return np.flatnonzero(played.rewards < 0)
@@ -60,9 +61,8 @@ def _order(played: playing.Episodes, selection: Selection) -> np.ndarray:
     if selection == "longest":
         return np.argsort(-played.interactions, kind="stable")
     if selection == "hardest":
-        if played.hidden.ndim == 2:
-            return np.argsort(which_is_heavier.mass_gaps(played.hidden), kind="stable")
-        _, pattern = np.unique(played.hidden, return_inverse=True)
-        typical = np.bincount(pattern, played.interactions) / np.bincount(pattern)
-        return np.argsort(-typical[pattern], kind="stable")
+        if hardness is None:  # As long as this agent takes for such an instance.
+            _, kinds = np.unique(played.hidden, axis=0, return_inverse=True)
+            hardness = (np.bincount(kinds, played.interactions) / np.bincount(kinds))[kinds]
+        return np.argsort(-hardness, kind="stable")
     return np.arange(len(played.lengths))

@@ -178,23 +178,17 @@ class EpisodeWriter:
         self._columns(entity, episode.times, columns)
 
     def _write_hidden(self) -> None:
-        """Masses as labels; things that are one rigid body joined by bars that move with the lower one."""
-        episode, task = self._episode, self._task
-        names = episode.things.names
-        masses = task.hidden_masses(np.asarray(episode.hidden)[None])[0]
-        for number, (joint, mass) in enumerate(zip(task.hidden_joints, masses, strict=True)):
-            entity = f"world/hidden/mass_{number}"
-            self._log(
-                entity,
-                rr.Points3D(
-                    [(0, 0, 0.1 + 0.06 * (number % 2))], labels=[f"{mass:.2f} kg"], radii=[0.006], show_labels=True
-                ),
-            )
-            self._follow(entity, names.index(palette.owner(joint.full_identifier)))
-        bodies = episode.things.bodies
-        for k in np.flatnonzero(bodies[1:] == bodies[:-1]).tolist():
-            entity = f"world/hidden/glue_above_{names[k]}"
-            middle = (episode.positions[0, k + 1] - episode.positions[0, k]) @ episode.rotations[0, k] / 2
+        """Texts beside things, and bars between things that are joined, which move with the first of them."""
+        episode, names = self._episode, self._episode.things.names
+        revealed = self._task.reveal(episode.hidden)
+        for number, (thing, text) in enumerate(revealed.marks.items()):
+            entity = f"world/hidden/mark_{thing}"
+            place = (0, 0, 0.1 + 0.06 * (number % 2))  # Neighbours' texts at two heights.
+            self._log(entity, rr.Points3D([place], labels=[text], radii=[0.006], show_labels=True))
+            self._follow(entity, names.index(thing))
+        for first, second in revealed.joined:
+            entity, k, other = f"world/hidden/{first}_to_{second}", names.index(first), names.index(second)
+            middle = (episode.positions[0, other] - episode.positions[0, k]) @ episode.rotations[0, k] / 2
             half = (0.4 * block.HALF_SIZE, 1.15 * block.HALF_SIZE, 0.8 * block.HALF_SIZE)
             self._log(entity, rr.Boxes3D(centers=[middle], half_sizes=[half], colors=[palette.GLUE], fill_mode="solid"))
             self._follow(entity, k)
@@ -275,15 +269,15 @@ class EpisodeWriter:
 
     def _write_arrows(self) -> None:
         """At every physics step, where the action acts and in which direction; of no length where there is none."""
-        episode, effects = self._episode, self._task.effects
+        episode, interactions = self._episode, self._task.interactions
         steps = np.ceil(episode.times / self._task.control_timestep - 1e-6).astype(int) - 1  # Of the action under way.
         steps = np.clip(steps, 0, len(episode.actions) - 1)
         origins, vectors = np.zeros((2, len(steps), 3))
         for frame, step in enumerate(steps):
-            if episode.actions[step] < len(effects):
-                thing, effect = effects[episode.actions[step]]
-                origins[frame] = episode.positions[frame, episode.things.names.index(thing)]
-                vectors[frame] = _ARROW_LENGTH * np.array(effect) / np.linalg.norm(effect)
+            if episode.actions[step] < len(interactions):
+                interaction = interactions[episode.actions[step]]
+                origins[frame] = episode.positions[frame, episode.things.names.index(interaction.thing)]
+                vectors[frame] = _ARROW_LENGTH * np.array(interaction.vector) / np.linalg.norm(interaction.vector)
         self._log("world/action", rr.Arrows3D.from_fields(colors=[palette.ACTION], radii=[0.012]))
         self._columns("world/action", episode.times, rr.Arrows3D.columns(origins=origins, vectors=vectors))
         end = self._step_times[-1] + 1e-3  # After the last step, when nothing is done any more.

@@ -9,6 +9,7 @@ from pathlib import Path
 import tempfile
 import time
 
+from physexp import suite
 from physexp.agents import files
 from physexp.analysis.data import records
 from physexp.analysis.experiments import base
@@ -16,7 +17,6 @@ from physexp.analysis.reproduction import jobs as jobs_lib
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import progress, stopping, trainer, verdict
 from physexp.analysis.training import run as run_lib
-from physexp.suite.engine import task
 
 _POLL_SECONDS = 5.0
 _REPORT_SECONDS = 60.0
@@ -186,7 +186,7 @@ def _play(this: run_lib.Run, trial: base.Trial):
         num_threads=1,
         num_steps=trial.num_steps,
     )
-    return records.table(played, config, trial.interaction, timestep or task.Options.control_timestep)
+    return records.table(played, config, trial.interaction, timestep or suite.Options.control_timestep)
 
 
 class Meter:

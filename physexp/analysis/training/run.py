@@ -358,10 +358,10 @@ def _write_lines(path: Path, lines: list[str]) -> None:
 def renderer(config: config_lib.TrainConfig) -> str:
     """What draws the images of a run, or that none are drawn."""
     from physexp import suite
-    from physexp.suite.engine import rendering
+    from physexp.suite.engine import gl
 
     task = suite.load_task(config.domain, config.task, config.task_kwargs)
-    return rendering.renderer_name() if task.sense.needs_gl else "none is needed"
+    return gl.renderer_name() if task.sense.needs_gl else "none is needed"
 
 
 def commit() -> str:

@@ -20,7 +20,7 @@ from physexp.agents.ppo.config import PPOConfig
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import stopping
-from physexp.suite.engine import rendering
+from physexp.suite.engine import gl
 
 ROW_SECONDS = 5.0  # Between rows of metrics.csv.
 _WORKERS_PER_CORE = 32  # More would take memory (half a gigabyte each) and no less time.
@@ -44,7 +44,7 @@ def check(config: config_lib.TrainConfig, on_cluster: bool = False) -> None:
     needs_gl = suite.load_task(config.domain, config.task, config.task_kwargs).sense.needs_gl
     try:
         if needs_gl:
-            rendering.check()
+            gl.check()
         if not on_cluster:  # There each worker computes on what its own machine has.
             devices.choose(config.agent.device, needs_gl)
     except RuntimeError as error:

@@ -1,0 +1,6 @@
+"""The domains, in the order in which they are listed; each asks one question."""
+
+from physexp.suite.domains import towers, which_is_heavier
+
+DOMAINS = {module.__name__.rpartition(".")[2]: module for module in (which_is_heavier, towers)}
+"""The modules of the domains by name; each has `SUITE`, the factories of its tasks, and `Options`."""

@@ -5,7 +5,9 @@ import dataclasses
 from dm_control.utils import containers
 import numpy as np
 
-from physexp.suite.engine import checks, seeding, senses, task
+from physexp.suite.engine import apparatus as apparatus_lib
+from physexp.suite.engine import checks, declarations, seeding, senses, task
+from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, block
 
 SUITE = containers.TaggedTasks()
@@ -34,7 +36,7 @@ _MAX_DRAWS = 16
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class Options(task.Options):
+class Options(options_lib.Options):
     """The `task_kwargs` of this domain.
 
     Attributes:
@@ -81,49 +83,45 @@ class WhichIsHeavier(task.QuestionTask):
             )
             motors.add("motor", name=f"poke_{k}", joint=self._joints[-1])
             self.blocks.append(cube)
+        self._rails = tuple(joint.full_identifier for joint in self._joints)
         self._height_sensors = [
             room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=joint)
             for k, joint in enumerate(self._joints)
         ]
-        super().__init__(room, options, sense, num_interactions=NUM_BLOCKS, num_labels=NUM_BLOCKS)
+        super().__init__(room, options, sense)
 
     @property
-    def controls(self):
-        return POKE_FORCE * np.eye(NUM_BLOCKS)
-
-    @property
-    def effects(self):
-        return [(f"block_{k}", (0.0, 0.0, POKE_FORCE)) for k in range(NUM_BLOCKS)]
-
-    @property
-    def interaction_names(self):
-        return [f"poke block {k}" for k in range(NUM_BLOCKS)]
+    def interactions(self):
+        return [
+            declarations.Interaction(f"poke block {k}", control, f"block_{k}", (0.0, 0.0, POKE_FORCE))
+            for k, control in enumerate(POKE_FORCE * np.eye(NUM_BLOCKS))
+        ]
 
     @property
     def label_names(self):
         return [f"block {k} is heaviest" for k in range(NUM_BLOCKS)]
 
     @property
-    def sensors(self):
-        return {"heights": (self._height_sensors, (NUM_BLOCKS,))}
-
-    @property
-    def bounds(self):
-        return {"heights": (FLOOR, HIGHEST)}
+    def readings(self):
+        return {"heights": declarations.Reading(self._height_sensors, (NUM_BLOCKS,), bounds=(FLOOR, HIGHEST))}
 
     def draw(self, seeds, episodes):
-        """Masses on the paper's scale, float64 [N, 4] in [0, 1]; to kilograms: `kilograms`."""
+        """Returns masses on the paper's scale, float64 [N, 4] in [0, 1]; to kilograms: `kilograms`."""
         return draw_masses(seeds, episodes, self.options.difficulty)
 
     def answers(self, hidden):
         return hidden.argmax(axis=1)
 
-    @property
-    def hidden_joints(self):
-        return self._joints
+    def hidden_fields(self, apparatus, hidden):
+        return apparatus_lib.slide_masses(apparatus, self._rails, kilograms(hidden))
 
-    def hidden_masses(self, hidden):
-        return kilograms(hidden)
+    def reveal(self, hidden):
+        """Returns the blocks' masses."""
+        return declarations.Revealed(marks={f"block_{k}": f"{mass:.2f} kg" for k, mass in enumerate(kilograms(hidden))})
+
+    def hardness(self, hidden):
+        """Returns how near the two heaviest blocks are: the smaller the mass gap, the harder."""
+        return -mass_gaps(hidden)
 
 
 def kilograms(masses):

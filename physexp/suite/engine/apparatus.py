@@ -3,11 +3,35 @@
 One environment and a batch both step apparatuses of the same task, which is why they agree bit for bit.
 """
 
+from collections.abc import Mapping, Sequence
 import dataclasses
 import functools
 
+from dm_control import composer, mjcf
 import mujoco
 import numpy as np
+
+from physexp.suite.engine import declarations
+
+# A held entity looks exactly as at the start until it has moved by more than this. Contacts at rest settle by less than
+# a tenth of it, and the weakest touch moves a block by several times as much.
+TOUCH_TOLERANCE = 1e-4  # m, or the same in a quaternion's components
+
+LOOKED_AT = ("sensordata", "geom_xpos", "geom_xmat")
+"""The fields of `MjData` that observations are made of."""
+
+
+@dataclasses.dataclass(frozen=True)
+class _Held:
+    """A held entity.
+
+    Attributes:
+      qpos: addresses of its coordinates, int [K].
+      shows: for each field of `LOOKED_AT`, the addresses of what shows it.
+    """
+
+    qpos: np.ndarray
+    shows: dict[str, np.ndarray]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -18,93 +42,161 @@ class Apparatus:
       model: the compiled model.
       readings: for each feature, the sensor addresses that make it up, int of the feature's shape.
       rest_qpos: `qpos` of the initial state, float64 [nq].
-      rest: fields of `MjData` in the initial state, float64, by name.
-      held_qpos: addresses in `qpos` of the coordinates that look at rest until they are moved.
-      held: for each field in `rest`, the addresses of what shows them.
-      hidden_bodies: the bodies whose masses differ from episode to episode.
-      hidden_dofs: the degree of freedom, a slide, of each of them.
+      rest: the fields of `LOOKED_AT` in the initial state, float64, by name.
+      held: the entities that must look untouched until they are.
+      moving_geoms: the geoms that do not stand still in images, int [M].
     """
 
     model: mujoco.MjModel
     readings: dict[str, np.ndarray]
     rest_qpos: np.ndarray
     rest: dict[str, np.ndarray]
-    held_qpos: np.ndarray
-    held: dict[str, np.ndarray]
-    hidden_bodies: np.ndarray
-    hidden_dofs: np.ndarray
+    held: tuple[_Held, ...]
+    moving_geoms: np.ndarray
+    _measures: Mapping[str, declarations.Measure]
+    _indicators: tuple[tuple[int, str, int, np.ndarray], ...]
 
     def shown(self, field: str, values: np.ndarray, touched: np.ndarray) -> np.ndarray:
-        """A field as it may be seen: where nothing has been touched, held parts are exactly as they were at the start.
+        """Returns a field as it may be seen: held entities that were not touched are exactly as at the start.
 
         Args:
-          field: name of the field, one in `rest`.
+          field: one of `LOOKED_AT`.
           values: its values, float64 [N, ...].
-          touched: whether held parts have been touched, bool [N].
+          touched: whether each held entity has been touched, bool [N, number of held entities].
 
         Returns:
           A copy, float64 [N, ...].
         """
         shown = values.copy()
-        shown[np.ix_(~touched, self.held[field])] = self.rest[field][self.held[field]]
+        for held, is_touched in zip(self.held, touched.T, strict=True):
+            shown[np.ix_(~is_touched, held.shows[field])] = self.rest[field][held.shows[field]]
         return shown
 
-    def moved(self, qpos: np.ndarray, tolerance: float) -> np.ndarray:
-        """Whether any held coordinate has left its rest value by more than `tolerance`: bool [N] from [N, nq]."""
-        displacement = np.abs(qpos[:, self.held_qpos] - self.rest_qpos[self.held_qpos])
-        return displacement.max(axis=1, initial=0.0) > tolerance
+    def moved(self, qpos: np.ndarray) -> np.ndarray:
+        """Returns which held entities have left their place: bool [N, number of held entities] from [N, nq]."""
+        moved = np.zeros((len(qpos), len(self.held)), bool)
+        for k, held in enumerate(self.held):
+            displacement = np.abs(qpos[:, held.qpos] - self.rest_qpos[held.qpos])
+            moved[:, k] = displacement.max(axis=1, initial=0.0) > TOUCH_TOLERANCE
+        return moved
 
-    def mass_fields(self, kilograms: np.ndarray) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """The model fields that follow from the hidden bodies' masses, float64 [N, k]: addresses and values of each.
+    def read(self, name: str, sensordata: np.ndarray) -> np.ndarray:
+        """Returns a feature, float64 [N, ...], from `sensordata`, float64 [N, nsensordata]."""
+        values = sensordata[:, self.readings[name]]
+        return self._measures[name](values) if name in self._measures else values
 
-        They are what `mj_setConst` would compute for bodies on one slide each, at a hundredth of its cost.
-        """
-        return {
-            "body_mass": (self.hidden_bodies, kilograms),
-            "dof_M0": (self.hidden_dofs, kilograms),
-            "dof_invweight0": (self.hidden_dofs, 1 / kilograms),
-        }
+    def indicate(self, geom_xpos: np.ndarray, sensordata: np.ndarray) -> None:
+        """Puts the indicators where the readings have them: writes to `geom_xpos`, [N, ngeom, 3]."""
+        for geom, name, component, travel in self._indicators:
+            value = self.read(name, sensordata).reshape(len(sensordata), -1)[:, component]
+            geom_xpos[:, geom] = self.rest["geom_xpos"][geom] + value[:, None] * travel
+
+    @functools.cached_property
+    def _dofs(self) -> dict[tuple[str, ...], tuple[np.ndarray, np.ndarray]]:
+        return {}
+
+    def dofs(self, joints: tuple[str, ...]) -> tuple[np.ndarray, np.ndarray]:
+        """Returns the degrees of freedom and the bodies, int [K] each, of slides or hinges by their full names."""
+        if joints not in self._dofs:
+            found = [self.model.joint(joint) for joint in joints]
+            dofs, bodies = (np.array([getattr(each, field)[0] for each in found]) for field in ("dofadr", "bodyid"))
+            self._dofs[joints] = dofs, bodies
+        return self._dofs[joints]
+
+
+def slide_masses(apparatus: Apparatus, joints: tuple[str, ...], kilograms: np.ndarray) -> declarations.Fields:
+    """Returns the model fields that follow from the masses, float64 [N, K], of bodies on one slide each.
+
+    They are what `mj_setConst` would compute, at a hundredth of its cost.
+    """
+    dofs, bodies = apparatus.dofs(joints)
+    return {"body_mass": (bodies, kilograms), "dof_M0": (dofs, kilograms), "dof_invweight0": (dofs, 1 / kilograms)}
+
+
+def frictions(apparatus: Apparatus, joints: tuple[str, ...], newtons: np.ndarray) -> declarations.Fields:
+    """Returns the model fields of dry friction, float64 [N, K], on slides (N) or hinges (N m)."""
+    dofs, _ = apparatus.dofs(joints)
+    return {"dof_frictionloss": (dofs, newtons)}
 
 
 @functools.lru_cache(maxsize=256)
 def compile_xml(xml: str) -> mujoco.MjModel:
-    """The model of an MJCF string, compiled once per process."""
+    """Returns the model of an MJCF string, compiled once per process."""
     return mujoco.MjModel.from_xml_string(xml)
 
 
-def build(mjcf_model, sensors: dict[str, tuple], held_joints, held_sensors, held_geoms, hidden_joints) -> Apparatus:
+def build(
+    mjcf_model: mjcf.RootElement,
+    readings: Mapping[str, declarations.Reading],
+    held: Sequence[composer.Entity] = (),
+    indicators: Sequence[declarations.Indicator] = (),
+) -> Apparatus:
     """Compiles an MJCF model.
 
     Args:
-      mjcf_model: a `dm_control.mjcf.RootElement`.
-      sensors: for each feature, the sensor elements that make it up and the feature's shape.
-      held_joints: joint elements that look at rest until something moves them.
-      held_sensors, held_geoms: sensor and geom elements that show them.
-      hidden_joints: slides whose bodies' masses differ from episode to episode.
+      mjcf_model: the whole scene.
+      readings: the features.
+      held: entities that must look untouched until something moves them.
+      indicators: geoms that show readings.
     """
     model = compile_xml(mjcf_model.to_xml_string())
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    held = [model.joint(joint.full_identifier) for joint in held_joints]
-    geoms = np.array([model.geom(geom.full_identifier).id for geom in held_geoms], np.intp)
-    hidden = [model.joint(joint.full_identifier) for joint in hidden_joints]
-    return Apparatus(
+    drawn = [
+        (model.geom(each.geom.full_identifier).id, each.reading, each.component, np.array(each.travel, float))
+        for each in indicators
+    ]
+    moving = model.body_weldid[model.geom_bodyid] != 0
+    moving[[geom for geom, *_ in drawn]] = True
+    built = Apparatus(
         model=model,
-        readings={name: _sensors(model, elements).reshape(shape) for name, (elements, shape) in sensors.items()},
+        readings={
+            name: _addresses(model.sensor(sensor.full_identifier) for sensor in reading.sensors).reshape(reading.shape)
+            for name, reading in readings.items()
+        },
         rest_qpos=model.qpos0.copy(),
-        rest={field: getattr(data, field).copy() for field in ("sensordata", "geom_xpos", "geom_xmat")},
-        held_qpos=_addresses(joint.qposadr[0] + np.arange(joint.qpos0.size) for joint in held),
-        held={"sensordata": _sensors(model, held_sensors), "geom_xpos": geoms, "geom_xmat": geoms},
-        hidden_bodies=_addresses(joint.bodyid for joint in hidden),
-        hidden_dofs=_addresses(joint.dofadr for joint in hidden),
+        rest={field: getattr(data, field).copy() for field in LOOKED_AT},
+        held=tuple(_find_held(model, mjcf.get_attachment_frame(entity.mjcf_model)) for entity in held),
+        moving_geoms=np.flatnonzero(moving),
+        _measures={name: reading.measure for name, reading in readings.items() if reading.measure is not None},
+        _indicators=tuple(drawn),
+    )
+    built.indicate(built.rest["geom_xpos"][None], built.rest["sensordata"][None])
+    return built
+
+
+def _find_held(model: mujoco.MjModel, frame: mjcf.Element) -> _Held:
+    """Finds what belongs to an entity: the bodies from its frame on, their joints and geoms, and who senses them."""
+    bodies = {model.body(frame.full_identifier).id}
+    for body in range(model.nbody):  # A parent comes before its children.
+        if model.body_parentid[body] in bodies:
+            bodies.add(body)
+    inside = np.array(sorted(bodies))
+    joints = np.flatnonzero(np.isin(model.jnt_bodyid, inside))
+    geoms = np.flatnonzero(np.isin(model.geom_bodyid, inside))
+    owner = {
+        mujoco.mjtObj.mjOBJ_BODY: np.arange(model.nbody),
+        mujoco.mjtObj.mjOBJ_XBODY: np.arange(model.nbody),
+        mujoco.mjtObj.mjOBJ_JOINT: model.jnt_bodyid,
+        mujoco.mjtObj.mjOBJ_GEOM: model.geom_bodyid,
+        mujoco.mjtObj.mjOBJ_SITE: model.site_bodyid,
+    }
+    sensors = [
+        model.sensor(number)
+        for number in range(model.nsensor)
+        if owner[mujoco.mjtObj(model.sensor_objtype[number])][model.sensor_objid[number]] in bodies
+    ]
+    sizes = {mujoco.mjtJoint.mjJNT_FREE: 7, mujoco.mjtJoint.mjJNT_BALL: 4}
+    coordinates = [
+        model.jnt_qposadr[joint] + np.arange(sizes.get(mujoco.mjtJoint(model.jnt_type[joint]), 1)) for joint in joints
+    ]
+    return _Held(
+        qpos=np.concatenate([np.zeros(0, np.intp), *coordinates]).astype(np.intp),
+        shows={"sensordata": _addresses(sensors), "geom_xpos": geoms, "geom_xmat": geoms},
     )
 
 
-def _sensors(model: mujoco.MjModel, elements) -> np.ndarray:
-    """Addresses in `sensordata` of sensor elements."""
-    found = [model.sensor(element.full_identifier) for element in elements]
-    return _addresses(sensor.adr[0] + np.arange(sensor.dim[0]) for sensor in found)
-
-
-def _addresses(ranges) -> np.ndarray:
+def _addresses(sensors) -> np.ndarray:
+    """Returns the addresses in `sensordata` of some of a model's sensors, int [K]."""
+    ranges = [sensor.adr[0] + np.arange(sensor.dim[0]) for sensor in sensors]
     return np.concatenate([np.zeros(0, np.intp), *ranges]).astype(np.intp)

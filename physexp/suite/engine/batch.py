@@ -8,7 +8,7 @@ import mujoco
 from mujoco.batch import Batch
 import numpy as np
 
-from physexp.suite.engine import checks, guard, rendering, seeding
+from physexp.suite.engine import checks, episodes, guard, rendering, seeding
 from physexp.suite.engine import task as task_lib
 
 _LOG = logging.getLogger(__name__)
@@ -45,14 +45,9 @@ class BatchEnvironment:
         self.num_divergences = 0
         self._closed = False
         self._task = task
-        self._controls = task.controls
         self._everyone = np.arange(self.num_environments)
+        self._ledger = episodes.Ledger(task, self.num_environments)
         self.reseed(task.options.random)
-        self._structures = np.zeros(self.num_environments, np.int64)
-        self._answers = np.zeros(self.num_environments, np.int64)
-        self._steps = np.zeros(self.num_environments, np.int64)
-        self._touched = np.zeros(self.num_environments, bool)
-        self._hidden: np.ndarray | None = None
         self._groups: dict[int, _Group] = {}
         self._observations = task.blank_observations(self.num_environments)
         self._renderer: rendering.Renderer | None = None  # Of images for people.
@@ -62,9 +57,7 @@ class BatchEnvironment:
         with self._guard:
             self._task.reseed(random)
             seed = self._task.options.random
-            self._seeds = np.array([seeding.environment_seed(seed, i) for i in range(self.num_environments)])
-            self._next_episodes = np.zeros(self.num_environments, np.int64)
-            self._needs_reset = np.ones(self.num_environments, bool)
+            self._ledger.reseed(np.array([seeding.environment_seed(seed, i) for i in range(self.num_environments)]))
 
     # Specs are those of the single environment.
 
@@ -93,39 +86,40 @@ class BatchEnvironment:
     @property
     def hidden(self) -> np.ndarray:
         """Returns the hidden properties of the current episodes, [B, ...], which are never part of an observation."""
-        if self._hidden is None:
-            raise RuntimeError("no episode has been started; call reset() first")
-        return self._hidden.copy()
+        return self._ledger.hidden.copy()
 
     @property
     def seeds(self) -> np.ndarray:
         """Returns the seeds of the environments, int64 [B]; `load` with one of them makes that environment alone."""
-        return self._seeds.copy()
+        return self._ledger.seeds.copy()
 
     @property
     def episodes(self) -> np.ndarray:
         """Indices of the current episodes, int64 [B]; -1 before the first."""
-        return self._next_episodes - 1
+        return self._ledger.next_episodes - 1
 
-    def reset(self, environments: np.ndarray | None = None, episode: int | None = None) -> dm_env.TimeStep:
+    def reset(
+        self, environments: np.ndarray | None = None, episode: int | None = None, hidden: np.ndarray | None = None
+    ) -> dm_env.TimeStep:
         """Starts new episodes.
 
         Args:
           environments: which environments, sorted indices int [N]; all of them by default.
           episode: index of the episode to start, the same in each; by default the one after the current.
+          hidden: their hidden properties, [N, ...], for analysis; by default they are drawn.
 
         Returns:
           As `step`.
 
         Raises:
-          ValueError: for indices that there are not.
+          ValueError: for indices that there are not, or if `hidden` has not the shape of what would be drawn.
           RuntimeError: if the batch is closed, or another thread is using it.
         """
         with self._guard:
             chosen = self._choose(environments)
             if episode is not None:
-                self._next_episodes[chosen] = checks.integer("episode", episode, 0, seeding.LAST_EPISODE)
-            self._reset(chosen)
+                self._ledger.next_episodes[chosen] = checks.integer("episode", episode, 0, seeding.LAST_EPISODE)
+            self._reset(chosen, hidden)
             return self._time_step(chosen, np.full(len(chosen), _FIRST), np.zeros(len(chosen)), np.ones(len(chosen)))
 
     def step(self, actions: np.ndarray, environments: np.ndarray | None = None) -> dm_env.TimeStep:
@@ -149,23 +143,32 @@ class BatchEnvironment:
     def _step(self, actions, environments) -> dm_env.TimeStep:
         chosen = self._choose(environments)
         actions = self._task.rules.check_type(actions, (len(chosen),))
-        starting = self._needs_reset[chosen]
+        starting = self._ledger.over[chosen]
         playing, taken = chosen[~starting], actions[~starting]
         self._task.rules.check_range(taken)
         self._reset(chosen[starting])
-        self._steps[playing] += 1
+        self._ledger.steps[playing] += 1
         interacting = taken < self._task.num_interactions
         diverged = self._interact(playing[interacting], taken[interacting])
-        rewards, last = self._task.rules.judge(taken, self._answers[playing], self._steps[playing])
+        rewards, last = self._ledger.judge(playing, taken)
         if len(diverged):
             lost = np.isin(playing, diverged)
             rewards, last = np.where(lost, 0.0, rewards), last | lost
-        self._needs_reset[playing] = last
+            self._ledger.over[diverged] = True
         step_types = np.full(len(chosen), _FIRST)
         step_types[~starting] = np.where(last, _LAST, _MID)
         all_rewards = np.zeros(len(chosen))
         all_rewards[~starting] = rewards
         return self._time_step(chosen, step_types, all_rewards, np.where(step_types == _LAST, 0.0, 1.0))
+
+    def view(self, field: str, environment: int) -> np.ndarray:
+        """Returns a field of `MjData` in one environment, as it stands after a step; it may be written to.
+
+        It is for analysis: what is written is not part of any episode that can be rebuilt.
+        """
+        with self._guard:
+            structure = int(self._ledger.structures[environment])
+            return self._group(structure).view(field)[environment]
 
     def render(self, size: int = rendering.SIZE_FOR_PEOPLE) -> np.ndarray:
         """Returns images for people of all environments, uint8 [B, size, size, 3].
@@ -176,14 +179,14 @@ class BatchEnvironment:
         """
         with self._guard:
             chosen = self._choose(None)
-            if self._hidden is None:
+            if not self._ledger.has_begun:
                 raise RuntimeError("no episode has been started; call reset() first")
             images = np.zeros((len(chosen), size, size, 3), np.uint8)
             for group, members in self._by_structure(chosen):
                 rows = chosen[members]
                 if self._renderer is None or self._renderer.size != size:
                     self._close_renderer()
-                    self._renderer = rendering.Renderer(group.kit.model, size=size)
+                    self._renderer = rendering.Renderer(group.apparatus.model, group.apparatus.moving_geoms, size=size)
                 positions, rotations = group.poses(rows)
                 self._renderer.render(positions, rotations, rows, images)
             return images
@@ -223,33 +226,24 @@ class BatchEnvironment:
 
     def _group(self, structure: int) -> "_Group":
         if structure not in self._groups:
-            kit = self._task.build_apparatus(structure)
-            self._groups[structure] = _Group(self._task, kit, self.num_environments, self._num_threads)
+            apparatus = self._task.build_apparatus(structure)
+            self._groups[structure] = _Group(self._task, apparatus, self.num_environments, self._num_threads)
         return self._groups[structure]
 
     def _by_structure(self, chosen: np.ndarray):
         """Splits environments by structure: pairs of a group and the positions in `chosen` that belong to it."""
-        structures = self._structures[chosen]
+        structures = self._ledger.structures[chosen]
         if self._task.num_structures == 1:
             return [(self._group(0), slice(None))] if len(chosen) else []
         return [(self._group(int(s)), np.flatnonzero(structures == s)) for s in np.unique(structures)]
 
-    def _reset(self, chosen: np.ndarray) -> None:
+    def _reset(self, chosen: np.ndarray, hidden: np.ndarray | None = None) -> None:
         if not len(chosen):
             return
-        hidden = self._task.draw(self._seeds[chosen], self._next_episodes[chosen])
-        if self._hidden is None:
-            self._hidden = np.zeros((self.num_environments, *hidden.shape[1:]), hidden.dtype)
-        self._hidden[chosen] = hidden
-        self._answers[chosen] = self._task.answers(hidden)
-        self._structures[chosen] = self._task.structures(hidden)
-        self._next_episodes[chosen] += 1
-        self._steps[chosen] = 0
-        self._touched[chosen] = False
-        self._needs_reset[chosen] = False
+        self._ledger.begin(chosen, hidden)
         for group, members in self._by_structure(chosen):
             rows = chosen[members]
-            group.reset(rows, hidden[members])
+            group.reset(rows, self._ledger.hidden[rows])
             for name, value in group.first_observation.items():
                 self._observations[name][rows] = value
 
@@ -258,12 +252,12 @@ class BatchEnvironment:
         diverged = []
         for group, members in self._by_structure(chosen):
             rows = chosen[members]
-            lost = group.step(rows, self._controls[actions[members]], self._task.options.substeps)
+            lost = group.step(rows, actions[members])
             if len(lost):  # Their last observation stays the one before, as in composer.
                 diverged.append(lost)
                 rows = np.setdiff1d(rows, lost)
-            self._touched[rows] |= group.moved(rows)
-            self._task.look(group.kit, group.state(rows), self._touched[rows], rows, self._observations)
+            self._ledger.touched[rows] |= group.moved(rows)
+            self._task.look(group.apparatus, group.state(rows), self._ledger.touched[rows], rows, self._observations)
         if not diverged:
             return np.zeros(0, np.int64)
         lost = np.concatenate(diverged)
@@ -279,9 +273,9 @@ class BatchEnvironment:
 class _Group:
     """The simulations of one structure: row `i` serves environment `i` whenever it has this structure."""
 
-    def __init__(self, task, kit, size, num_threads):
-        self._task, self.kit = task, kit
-        self._batch = Batch(kit.model, size, num_threads)
+    def __init__(self, task, apparatus, size, num_threads):
+        self._task, self.apparatus = task, apparatus
+        self._batch = Batch(apparatus.model, size, num_threads)
         self._batch.reset(stage=mujoco.mjtStage.mjSTAGE_NONE)
         self._rest = self._batch.state[0].copy()
         self._qpos, self._control = (self._batch.bind(name) for name in ("qpos", "ctrl"))
@@ -291,41 +285,48 @@ class _Group:
     def first_observation(self) -> dict[str, np.ndarray]:
         """The observation at the start of every episode."""
         first = self._task.blank_observations(1)
-        rest = {field: self.kit.rest[field][None] for field in self._task.sense.fields}
-        self._task.look(self.kit, rest, np.zeros(1, bool), np.zeros(1, np.intp), first)
+        rest = {field: self.apparatus.rest[field][None] for field in self._task.sense.fields}
+        untouched = np.zeros((1, len(self.apparatus.held)), bool)
+        self._task.look(self.apparatus, rest, untouched, np.zeros(1, np.intp), first)
         return {name: value[0] for name, value in first.items()}
 
     def reset(self, rows, hidden) -> None:
         self._batch.state[rows] = self._rest
-        if self.kit.hidden_bodies.size:
-            for field, (addresses, values) in self.kit.mass_fields(self._task.hidden_masses(hidden)).items():
-                self._batch.expand(field)[rows[:, None], addresses] = values
+        self._control[rows] = 0
+        for field, (addresses, values) in self._task.hidden_fields(self.apparatus, hidden).items():
+            self._batch.expand(field)[rows[:, None], addresses] = values
 
-    def step(self, rows, controls, substeps) -> np.ndarray:
+    def step(self, rows, actions) -> np.ndarray:
         """Simulates a control step; returns the rows that diverged."""
-        self._control[rows] = controls
+        self._control[rows] = self._task.drive(actions, self._qpos[rows], self._control[rows])
         self._batch.warning[rows] = 0  # A row that diverges is reset by MuJoCo, its counters too.
-        self._batch.step(ids=rows, nstep=substeps, stage=mujoco.mjtStage.mjSTAGE_POS)
+        self._batch.step(ids=rows, nstep=self._task.options.substeps, stage=mujoco.mjtStage.mjSTAGE_POS)
         return rows[(self._batch.warning[rows] != 0).reshape(len(rows), -1).any(axis=1)]
 
     def moved(self, rows) -> np.ndarray:
-        """Whether held parts have moved: bool [number of rows]."""
-        return self.kit.moved(self._qpos[rows], task_lib.TOUCH_TOLERANCE)
+        """Returns which held entities have moved, bool [number of rows, number of held entities]."""
+        return self.apparatus.moved(self._qpos[rows])
 
     def poses(self, rows) -> tuple[np.ndarray, np.ndarray]:
-        """Where the geoms are, as the simulations stand: positions, m, and rotations, [number of rows, ngeom, 3 and 9].
+        """Returns where the geoms are: positions, m, and rotations, [number of rows, ngeom, 3 and 9].
 
         They follow from the coordinates alone: what a row keeps of them is older after a reset.
         """
-        data = mujoco.MjData(self.kit.model)
-        shape = (len(rows), self.kit.model.ngeom)
-        positions, rotations = np.zeros((*shape, 3)), np.zeros((*shape, 9))
+        model = self.apparatus.model
+        data = mujoco.MjData(model)
+        positions, rotations = np.zeros((len(rows), model.ngeom, 3)), np.zeros((len(rows), model.ngeom, 9))
         for i, row in enumerate(rows):
             data.qpos[:] = self._qpos[row]
-            mujoco.mj_kinematics(self.kit.model, data)
+            mujoco.mj_fwdPosition(model, data)
+            mujoco.mj_sensorPos(model, data)
             positions[i], rotations[i] = data.geom_xpos, data.geom_xmat
+            self.apparatus.indicate(positions[i][None], data.sensordata[None])
         return positions, rotations
 
+    def view(self, field) -> np.ndarray:
+        """Returns a field of `MjData` of all rows, float64 [size, ...], not a copy."""
+        return self._batch.bind(field)
+
     def state(self, rows) -> dict[str, np.ndarray]:
-        """The fields that the sense looks at, float64 [number of rows, ...]."""
+        """Returns the fields that the sense looks at, float64 [number of rows, ...]."""
         return {field: values[rows] for field, values in self._looked_at.items()}

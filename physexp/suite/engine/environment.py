@@ -40,14 +40,19 @@ class Environment(composer.Environment):
             task, random_state=0, strip_singleton_obs_buffer_dim=True, raise_exception_on_physics_error=raises
         )
 
-    def reset(self) -> dm_env.TimeStep:
+    def reset(self, hidden=None) -> dm_env.TimeStep:
         """Starts the next episode.
 
+        Args:
+          hidden: its hidden property, for analysis; by default it is drawn.
+
         Raises:
+          ValueError: if `hidden` has not the shape of what would be drawn.
           RuntimeError: if the environment is closed, or another thread is using it.
         """
         with self._guard:
             self._check_open()
+            self._task.give_hidden(hidden)
             return self._flattened(super().reset())
 
     def step(self, action) -> dm_env.TimeStep:
@@ -112,10 +117,10 @@ class Environment(composer.Environment):
     def _recompile_physics(self):
         structure = self._task.structure
         if structure not in self._compiled:
-            kit = self._task.build_apparatus(structure)
-            physics = mjcf.Physics.from_model(wrapper.MjModel(copy.copy(kit.model)))
+            apparatus = self._task.build_apparatus(structure)
+            physics = mjcf.Physics.from_model(wrapper.MjModel(copy.copy(apparatus.model)))
             physics.legacy_step = self._legacy_step
-            self._compiled[structure] = (kit, physics)
+            self._compiled[structure] = (apparatus, physics)
         self._task.apparatus, self._physics = self._compiled[structure]
 
     def _substep(self, action):

@@ -1,80 +1,17 @@
-"""Rendering: the choice of a GL backend, and images of a scene."""
+"""Draws images of a scene, whatever the poses of its geoms."""
 
 import atexit
-import contextlib
 import copy
-import ctypes
-import ctypes.util
 import functools
-import glob
-import importlib
-import importlib.util
-import os
-import warnings
 import weakref
 
+import mujoco
 import numpy as np
+
+from physexp.suite.engine import gl
 
 SIZE = 84  # pixels, the edge of an image (paper, Section 4)
 SIZE_FOR_PEOPLE = 480  # pixels
-DEBIAN_PACKAGES = "Debian's libegl1 and libgl1-mesa-dri, or libosmesa6"
-
-_PLATFORM_DEVICE = 0x313F  # EGL_PLATFORM_DEVICE_EXT
-_OFF = ("disable", "disabled", "off", "false", "0")  # What MuJoCo understands as no GL.
-_SAID = "PHYSEXP_SOFTWARE_RENDERING_SAID"  # Workers inherit it: one of all processes says it.
-_SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software rasterizer")
-
-
-def choose_backend() -> str:
-    """Settles MUJOCO_GL: as the user set it, or EGL where it works, or OSMesa where its library is, or `disable`.
-
-    To be called before mujoco and dm_control are imported, which look at it once. Feature tasks need no backend.
-    """
-    # Mesa's software renderer hands small images to threads at a greater cost than drawing them.
-    os.environ.setdefault("LP_NUM_THREADS", "0")
-    _load_triton()
-    if not os.environ.get("MUJOCO_GL"):
-        egl, osmesa = (ctypes.util.find_library(name) for name in ("EGL", "OSMesa"))
-        if egl and _egl_works(egl):
-            os.environ["MUJOCO_GL"] = "egl"
-        else:
-            os.environ["MUJOCO_GL"] = "osmesa" if osmesa else "disable"
-    return os.environ["MUJOCO_GL"].lower().strip()  # As MuJoCo reads it.
-
-
-@functools.cache
-def _load_triton() -> None:
-    """Loads the library of triton, which torch's CUDA builds bring, before GL's.
-
-    Mesa draws with LLVM, of which triton's library has a copy. Loaded after Mesa's, as by torch's optimizers, it ends
-    the process with a segmentation fault (seen with triton of torch 2.13 and Mesa 22.3).
-    """
-    spec = importlib.util.find_spec("triton")
-    for folder in (spec and spec.submodule_search_locations) or ():
-        for library in glob.glob(os.path.join(folder, "_C", "libtriton*.so")):
-            ctypes.CDLL(library)
-
-
-def _egl_works(library: str) -> bool:
-    """Whether EGL has a device to draw with: the library may be here without a driver, and dm_control then fails."""
-    try:
-        egl = ctypes.CDLL(library)
-    except OSError:
-        return False
-    egl.eglGetProcAddress.restype = ctypes.c_void_p
-
-    def function(name: bytes, result, *arguments):
-        address = egl.eglGetProcAddress(name)
-        return ctypes.CFUNCTYPE(result, *arguments)(address) if address else None
-
-    pointer, number = ctypes.c_void_p, ctypes.c_int
-    query = function(b"eglQueryDevicesEXT", number, number, ctypes.POINTER(pointer), ctypes.POINTER(number))
-    display = function(b"eglGetPlatformDisplayEXT", pointer, number, pointer, pointer)
-    initialize = function(b"eglInitialize", number, pointer, pointer, pointer)
-    devices, count = (pointer * 16)(), number()
-    if not (query and display and initialize) or not query(16, devices, ctypes.byref(count)):
-        return False
-    return any(initialize(display(_PLATFORM_DEVICE, device, None), None, None) for device in devices[: count.value])
 
 
 class Renderer:
@@ -88,26 +25,25 @@ class Renderer:
       scene, buffers: what MuJoCo draws, and with what.
     """
 
-    def __init__(self, model, camera: str = "observer", size: int = SIZE):
+    def __init__(self, model, moving_geoms: np.ndarray, camera: str = "observer", size: int = SIZE):
         """Makes a context and uploads the scene.
 
         Args:
           model: a compiled model; its geoms in group 4 are not drawn.
+          moving_geoms: the geoms whose poses differ between images, int [M]; they come after those that stand still.
           camera: name of the camera.
           size: edge of an image, pixels.
 
         Raises:
           RuntimeError: if no GL backend works; it says what to install.
         """
-        import mujoco  # Here, so that the module that chooses the backend comes before mujoco.
-
         self.size = size
-        self.context = _make_context(size)
+        self.context = gl.make_context(size)
         drawn = _with_buffer(model, size)
-        with current(self.context):
+        with gl.current(self.context):
             self.buffers = mujoco.MjrContext(drawn, mujoco.mjtFontScale.mjFONTSCALE_50)
             mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self.buffers)
-            warn_if_software(gl_renderer_name())
+            gl.warn_if_software(gl.gl_renderer_name())
         self._exit_hook = functools.partial(_close, weakref.ref(self))
         atexit.register(self._exit_hook)  # A context that outlives the backend's own exit hook cannot be freed.
         self.scene = _make_scene(drawn, camera)
@@ -117,7 +53,7 @@ class Renderer:
         self._draw = functools.partial(mujoco.mjr_render, rectangle, self.scene, self.buffers)
         self._read = functools.partial(mujoco.mjr_readPixels, upside_down, None, rectangle, self.buffers)
         drawn_geoms = [geom.objid for geom in self.scene.geoms[: self.scene.ngeom]]
-        self._moving = [geom for geom in drawn_geoms if model.body_weldid[model.geom_bodyid[geom]] != 0]
+        self._moving = [geom for geom in drawn_geoms if geom in moving_geoms]
         first = drawn_geoms.index(self._moving[0])
         assert drawn_geoms[first:] == self._moving  # What stands still is the arena, which comes first.
         self._positions, self._rotations = (poses[first:] for poses in _poses(self.scene))
@@ -137,7 +73,7 @@ class Renderer:
             raise RuntimeError("the renderer is closed")
         positions = geom_xpos[:, self._moving].astype(np.float32)
         rotations = geom_xmat[:, self._moving].astype(np.float32)
-        with current(self.context):
+        with gl.current(self.context):
             for row, position, rotation in zip(rows, positions, rotations, strict=True):
                 self._positions[:] = position
                 self._rotations[:] = rotation
@@ -148,39 +84,11 @@ class Renderer:
     def close(self) -> None:
         """Frees the context. Closing twice does nothing."""
         if self.context is not None:
-            with current(self.context):
+            with gl.current(self.context):
                 self.buffers.free()
             self.context.free()
             self.context = None
             atexit.unregister(self._exit_hook)
-
-
-@contextlib.contextmanager
-def current(context):
-    """Makes a GL context current in this thread, and afterwards what was current before, where the backend can tell.
-
-    So any thread may draw, and whoever else draws here (dm_control for one, which remembers what it made current) finds
-    its own context as it was.
-    """
-    backend = choose_backend()
-    if backend == "egl":
-        from mujoco import egl
-
-        before = egl.EGL.eglGetCurrentContext() or egl.EGL.EGL_NO_CONTEXT
-        put_back = functools.partial(egl.EGL.eglMakeCurrent, egl.EGL_DISPLAY, *[egl.EGL.EGL_NO_SURFACE] * 2, before)
-    elif backend == "osmesa":
-        from OpenGL import GL, osmesa
-
-        put_back = functools.partial(osmesa.OSMesaMakeCurrent, None, None, GL.GL_FLOAT, 0, 0)
-    else:
-        import glfw
-
-        put_back = functools.partial(glfw.make_context_current, glfw.get_current_context())
-    context.make_current()
-    try:
-        yield
-    finally:
-        put_back()
 
 
 def _close(reference) -> None:
@@ -198,8 +106,6 @@ def _with_buffer(model, size: int):
 
 def _make_scene(model, camera: str):
     """The abstract scene that MuJoCo draws, in the initial state, without the effects that cost and show nothing."""
-    import mujoco
-
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     scene = mujoco.MjvScene(model, maxgeom=64)
@@ -228,72 +134,3 @@ def _poses(scene) -> tuple[np.ndarray, np.ndarray]:
         shape, strides = (scene.ngeom, field.size), (stride, field.itemsize)
         shown.append(np.lib.stride_tricks.as_strided(field, shape, strides))
     return shown[0], shown[1]
-
-
-def _make_context(size: int):
-    backend = choose_backend()
-    if backend in _OFF:
-        raise RuntimeError(f"no GL library is here to draw pixels with; install {DEBIAN_PACKAGES} (features need none)")
-    try:
-        if backend not in ("egl", "osmesa") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
-            raise RuntimeError("there is no display")  # glfw itself says so by ending the process.
-        # Not mujoco.GLContext, which is what MUJOCO_GL said when mujoco was imported, perhaps before this package.
-        module = backend if backend in ("egl", "osmesa") else "glfw"
-        return importlib.import_module(f"mujoco.{module}").GLContext(size, size)
-    except Exception as error:  # Whatever the driver raises is what the user wants to read.
-        why = " ".join(str(error).split())  # In one line.
-        raise RuntimeError(
-            f"the GL backend {backend} (MUJOCO_GL) does not work here: {why}; install {DEBIAN_PACKAGES}, "
-            "or set MUJOCO_GL to egl, osmesa or glfw"
-        ) from error
-
-
-def gl_renderer_name() -> str:
-    """What the current GL context is drawn by, in its own words."""
-    from OpenGL import GL
-
-    return GL.glGetString(GL.GL_RENDERER).decode()
-
-
-def check() -> None:
-    """Makes sure that images can be drawn here.
-
-    Raises:
-      RuntimeError: if no GL backend works; it says what to install.
-    """
-    _make_context(8).free()
-
-
-@functools.cache
-def renderer_name() -> str:
-    """What draws images in this process: the GL renderer's own name, or why there is none."""
-    try:
-        context = _make_context(8)
-    except RuntimeError as error:
-        return f"none: {error}"
-    with current(context):
-        name = gl_renderer_name()
-    context.free()
-    return name
-
-
-def is_software(name: str) -> bool:
-    """Whether a GL renderer of this name draws on the processor."""
-    return any(software in name.lower() for software in _SOFTWARE)
-
-
-def warn_if_software(name: str) -> None:
-    """Says once that images are drawn on the processor although the machine has a GPU."""
-    if is_software(name) and gpu_is_present() and _SAID not in os.environ:
-        os.environ[_SAID] = "1"
-        warnings.warn(
-            f"PIXELS ARE DRAWN BY THE PROCESSOR ({name}) although this machine has a GPU: "
-            "its EGL driver is not visible; install it, or set MUJOCO_GL",
-            RuntimeWarning,
-            stacklevel=2,
-        )
-
-
-def gpu_is_present() -> bool:
-    """Whether the system lists a GPU's device."""
-    return bool(glob.glob("/dev/nvidia[0-9]*") + glob.glob("/dev/dri/renderD*"))

@@ -23,11 +23,11 @@ class Sense(abc.ABC):
     """Whether images are drawn."""
 
     @abc.abstractmethod
-    def blank(self, sensors: Mapping[str, tuple], size: int) -> dict[str, np.ndarray]:
-        """Arrays for the observations of `size` environments.
+    def blank(self, shapes: Mapping[str, tuple[int, ...]], size: int) -> dict[str, np.ndarray]:
+        """Returns arrays for the observations of `size` environments.
 
         Args:
-          sensors: for each feature, its sensors and its shape.
+          shapes: of the features, by name.
           size: how many environments.
         """
 
@@ -43,7 +43,7 @@ class Sense(abc.ABC):
 
         Args:
           apparatus: what is looked at.
-          state: the fields, float64 [N, ...].
+          state: the fields, float64 [N, ...], for this sense to keep.
           rows: where the observations go, int [N].
           observations: arrays with a leading axis that `rows` index; written to.
         """
@@ -59,12 +59,12 @@ class Features(Sense):
     fields = ("sensordata",)
     needs_gl = False
 
-    def blank(self, sensors, size):
-        return {name: np.zeros((size, *shape), np.float32) for name, (_, shape) in sensors.items()}
+    def blank(self, shapes, size):
+        return {name: np.zeros((size, *shape), np.float32) for name, shape in shapes.items()}
 
     def look(self, apparatus, state, rows, observations):
-        for name, addresses in apparatus.readings.items():
-            observations[name][rows] = state["sensordata"][:, addresses]
+        for name in apparatus.readings:
+            observations[name][rows] = apparatus.read(name, state["sensordata"])
 
     def close(self):
         """Needs nothing: features hold nothing."""
@@ -73,18 +73,19 @@ class Features(Sense):
 class Pixels(Sense):
     """One image, `pixels`, from the task's camera. The GL context is made when the first image is drawn."""
 
-    fields = ("geom_xpos", "geom_xmat")
+    fields = apparatus_lib.LOOKED_AT
     needs_gl = True
 
     def __init__(self):
         self._renderer: rendering.Renderer | None = None
 
-    def blank(self, sensors, size):
+    def blank(self, shapes, size):
         return {"pixels": np.zeros((size, rendering.SIZE, rendering.SIZE, 3), np.uint8)}
 
     def look(self, apparatus, state, rows, observations):
         if self._renderer is None:  # All structures of a task have the same geoms: one renderer draws them all.
-            self._renderer = rendering.Renderer(apparatus.model)
+            self._renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms)
+        apparatus.indicate(state["geom_xpos"], state["sensordata"])
         self._renderer.render(state["geom_xpos"], state["geom_xmat"], rows, observations["pixels"])
 
     def close(self):

@@ -4,8 +4,7 @@ import abc
 from collections.abc import Mapping, Sequence
 import dataclasses
 import functools
-import math
-from typing import Any, ClassVar
+from typing import Any
 
 from dm_control import composer
 from dm_control.composer.observation import observable
@@ -13,61 +12,12 @@ from dm_env import specs
 import numpy as np
 
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import checks, rules, seeding
+from physexp.suite.engine import checks, declarations, episodes, rules, seeding
+from physexp.suite.engine import options as options_lib
 from physexp.suite.engine import senses as senses_lib
 
-# Held parts look exactly as at the start until they have moved by more than this. Contacts at rest settle by less than
-# a tenth of it, and the weakest touch moves a block by several times as much.
-TOUCH_TOLERANCE = 1e-4  # m, or the same in a quaternion's components
-
-_LONGEST = 1e6  # s
-
 _OK_RGBA, _WRONG_RGBA = (0.45, 0.75, 0.45, 1.0), (0.80, 0.45, 0.40, 1.0)
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class Options:
-    """What a user may choose of every task: the `task_kwargs` of `suite.load`.
-
-    Attributes:
-      random: an integer seed, a `numpy.random.RandomState`, or None for a seed from the operating system.
-      control_timestep: time between actions, a multiple of the physics step, s.
-      time_limit: time after which an unanswered episode ends, rounded up to whole control steps, s.
-      visualize_reward: colour the floor by the outcome at the end of an episode.
-
-    Raises:
-      ValueError: for a value that makes no sense.
-    """
-
-    physics_timestep: ClassVar[float]
-
-    random: Any = None
-    control_timestep: float = 0.1
-    time_limit: float
-    visualize_reward: bool = False
-
-    def __post_init__(self):
-        object.__setattr__(self, "random", seeding.seed_from(self.random))
-        for name in ("control_timestep", "time_limit"):
-            seconds = checks.number(name, getattr(self, name), 0, "s", strictly=True)
-            if seconds > _LONGEST:
-                raise ValueError(f"{name} is {checks.shown(getattr(self, name))}; give at most {_LONGEST:g} s")
-            object.__setattr__(self, name, seconds)
-        if self.substeps < 1 or abs(self.substeps * self.physics_timestep - self.control_timestep) > 1e-9:
-            raise ValueError(
-                f"control_timestep is {self.control_timestep} s; "
-                f"give a multiple of the physics step, {self.physics_timestep} s"
-            )
-
-    @property
-    def substeps(self) -> int:
-        """Physics steps in a control step."""
-        return round(self.control_timestep / self.physics_timestep)
-
-    @property
-    def step_limit(self) -> int:
-        """Control steps in an unanswered episode."""
-        return max(1, math.ceil(self.time_limit / self.control_timestep - 1e-6))
+_ROW = np.zeros(1, np.intp)  # The only row of a single environment.
 
 
 class _Observable(observable.Generic):
@@ -85,42 +35,41 @@ class _Observable(observable.Generic):
 class QuestionTask(composer.Task):
     """A composer task in which interaction actions act and labeling actions answer.
 
-    A subclass builds the scene, says how the hidden property of an episode is drawn and what follows from it.
-    The methods with a leading axis [N] serve one environment (N = 1) and a batch alike.
+    A subclass builds the scene, declares what can be done and seen, says how the hidden property of an episode is
+    drawn, and what follows from it. Methods with a leading axis [N] serve one environment (N = 1) and a batch alike.
 
     Attributes:
+      options: what the user chose.
+      sense: how the state is shown.
       rules: how actions are read and judged.
       controls: what each interaction action sends to the actuators, float64 [num_interactions, nu].
-      num_divergences: episodes that ended because the simulation diverged.
-      sense: how the state is shown.
       apparatus: the compiled model in use; the environment sets it.
+      num_divergences: episodes that ended because the simulation diverged.
     """
 
     apparatus: apparatus_lib.Apparatus
-    options: Options
+    options: options_lib.Options
 
-    def __init__(self, arena, options: Options, sense: senses_lib.Sense, num_interactions: int, num_labels: int):
+    def __init__(self, arena: composer.Arena, options: options_lib.Options, sense: senses_lib.Sense):
         """Sets what all tasks share.
 
         Args:
           arena: the arena, with the entities attached.
           options: what the user chose.
           sense: how the state is shown.
-          num_interactions, num_labels: numbers of actions.
         """
         self._arena = arena
         self.options = options
         self.set_timesteps(options.substeps * options.physics_timestep, options.physics_timestep)
-        self.rules = rules.Rules(num_interactions, num_labels, options.step_limit)
-        self._next_episode = 0
+        self.rules = rules.Rules(len(self.interactions), len(self.label_names), options.step_limit)
+        self.controls = np.array([interaction.control for interaction in self.interactions], float)
         self.num_divergences = 0
-        self.structure = 0
-        self._hidden: np.ndarray | None = None
-        self._actions = np.zeros(1, np.int64)
-        self._steps = np.zeros(1, np.int64)
-        self._touched = np.zeros(1, bool)
-        self._diverged = False
         self.sense = sense
+        self._ledger = episodes.Ledger(self, 1)
+        self._ledger.seeds[:] = options.random
+        self._given_hidden: np.ndarray | None = None
+        self._action = 0
+        self._diverged = False
         self._seen = self.blank_observations(1)
         self._observables = {
             name: _Observable(functools.partial(self._recall, name), spec)
@@ -129,9 +78,9 @@ class QuestionTask(composer.Task):
         for reading in self._observables.values():
             reading.enabled = True
 
-    # What a subclass defines.
+    # What a subclass declares.
 
-    question = "Which answer is right?"
+    question: str
     """What is asked, in words."""
 
     num_structures = 1
@@ -139,23 +88,8 @@ class QuestionTask(composer.Task):
 
     @property
     @abc.abstractmethod
-    def controls(self) -> np.ndarray:
-        """What each interaction action sends to the actuators, float64 [num_interactions, nu]."""
-
-    @property
-    @abc.abstractmethod
-    def sensors(self) -> dict[str, tuple]:
-        """For each feature, the MJCF sensors that make it up and its shape."""
-
-    @property
-    @abc.abstractmethod
-    def effects(self) -> Sequence[tuple[str, tuple[float, float, float]]]:
-        """Returns what each interaction action acts on, and the force (N) or velocity (m/s) to draw there."""
-
-    @property
-    @abc.abstractmethod
-    def interaction_names(self) -> Sequence[str]:
-        """What each interaction action does, in words."""
+    def interactions(self) -> Sequence[declarations.Interaction]:
+        """The interaction actions."""
 
     @property
     @abc.abstractmethod
@@ -163,48 +97,56 @@ class QuestionTask(composer.Task):
         """The answers, in words."""
 
     @property
-    def bounds(self) -> Mapping[str, tuple[Any, Any]]:
-        """For each feature, the least and the greatest values that it ever has; a feature left out has no bounds."""
-        return {}
+    @abc.abstractmethod
+    def readings(self) -> Mapping[str, declarations.Reading]:
+        """The features, by name."""
 
     @property
-    def held_joints(self) -> Sequence:
-        """Joints that look at rest until they have moved by more than TOUCH_TOLERANCE."""
+    def held(self) -> Sequence[composer.Entity]:
+        """Entities that look exactly as at the start until something moves them, each for itself."""
         return ()
 
     @property
-    def held_sensors(self) -> Sequence:
-        """The sensors that show them."""
-        return ()
-
-    @property
-    def held_geoms(self) -> Sequence:
-        """The geoms that show them."""
+    def indicators(self) -> Sequence[declarations.Indicator]:
+        """Geoms that show readings in images."""
         return ()
 
     @abc.abstractmethod
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-        """The hidden properties, [N, ...], of some episodes: seeds and episode indices, int64 [N]."""
+        """Returns the hidden properties, [N, ...], of some episodes: seeds and episode indices, int64 [N]."""
 
     @abc.abstractmethod
     def answers(self, hidden: np.ndarray) -> np.ndarray:
-        """Indices of the right labels, int64 [N]."""
+        """Returns the indices of the right labels, int64 [N]."""
 
     def structures(self, hidden: np.ndarray) -> np.ndarray:
-        """Which compiled model each hidden property needs, int64 [N]."""
+        """Returns which compiled model each hidden property needs, int64 [N]."""
         return np.zeros(len(hidden), np.int64)
 
     def arrange(self, structure: int) -> None:
         """Puts the MJCF into the form of a structure."""
 
-    @property
-    def hidden_joints(self) -> Sequence:
-        """Slides that carry bodies whose masses are hidden."""
-        return ()
+    def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
+        """Returns the model fields that follow from hidden properties: any that `Batch.expand` takes."""
+        return {}
 
-    def hidden_masses(self, hidden: np.ndarray) -> np.ndarray:
-        """Masses of the bodies on `hidden_joints`, float64 [N, number of joints], kg."""
-        return np.zeros((len(hidden), 0))
+    def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
+        """Returns what is sent to the actuators during a control step, float64 [N, nu].
+
+        Args:
+          actions: the interaction actions, int [N].
+          qpos: the coordinates at the start of the step, float64 [N, nq].
+          ctrl: what was sent in the step before, float64 [N, nu]; zero in the first.
+        """
+        return self.controls[actions]
+
+    def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
+        """Returns what a replay shows of one hidden property, [...]."""
+        return declarations.Revealed()
+
+    def hardness(self, hidden: np.ndarray) -> np.ndarray | None:
+        """Returns how hard instances are, float64 [N], the larger the harder; None where it is not known beforehand."""
+        return None
 
     # The question.
 
@@ -218,15 +160,14 @@ class QuestionTask(composer.Task):
 
     @property
     def action_names(self) -> list[str]:
-        """What each action does or says, in words."""
-        return [*self.interaction_names, *(f"answer: {name}" for name in self.label_names)]
+        """Returns what each action does or says, in words."""
+        interactions = (interaction.name for interaction in self.interactions)
+        return [*interactions, *(f"answer: {name}" for name in self.label_names)]
 
     @property
     def hidden(self) -> np.ndarray:
         """Returns the hidden property of the current episode, which is never part of an observation."""
-        if self._hidden is None:
-            raise RuntimeError("no episode has been started; call reset() first")
-        return self._hidden[0]
+        return self._ledger.hidden[0]
 
     @property
     def correct_answer(self) -> int:
@@ -236,78 +177,73 @@ class QuestionTask(composer.Task):
     def reseed(self, random) -> None:
         """Takes another seed: the next reset starts its first episode; `random` as in `Options`."""
         self.options = dataclasses.replace(self.options, random=random)
-        self._next_episode = 0
+        self._ledger.reseed(np.array([self.options.random]))
 
     @property
     def next_episode(self) -> int:
         """Index of the episode that the next reset starts, in [0, 2**62); set it to rebuild any episode."""
-        return self._next_episode
+        return int(self._ledger.next_episodes[0])
 
     @next_episode.setter
     def next_episode(self, episode: int) -> None:
-        self._next_episode = checks.integer("next_episode", episode, 0, seeding.LAST_EPISODE)
+        self._ledger.next_episodes[0] = checks.integer("next_episode", episode, 0, seeding.LAST_EPISODE)
 
     @property
     def episode(self) -> int:
         """Index of the current episode, -1 before the first."""
-        return self._next_episode - 1
+        return self.next_episode - 1
+
+    @property
+    def structure(self) -> int:
+        """The compiled model that the current episode needs."""
+        return int(self._ledger.structures[0])
 
     @property
     def answered(self) -> bool:
         """Whether the last action was a labeling action."""
-        return bool(self._actions[0] >= self.num_interactions)
+        return self._action >= self.num_interactions
+
+    def give_hidden(self, hidden: Any) -> None:
+        """Makes the next reset start an episode with this hidden property, [...]; None to draw it. For analysis."""
+        self._given_hidden = None if hidden is None else np.asarray(hidden)[None]
 
     def action_spec(self, physics=None) -> specs.DiscreteArray:
         return specs.DiscreteArray(self.rules.num_actions, dtype=np.int32, name="action")
 
     def observation_spec(self) -> dict[str, specs.Array]:
-        """What one environment observes."""
+        """Returns the specs of what one environment observes."""
         described = {}
         for name, blank in self.blank_observations(1).items():
             array = specs.Array(blank.shape[1:], blank.dtype, name)
-            if name in self.bounds:
-                array = specs.BoundedArray(array.shape, array.dtype, *self.bounds[name], name)
+            bounds = self.readings[name].bounds if name in self.readings else None
+            if bounds is not None:
+                array = specs.BoundedArray(array.shape, array.dtype, *bounds, name)
             described[name] = array
         return described
 
-    # The composer task.
-
-    @property
-    def root_entity(self):
-        return self._arena
-
-    @property
-    def task_observables(self):
-        return self._observables
+    # The apparatus.
 
     def build_apparatus(self, structure: int) -> apparatus_lib.Apparatus:
         """Arranges the MJCF and compiles it."""
         self.arrange(structure)
-        return apparatus_lib.build(
-            self.root_entity.mjcf_model,
-            self.sensors,
-            self.held_joints,
-            self.held_sensors,
-            self.held_geoms,
-            self.hidden_joints,
-        )
+        return apparatus_lib.build(self.root_entity.mjcf_model, self.readings, self.held, self.indicators)
 
     def blank_observations(self, size: int) -> dict[str, np.ndarray]:
-        """Arrays for the observations of `size` environments."""
-        return self.sense.blank(self.sensors, size)
+        """Returns arrays for the observations of `size` environments."""
+        return self.sense.blank({name: reading.shape for name, reading in self.readings.items()}, size)
 
-    def look(self, kit: apparatus_lib.Apparatus, state, touched, rows, observations) -> None:
+    def look(self, apparatus: apparatus_lib.Apparatus, state, touched, rows, observations) -> None:
         """Writes the observations of some simulations.
 
         Args:
-          kit: what is simulated.
+          apparatus: what is simulated.
           state: the fields that the sense looks at, float64 [N, ...].
-          touched: whether held parts have been touched, bool [N].
+          touched: whether each held entity has been touched, bool [N, number of held entities].
           rows: where the observations go, int [N].
           observations: arrays with a leading axis that `rows` index; written to.
         """
-        shown = {field: kit.shown(field, values, touched) for field, values in state.items()}
-        self.sense.look(kit, shown, rows, observations)
+        shown = {field: apparatus.shown(field, values, touched) for field, values in state.items()}
+        self.sense.look(apparatus, shown, rows, observations)
 
     def close(self) -> None:
         """Frees what the sense holds. A closed task can be played again."""
@@ -319,56 +255,63 @@ class QuestionTask(composer.Task):
         self._diverged = True
 
     def _look(self, state) -> None:
-        self.look(self.apparatus, state, self._touched, np.zeros(1, np.intp), self._seen)
+        self.look(self.apparatus, state, self._ledger.touched, _ROW, self._seen)
 
     def _recall(self, name: str, physics) -> np.ndarray:
-        """What was last seen: composer may ask many times, and it is looked at once for each control step."""
+        """Returns what was last seen: composer may ask many times, and it is looked at once for each control step."""
         return self._seen[name][0].copy()
 
+    # The composer task.
+
+    @property
+    def root_entity(self):
+        return self._arena
+
+    @property
+    def task_observables(self):
+        return self._observables
+
     def initialize_episode_mjcf(self, random_state):
-        hidden = self.draw(np.array([self.options.random]), np.array([self._next_episode]))
-        self._hidden, self._answers = hidden, self.answers(hidden)
-        self._next_episode += 1
-        self.structure = int(self.structures(hidden)[0])
+        given, self._given_hidden = self._given_hidden, None
+        self._ledger.begin(_ROW, given)
         self.arrange(self.structure)
 
     def initialize_episode(self, physics, random_state):
-        for field, (addresses, values) in self.apparatus.mass_fields(self.hidden_masses(self.hidden[None])).items():
+        for field, (addresses, values) in self.hidden_fields(self.apparatus, self._ledger.hidden).items():
             getattr(physics.model, field)[addresses] = values[0]
-        self._steps[0] = 0
-        self._actions[0] = 0
-        self._touched[0] = False
+        self._action = 0
         self._look({field: self.apparatus.rest[field][None] for field in self.sense.fields})
         if self.options.visualize_reward:
             physics.bind(self._arena.floor).rgba = self._arena.floor.rgba
 
     def before_step(self, physics, action, random_state):
-        self._actions[0] = self._checked(action)
-        self._diverged = False
-        self._steps[0] += 1
-        if not self.answered:
-            physics.data.ctrl[:] = self.controls[self._actions[0]]
-            if self._steps[0] == 1:
-                physics.data.qacc_warmstart[:] = 0  # A batch resets its rows without a forward pass.
-
-    def _checked(self, action) -> int:
         checked = self.rules.check_type(action, ())
         self.rules.check_range(checked)
-        return int(checked)
+        self._action = int(checked)
+        self._diverged = False
+        self._ledger.steps[0] += 1
+        if not self.answered:
+            data = physics.data
+            data.ctrl[:] = self.drive(checked[None], data.qpos[None], data.ctrl[None])[0]
+            if self._ledger.steps[0] == 1:
+                data.qacc_warmstart[:] = 0  # A batch resets its rows without a forward pass.
 
     def after_step(self, physics, random_state):
+        data = physics.data
         if not (self.answered or self._diverged):
-            self._touched |= self.apparatus.moved(physics.data.qpos[None], TOUCH_TOLERANCE)
-            self._look({field: getattr(physics.data, field)[None] for field in self.sense.fields})
-        self._rewards, self._last = self.rules.judge(self._actions, self._answers, self._steps)
-        if self.options.visualize_reward and self._last[0]:
-            physics.bind(self._arena.floor).rgba = _OK_RGBA if self._rewards[0] > 0 else _WRONG_RGBA
+            self._ledger.touched |= self.apparatus.moved(data.qpos[None])
+            self._look({field: getattr(data, field)[None] for field in self.sense.fields})
+            self.apparatus.indicate(data.geom_xpos[None], data.sensordata[None])  # For `render`.
+        rewards, last = self._ledger.judge(_ROW, np.array([self._action]))
+        self._reward, self._last = float(rewards[0]), bool(last[0])
+        if self.options.visualize_reward and self._last:
+            physics.bind(self._arena.floor).rgba = _OK_RGBA if self._reward > 0 else _WRONG_RGBA
 
     def get_reward(self, physics):
-        return float(self._rewards[0])
+        return self._reward
 
     def get_discount(self, physics):
-        return 0.0 if self._last[0] else 1.0
+        return 0.0 if self._last else 1.0
 
     def should_terminate_episode(self, physics):
-        return bool(self._last[0])
+        return self._last

@@ -1,0 +1,81 @@
+"""What a task declares: its interactions, its readings, and what a replay may reveal."""
+
+from collections.abc import Callable, Mapping, Sequence
+import dataclasses
+from typing import Any
+
+import numpy as np
+
+Fields = Mapping[str, tuple[np.ndarray, np.ndarray]]
+"""For each model field, the addresses, int [K], at which environments differ, and the values there, [N, K]."""
+
+Measure = Callable[[np.ndarray], np.ndarray]
+"""Turns sensor values into a reading, float64 [N, ...] both, row by row."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Interaction:
+    """An interaction action.
+
+    Attributes:
+      name: what it does, in words, as in `poke block 2`.
+      control: what it sends to the actuators, float64 [nu].
+      thing: name of the entity that it acts on.
+      vector: the force (N) or velocity (m/s) to draw there, (3,).
+    """
+
+    name: str
+    control: np.ndarray
+    thing: str
+    vector: tuple[float, float, float]
+
+
+@dataclasses.dataclass(frozen=True)
+class Reading:
+    """A feature: what some sensors show.
+
+    Attributes:
+      sensors: the MJCF sensors that make it up.
+      shape: of the feature.
+      unit: of its values.
+      components: names of the values of one sensor, as `x`, `y`, `z`; none where each sensor has one value.
+      bounds: the least and the greatest values that it ever has, where they are known.
+      measure: makes the reading coarser than the sensors; observations never hold more than it returns.
+    """
+
+    sensors: Sequence[Any]
+    shape: tuple[int, ...]
+    unit: str = "m"
+    components: tuple[str, ...] = ()
+    bounds: tuple[Any, Any] | None = None
+    measure: Measure | None = None
+
+
+@dataclasses.dataclass(frozen=True)
+class Indicator:
+    """A geom that shows a reading in images: it is drawn at its place plus `travel` times the reading.
+
+    Attributes:
+      geom: the MJCF geom.
+      reading: name of the reading.
+      component: index in the reading, flattened.
+      travel: m, (3,).
+    """
+
+    geom: Any
+    reading: str
+    component: int
+    travel: tuple[float, float, float]
+
+
+@dataclasses.dataclass(frozen=True)
+class Revealed:
+    """What a replay shows of a hidden property.
+
+    Attributes:
+      marks: texts beside things, by the thing's name.
+      joined: pairs of things that are one, by their names.
+    """
+
+    marks: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    joined: Sequence[tuple[str, str]] = ()

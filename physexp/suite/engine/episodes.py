@@ -1,0 +1,91 @@
+"""The bookkeeping of episodes: one ledger, of one row in composer's environment and of thousands in a batch."""
+
+from typing import Any
+
+import numpy as np
+
+from physexp.suite.engine import checks
+
+
+class Ledger:
+    """Keeps, for N environments of a task, which episode each plays and how far it is.
+
+    Attributes:
+      seeds: of the environments, int64 [N].
+      next_episodes: indices of the episodes that start next, int64 [N].
+      answers: indices of the right labels, int64 [N].
+      structures: the compiled model that each episode needs, int64 [N].
+      steps: control steps taken, int64 [N].
+      touched: whether each of the task's held entities has moved, bool [N, number of held entities].
+      over: whether the episode has ended, or none has begun, bool [N].
+    """
+
+    def __init__(self, task, size: int):
+        """Makes a ledger of `size` rows for a `QuestionTask`."""
+        self._task = task
+        self._hidden: np.ndarray | None = None
+        self.answers, self.structures, self.steps = np.zeros((3, size), np.int64)
+        self.touched = np.zeros((size, len(task.held)), bool)
+        self.reseed(np.zeros(size, np.int64))
+
+    def reseed(self, seeds: np.ndarray) -> None:
+        """Takes other seeds, int64 [N]: every environment starts its first episode next."""
+        self.seeds = seeds
+        self.next_episodes = np.zeros(len(seeds), np.int64)
+        self.over = np.ones(len(seeds), bool)
+
+    @property
+    def has_begun(self) -> bool:
+        """Whether any episode has been started."""
+        return self._hidden is not None
+
+    @property
+    def hidden(self) -> np.ndarray:
+        """Returns the hidden properties of the current episodes, [N, ...].
+
+        Raises:
+          RuntimeError: if no episode has been started.
+        """
+        if self._hidden is None:
+            raise RuntimeError("no episode has been started; call reset() first")
+        return self._hidden
+
+    def begin(self, rows: np.ndarray, hidden: Any = None) -> None:
+        """Starts the next episode of some environments.
+
+        Args:
+          rows: which, int [K].
+          hidden: their hidden properties, [K, ...]; by default those that follow from seed and episode.
+
+        Raises:
+          ValueError: if `hidden` does not have the shape of what would be drawn.
+        """
+        drawn = self._task.draw(self.seeds[rows], self.next_episodes[rows])
+        if hidden is not None:
+            given = np.asarray(hidden)
+            if given.shape != drawn.shape:
+                raise ValueError(f"hidden is {checks.shown(hidden)}; give an array of shape {drawn.shape}")
+            drawn = given.astype(drawn.dtype)
+        if self._hidden is None:
+            self._hidden = np.zeros((len(self.seeds), *drawn.shape[1:]), drawn.dtype)
+        self._hidden[rows] = drawn
+        self.answers[rows] = self._task.answers(drawn)
+        self.structures[rows] = self._task.structures(drawn)
+        self.next_episodes[rows] += 1
+        self.steps[rows] = 0
+        self.touched[rows] = False
+        self.over[rows] = False
+
+    def judge(self, rows: np.ndarray, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Judges the control step under way of some environments.
+
+        Args:
+          rows: which, int [K].
+          actions: what they did, int [K].
+
+        Returns:
+          Rewards, float64 [K], and whether the episode ends, bool [K].
+        """
+        rewards, last = self._task.rules.judge(actions, self.answers[rows], self.steps[rows])
+        self.over[rows] = last
+        return rewards, last

@@ -1,0 +1,54 @@
+"""What a user may choose of every task."""
+
+import dataclasses
+import math
+from typing import Any, ClassVar
+
+from physexp.suite.engine import checks, seeding
+
+_LONGEST = 1e6  # s
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Options:
+    """What a user may choose of every task: the `task_kwargs` of `suite.load`.
+
+    Attributes:
+      random: an integer seed, a `numpy.random.RandomState`, or None for a seed from the operating system.
+      control_timestep: time between actions, a multiple of the physics step, s.
+      time_limit: time after which an unanswered episode ends, rounded up to whole control steps, s.
+      visualize_reward: colour the floor by the outcome at the end of an episode.
+
+    Raises:
+      ValueError: for a value that makes no sense.
+    """
+
+    physics_timestep: ClassVar[float]
+
+    random: Any = None
+    control_timestep: float = 0.1
+    time_limit: float
+    visualize_reward: bool = False
+
+    def __post_init__(self):
+        object.__setattr__(self, "random", seeding.seed_from(self.random))
+        for name in ("control_timestep", "time_limit"):
+            seconds = checks.number(name, getattr(self, name), 0, "s", strictly=True)
+            if seconds > _LONGEST:
+                raise ValueError(f"{name} is {checks.shown(getattr(self, name))}; give at most {_LONGEST:g} s")
+            object.__setattr__(self, name, seconds)
+        if self.substeps < 1 or abs(self.substeps * self.physics_timestep - self.control_timestep) > 1e-9:
+            raise ValueError(
+                f"control_timestep is {self.control_timestep} s; "
+                f"give a multiple of the physics step, {self.physics_timestep} s"
+            )
+
+    @property
+    def substeps(self) -> int:
+        """Physics steps in a control step."""
+        return round(self.control_timestep / self.physics_timestep)
+
+    @property
+    def step_limit(self) -> int:
+        """Control steps in an unanswered episode."""
+        return max(1, math.ceil(self.time_limit / self.control_timestep - 1e-6))

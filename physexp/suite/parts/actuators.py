@@ -1,0 +1,80 @@
+"""The two ways to act on a tower: forces on its blocks, and a fist (paper, Section 6.2)."""
+
+import numpy as np
+
+from physexp.suite.engine import declarations
+from physexp.suite.parts import arena, fist, tower
+
+# The lowest cube alone is held by friction of 0.3 * (4 + 5) * 9.81 = 26.5 N: twice that moves it, and slides a cube
+# from the middle out by a good part of its edge in one control step.
+PUSH_FORCE = 50.0  # N
+
+FIST_START = (-0.32, 0.0, 0.25)  # m: at the height of the middle cube, 0.17 m clear of the tower
+FIST_SPEED = 1.0  # m/s
+_FIST_REACH = 0.4  # m: leaves half a block's room at the wall, and its force is limited
+
+_DIRECTIONS = {"+x": (1, 0), "-x": (-1, 0), "+y": (0, 1), "-y": (0, -1)}
+
+
+class DirectActuator:
+    """Pushes one block with a horizontal force."""
+
+    readings: dict[str, declarations.Reading] = {}
+
+    def attach_to(self, room: arena.Laboratory) -> None:
+        """Adds the site whose axes give the directions of the forces."""
+        self._axes = room.mjcf_model.worldbody.add("site", name="axes", size=[0.001], group=5)
+
+    def equip(self, built: tower.Tower) -> None:
+        """Gives a tower what it needs to be pushed."""
+        built.add_pushers(self._axes)
+
+    @property
+    def interactions(self) -> list[declarations.Interaction]:
+        """Action 4 * block + direction pushes the block in that direction, N [20]."""
+        found = []
+        for block in range(tower.NUM_BLOCKS):
+            for name, (x, y) in _DIRECTIONS.items():
+                control = np.zeros((tower.NUM_BLOCKS, 2))
+                control[block] = PUSH_FORCE * x, PUSH_FORCE * y
+                vector = (PUSH_FORCE * x, PUSH_FORCE * y, 0.0)
+                found.append(
+                    declarations.Interaction(f"push block {block} {name}", control.ravel(), f"block_{block}", vector)
+                )
+        return found
+
+
+class FistActuator:
+    """Sets the velocity of the fist."""
+
+    def __init__(self):
+        x, y, _ = FIST_START
+        reach = _FIST_REACH
+        self.fist = fist.Fist(x_range=[-reach - x, reach - x], y_range=[-reach - y, reach - y])
+
+    @property
+    def readings(self) -> dict[str, declarations.Reading]:
+        """Where the fist is."""
+        return {"fist_position": declarations.Reading([self.fist.position_sensor], (3,), components=("x", "y", "z"))}
+
+    def attach_to(self, room: arena.Laboratory) -> None:
+        """Places the fist in the room."""
+        frame = room.attach(self.fist)
+        frame.pos = FIST_START
+        self.fist.create_root_joints(frame)
+
+    def equip(self, built: tower.Tower) -> None:
+        """Does nothing: the fist needs nothing of the tower."""
+
+    @property
+    def interactions(self) -> list[declarations.Interaction]:
+        """Action `direction` holds the velocity in that direction, m/s [4]."""
+        return [
+            declarations.Interaction(
+                f"move the fist {name}",
+                FIST_SPEED * np.array([x, y], float),
+                "fist",
+                (FIST_SPEED * x, FIST_SPEED * y, 0.0),
+            )
+            for name, (x, y) in _DIRECTIONS.items()
+        ]
