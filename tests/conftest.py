@@ -1,7 +1,9 @@
 """Fixtures of all tests."""
 
+import multiprocessing
 import signal
 
+import commands
 import pytest
 
 from physexp.agents.a3c import config as a3c
@@ -14,6 +16,17 @@ from physexp.analysis.training import trainer
 for _number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
     if signal.getsignal(_number) is signal.SIG_IGN:
         signal.signal(_number, signal.default_int_handler if _number == signal.SIGINT else signal.SIG_DFL)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def quick_starts():
+    """Processes that the code under test spawns from this one are forked from a server with their imports behind it.
+
+    Those that a `physexp` of a test's own spawns (`commands`) import everything, as they do for a user.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(multiprocessing.context._concrete_contexts, "spawn", commands.context)
+        yield
 
 
 @pytest.fixture

@@ -13,13 +13,15 @@ import threading
 import time
 import types
 
+import commands
 import psutil
 import pytest
 import ray
 from ray import cluster_utils
 import torch
 import trainers
-from trainers import PHYSEXP, fresh_seed, wait_until
+from trainers import PHYSEXP, fresh_seed
+from waiting import wait_until
 
 from physexp.agents import agent as agent_lib
 from physexp.agents import learning
@@ -117,17 +119,17 @@ def test_whoever_dies_training_ends_as_if_nobody_had(nodes, tmp_path):
     )
 
     def disturb(told):
-        wait_until(lambda: has_trained(run, 0), 150, "a checkpoint")
+        wait_until(lambda: has_trained(run, 0), "a checkpoint")
         (victim, other) = nodes.processes("Worker")
         os.kill(victim, signal.SIGKILL)
         killed = time.monotonic()
-        wait_until(lambda: len(set(nodes.processes("Worker")) - {victim, other}) == 1 and told, 150, "another worker")
+        wait_until(lambda: len(set(nodes.processes("Worker")) - {victim, other}) == 1 and told, "another worker")
         print("another worker after", time.monotonic() - killed, "s")
         (server,) = nodes.processes("ParameterServer")
         os.kill(server, signal.SIGKILL)
-        wait_until(lambda: nodes.processes("ParameterServer") not in ([], [server]), 150, "another server")
+        wait_until(lambda: nodes.processes("ParameterServer") not in ([], [server]), "another server")
         killed = int(run.checkpointer.paths()[-1].stem)
-        wait_until(lambda: has_trained(run, killed), 150, "a checkpoint after the server was killed")
+        wait_until(lambda: has_trained(run, killed), "a checkpoint after the server was killed")
         nodes.cluster.remove_node(nodes.other, allow_graceful=False)
         nodes.cluster.add_node(num_cpus=1)
 
@@ -224,7 +226,7 @@ def test_a_sweep_gathers_what_the_cluster_made_and_survives_a_killed_task(nodes,
     results, lines, killed = base.Results(tmp_path), [], []
 
     def kill_one():
-        wait_until(lambda: nodes.processes("work_elsewhere"), 150, "a task")
+        wait_until(lambda: nodes.processes("work_elsewhere"), "a task")
         killed.append(nodes.processes("work_elsewhere")[0])
         os.kill(killed[0], signal.SIGKILL)
 
@@ -286,7 +288,7 @@ def test_stopped_processes_of_a_cluster_hang_nobody(nodes, tmp_path):
     agent.stop()
     list(updates)
     assert lines[-1] == "worker 0 did not end within 0 s: killed"
-    wait_until(lambda: not Path(f"/proc/{worker}").exists(), 60, "the end of a stopped worker")
+    wait_until(lambda: not Path(f"/proc/{worker}").exists(), "the end of a stopped worker")
 
 
 def test_a_parameter_server_that_does_not_answer_counts_as_dead(nodes, tmp_path):
@@ -302,7 +304,7 @@ def test_a_parameter_server_that_does_not_answer_counts_as_dead(nodes, tmp_path)
     patience.answer = 0.3
     with pytest.raises(agent_lib.VariablesLostError, match="the parameter server has not answered for 0 s"):
         list(updates)
-    wait_until(lambda: not Path(f"/proc/{server}").exists(), 60, "the end of a stopped server")
+    wait_until(lambda: not Path(f"/proc/{server}").exists(), "the end of a stopped server")
 
 
 def listening(leader):
@@ -356,15 +358,14 @@ def test_a_head_that_does_not_answer_is_one_readable_line(monkeypatch):
 
 @pytest.mark.parametrize("address, words", [("127.0.0.1:1", "refused"), ("nowhere", "give HOST:PORT, auto or local")])
 def test_a_cluster_that_is_not_there_is_one_readable_line(address, words, tmp_path):
-    command = [PHYSEXP, "train", "which_is_heavier", "features", "--run-dir", tmp_path / "run", "--cluster", address]
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=180, check=False)
+    options = ["--run-dir", tmp_path / "run", "--cluster", address]
+    done = commands.run("train", "which_is_heavier", "features", *options)
     assert done.returncode == 2, done.stderr
     assert done.stderr.count("\n") == 1
     assert f"cannot join the cluster {address}" in done.stderr and words in done.stderr
 
 
 def test_nothing_but_a_cluster_imports_ray():
-    code = (
-        "import sys, physexp.cli, physexp.analysis.training, physexp.analysis.reproduce; sys.exit('ray' in sys.modules)"
-    )
+    modules = "physexp.cli, physexp.analysis.training.trainer, physexp.analysis.reproduction.reproduce"
+    code = f"import sys, {modules}; sys.exit('ray' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True)
