@@ -1,14 +1,16 @@
 """Real processes in hundredths of a second: forked from a server that has made the imports of `physexp`.
 
 The server (`multiprocessing`'s forkserver) is started by the first test that needs it. What it forks has a process id,
-a session, a working directory, an environment and streams of its own, and is signalled and killed as any other. Tests
-of what a start itself imports, or of an environment variable that an import looks at, start Python instead.
+a group, a working directory, an environment and streams of its own, and is signalled and killed as any other; so has
+what it spawns. Tests of what a start itself imports, or of an environment variable that an import looks at, start
+Python instead.
 """
 
 import contextlib
 import ctypes
 import faulthandler
 import multiprocessing
+from multiprocessing import forkserver, reduction
 import os
 import signal
 import struct
@@ -35,11 +37,59 @@ context.set_forkserver_preload(
 )
 
 
+class _Spawned(multiprocessing.context.ForkServerProcess):
+    """A process with its parent's group, directory, environment, streams and signal mask, as `spawn` makes it."""
+
+    def __getstate__(self):
+        forkserver._forkserver.ensure_running()
+        surroundings = {
+            "group": os.getpgrp(),
+            "cwd": os.getcwd(),
+            "variables": dict(os.environ),
+            "streams": [reduction.DupFd(number) for number in (1, 2)],
+            "mask": signal.pthread_sigmask(signal.SIG_BLOCK, []),
+            "server": forkserver._forkserver._forkserver_address,
+        }
+        return self.__dict__ | {"surroundings": surroundings}
+
+    def run(self):
+        _surround(**self.__dict__.pop("surroundings"))
+        super().run()
+
+
+class _Spawning(type(context)):
+    """What code under test gets for `multiprocessing.get_context("spawn")`."""
+
+    Process = _Spawned
+
+
+def spawn_quickly() -> None:
+    """Has this process fork from the server what it would otherwise spawn, and that do the same."""
+    multiprocessing.context._concrete_contexts["spawn"] = _Spawning()
+
+
+def _surround(group, cwd, variables, streams, mask, server) -> None:
+    """Gives a process that the server has forked what it would have from its parent if that had spawned it."""
+    signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+    os.setpgid(0, group)
+    os.environ.clear()
+    os.environ.update(variables)
+    os.chdir(cwd)
+    for number, stream in zip((1, 2), streams, strict=True):
+        os.dup2(stream.detach(), number)
+    # As they are when Python starts: what goes to a pipe is written in blocks, errors in lines.
+    sys.stdout = os.fdopen(1, "w", closefd=False)
+    sys.stderr = os.fdopen(2, "w", buffering=1, errors="backslashreplace", closefd=False)
+    forkserver._forkserver._forkserver_address = server
+    forkserver._forkserver.ensure_running = lambda: None  # It is.
+    spawn_quickly()
+
+
 class Process:
     """A function that runs in a process forked from the server; it is used like `subprocess.Popen`.
 
     Attributes:
-      pid: of the process, and of the session and the group that it leads.
+      pid: of the process, and of the group that it leads.
       returncode: its exit status, below zero the signal that killed it; None while it runs.
       seconds: how long it took, once it is over.
     """
@@ -55,16 +105,23 @@ class Process:
         """
         self._started = time.monotonic()
         self.returncode, self.seconds = None, None
-        output, theirs = context.Pipe(duplex=False)
-        errors, their_errors = context.Pipe(duplex=False) if stderr == subprocess.PIPE else (None, theirs)
-        surroundings = (os.getcwd() if cwd is None else str(cwd), dict(os.environ if env is None else env))
-        self._process = context.Process(target=_child, args=(theirs, their_errors, surroundings, first, function, args))
+        forkserver.ensure_running()
+        output, writer = os.pipe()
+        errors, error_writer = os.pipe() if stderr == subprocess.PIPE else (None, writer)
+        surroundings = {
+            "cwd": os.getcwd() if cwd is None else str(cwd),
+            "variables": dict(os.environ if env is None else env),
+            "mask": signal.pthread_sigmask(signal.SIG_BLOCK, []),
+            "server": forkserver._forkserver._forkserver_address,
+        }
+        self._process = _Started(target=_child, args=(surroundings, first, function, args))
+        self._process.writers = writer, error_writer
         self._process.start()
         self.pid = self._process.pid
         self.stdout = _Stream(output)
         self.stderr = None if errors is None else _Stream(errors)
-        for end in {theirs, their_errors}:
-            end.close()
+        for end in {writer, error_writer}:
+            os.close(end)
 
     def poll(self):
         """Returns the exit status, or None while the process runs."""
@@ -95,7 +152,7 @@ class Process:
         self.send_signal(signal.SIGKILL)
 
     def kill_all(self) -> None:
-        """Ends the process and what it has started, other than sessions of their own."""
+        """Ends the process and what it has started, other than groups of their own."""
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(self.pid, signal.SIGKILL)
         self._process.join()
@@ -117,9 +174,8 @@ class _Stream:
         self._thread.start()
 
     def _listen(self, reader) -> None:
-        with open(reader.fileno(), "rb", closefd=False) as file:
+        with os.fdopen(reader, "rb") as file:
             self._written.extend(file)
-        reader.close()
 
     def so_far(self) -> str:
         """Returns the lines that were written until now."""
@@ -131,21 +187,23 @@ class _Stream:
         return self.so_far()
 
 
-def _child(output, errors, surroundings, first, function, args):
-    os.setsid()
-    cwd, variables = surroundings
-    os.environ.clear()
-    os.environ.update(variables)
-    os.chdir(cwd)
-    for number, stream in ((1, output), (2, errors)):
-        os.dup2(stream.fileno(), number)
-    output.close()
-    errors.close()
-    # As they are when Python starts: what goes to a pipe is written in blocks, errors in lines.
-    sys.stdout = os.fdopen(1, "w", closefd=False)
-    sys.stderr = os.fdopen(2, "w", buffering=1, errors="backslashreplace", closefd=False)
+class _Started(multiprocessing.context.ForkServerProcess):
+    """What `Process` starts; `writers` are its stdout and stderr."""
+
+    def __getstate__(self):
+        streams = [reduction.DupFd(number) for number in self.writers]
+        return {name: value for name, value in self.__dict__.items() if name != "writers"} | {"streams": streams}
+
+    def run(self):
+        self._args = (self.__dict__.pop("streams"), *self._args)
+        super().run()
+
+
+def _child(streams, surroundings, first, function, args):
+    os.setpgid(0, 0)
+    _surround(group=os.getpid(), streams=streams, **surroundings)
     faulthandler.enable()
-    # What processes it starts would import as this one's program is that of the tests.
+    # What it spawns would import that as the program.
     sys.modules["__main__"] = types.ModuleType("__main__")
     import torch
 

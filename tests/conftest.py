@@ -1,6 +1,5 @@
 """Fixtures of all tests."""
 
-import multiprocessing
 import signal
 
 import commands
@@ -18,15 +17,9 @@ for _number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(_number, signal.default_int_handler if _number == signal.SIGINT else signal.SIG_DFL)
 
 
-@pytest.fixture(scope="session", autouse=True)
-def quick_starts():
-    """Processes that the code under test spawns from this one are forked from a server with their imports behind it.
-
-    Those that a `physexp` of a test's own spawns (`commands`) import everything, as they do for a user.
-    """
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setitem(multiprocessing.context._concrete_contexts, "spawn", commands.context)
-        yield
+# Imports of torch and MuJoCo take seconds of each process that is spawned. What a real `physexp` spawns imports them
+# as ever, in the tests that start one.
+commands.spawn_quickly()
 
 
 @pytest.fixture

@@ -89,7 +89,8 @@ def group(leader, words=""):
 
 def workers(process):
     """The worker processes of a trainer."""
-    return group(process.pid, "spawn_main")
+    spawned = group(process.pid, "spawn_main") or group(process.pid, "forkserver")
+    return [member for member in spawned if member.pid != process.pid]
 
 
 def wait_for_checkpoint(process, run, beyond=-1):
