@@ -22,6 +22,26 @@ for _number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
 commands.spawn_quickly()
 
 
+LONGEST = {
+    "test_cluster",
+    "test_determinism",
+    "test_docs",
+    "test_faults",
+    "test_kills",
+    "test_learning_beats_chance",
+    "test_readme",
+    "test_replay",
+    "test_reproduce",
+    "test_soak",
+}
+"""Files with tests that take long."""
+
+
+def pytest_collection_modifyitems(items):
+    """Has these begin first: what two processes take from each other in the end is short."""
+    items.sort(key=lambda item: item.path.stem not in LONGEST)
+
+
 @pytest.fixture
 def untrained(tmp_path):
     """A run whose checkpoint holds a network as it is before training."""

@@ -33,6 +33,11 @@ def begun(lines):
     return [int(line.split()[1]) for line in lines if line.startswith("started")]
 
 
+def result_of(future):
+    wait_until(future.done, "the end of a job")
+    return future.result()
+
+
 def test_a_killed_job_fails_alone(tmp_path):
     lines = []
     with jobs.Processes(wait_for, 2, lines.append) as pool:
@@ -57,10 +62,10 @@ def test_a_stopped_job_is_told_of_and_killed_when_all_are_asked_to_end(tmp_path)
         wait_until(lambda: f"one (process {pid}) has given no sign of life for 3 s" in lines, "a line")
         pool.stop()
         with pytest.raises(jobs.Failed, match="it was killed"):
-            future.result(120)
+            result_of(future)
         assert f"one (process {pid}) did not end within 0 s, and was killed" in lines
         with pytest.raises(futures.CancelledError):
-            waiting.result(120)
+            result_of(waiting)
     assert not Path(f"/proc/{pid}").exists()
 
 
@@ -73,7 +78,7 @@ def test_jobs_ignore_signals_and_end_in_order_when_their_parent_asks(tmp_path):
             os.kill(begun(lines)[0], number)
         pool.stop()
         with pytest.raises(stopping.Interrupted):
-            future.result(120)
+            result_of(future)
     assert (tmp_path / "saved").read_text() == "a checkpoint"
 
 
