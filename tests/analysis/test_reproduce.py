@@ -131,7 +131,7 @@ def test_a_report_of_nothing_says_what_to_do(tmp_path):
 
 @pytest.mark.long
 def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
-    frames = 150_000
+    frames = 30_000  # The second has to be at it for longer than it takes to see that it has begun.
     with commands.start(*command(tmp_path, frames, "--jobs", 1)) as process:
         first, second = (tmp_path / "runs" / name for name in NAMES[:2])
         part = tmp_path / "episodes" / "learned" / f"{NAMES[0]}.parquet"
