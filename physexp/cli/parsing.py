@@ -167,7 +167,13 @@ class Train(Generic[Config]):
                     for log in logs:
                         log(row)
 
-                trainer.train(run, report, self.cluster is not None, _warn, None if self.resume else config)
+                on_checkpoint = None
+                if config.replay_every:
+                    from physexp.analysis.replay import training
+
+                    on_checkpoint = training.Writer(run, config)
+                start = None if self.resume else config
+                trainer.train(run, report, self.cluster is not None, _warn, start, on_checkpoint)
         except KeyboardInterrupt:
             self._tell_how_to_go_on(run)
             raise
@@ -220,7 +226,7 @@ class Evaluate:
         seed = playing.SEED if self.seed is None else self.seed
         with progress.bar("episodes", self.episodes) as show:
             played = playing.play(
-                network, config, self.episodes, self.interaction, self.greedy, seed, device=self.device, report=show
+                network, config, self.episodes, self.interaction, self.greedy, seed, device=self.device, show=show
             )
         _show(played.summary(config.agent.discount), self.json)
 
@@ -402,7 +408,7 @@ class Reproduce:
                 num_processes=self.jobs,
                 frames=self.frames,
                 submit=submit,
-                report=_tell,
+                tell=_tell,
             )
 
 

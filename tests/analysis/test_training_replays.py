@@ -7,7 +7,7 @@ import pytest
 from rerun.chunk import RrdReader
 
 from physexp.agents.ppo import config as ppo
-from physexp.analysis.replay import writing
+from physexp.analysis.replay import training, writing
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
@@ -23,7 +23,7 @@ SMALL = config_lib.TrainConfig(
 def trained(path, **changes):
     run = run_lib.Run(path)
     run.create(dataclasses.replace(SMALL, **changes))
-    trainer.train(run)
+    trainer.train(run, on_checkpoint=training.Writer(run, run.config) if run.config.replay_every else None)
     return run
 
 
@@ -44,7 +44,7 @@ def test_every_replay_shows_the_same_instance(tmp_path):
     names = {
         RrdReader(str(path)).recordings()[0].recording_id.split("-")[0] for path in (run.path / "replays").iterdir()
     }
-    assert names == {str(trainer._REPLAY_SEED)}
+    assert names == {str(training.SEED)}
 
 
 def test_without_the_option_there_are_none(tmp_path):

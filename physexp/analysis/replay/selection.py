@@ -6,6 +6,7 @@ from typing import Literal
 import numpy as np
 
 from physexp.agents import networks
+from physexp.analysis.data import episodes
 from physexp.analysis.evaluation import playing
 from physexp.analysis.training import config as config_lib
 from physexp.suite.domains import which_is_heavier
@@ -31,7 +32,7 @@ def select(
         the smallest mass gap, or the glue patterns that take this agent the longest.
 
     Yields:
-      Seed, number and actions of each chosen episode; fewer than wanted where there are not enough.
+      Seed, index and actions of each chosen episode; fewer than wanted where there are not enough.
 
     Raises:
       ValueError: if count is below one, or none of many episodes is as wanted.
@@ -48,15 +49,15 @@ def select(
     if not len(order):
         raise ValueError(f"none of {size} episodes is {selection}; choose another selection")
     for index in order[:count]:
-        yield int(played.seeds[index]), int(played.numbers[index]), played.actions[index]
+        yield int(played.seed[index]), int(played.episode[index]), played.actions_of(index)
 
 
-def _order(played: playing.Episodes, selection: Selection) -> np.ndarray:
+def _order(played: episodes.Episodes, selection: Selection) -> np.ndarray:
     """Indices of the episodes that are as wanted, the best first."""
     if selection == "wrong":
-        return np.flatnonzero(played.rewards < 0)
+        return np.flatnonzero(played.reward < 0)
     if selection == "right":
-        return np.flatnonzero(played.rewards > 0)
+        return np.flatnonzero(played.reward > 0)
     if selection == "longest":
         return np.argsort(-played.interactions, kind="stable")
     if selection == "hardest":
@@ -65,4 +66,4 @@ def _order(played: playing.Episodes, selection: Selection) -> np.ndarray:
         _, pattern = np.unique(played.hidden, return_inverse=True)
         typical = np.bincount(pattern, played.interactions) / np.bincount(pattern)
         return np.argsort(-typical[pattern], kind="stable")
-    return np.arange(len(played.lengths))
+    return np.arange(len(played))
