@@ -5,9 +5,13 @@ import multiprocessing
 import time
 
 import numpy as np
+import torch
 
 from physexp import suite  # Before mujoco and dm_control, for which it chooses the GL backend.
+from physexp.agents import agent as agent_lib
+from physexp.agents import losses
 from physexp.analysis.bench import measuring
+from physexp.analysis.training import config as config_lib
 from physexp.suite.engine import rendering
 from physexp.suite.parts import block, tower
 
@@ -15,17 +19,19 @@ from dm_control import composer, mjcf  # isort: skip
 import mujoco  # isort: skip
 
 BATCH = 64
-TASKS = {
-    "heavier": ("which_is_heavier", "pixels"),
-    "direct": ("towers", "direct_pixels"),
-    "fist": ("towers", "fist_pixels"),
-}
+TASKS = measuring.tasks("pixels")
 _ROUND_STEPS = 6
 _SECONDS = 20.0  # Of training, or of the bare network, for one rate.
 
 
+def figures() -> Iterator[dict]:
+    """Measures drawing, then training."""
+    yield from rendering_figures()
+    yield from training_figures()
+
+
 def rendering_figures() -> Iterator[dict]:
-    """Frames per second of a batch, against what MuJoCo needs to draw the same scene, and a composer scene."""
+    """Measures frames per second of a batch, against what MuJoCo needs to draw the same scene, and a composer scene."""
     for name in TASKS:
         drawn, bare = measuring.rates(_batch_drawing(name), bare_rendering(name))
         yield measuring.row(
@@ -55,7 +61,7 @@ def rendering_figures() -> Iterator[dict]:
 
 
 def training_figures() -> Iterator[dict]:
-    """Frames per second of training, against the bare network on random images."""
+    """Measures frames per second of training, against the bare network on random images."""
     for name in ("fist", "heavier"):
         trained = measuring.training_rate(TASKS[name], _SECONDS)
         bare = bare_network_rate(TASKS[name])
@@ -86,11 +92,9 @@ def _batch_drawing(name: str) -> Callable[[], int]:
 
 def _played_poses(name: str) -> tuple[np.ndarray, np.ndarray]:
     """Poses of the geoms after some random interactions in each of `BATCH` environments."""
-    domain, task = TASKS[name]
-    task = task.replace("pixels", "features")
     poses = []
     generator = np.random.default_rng(0)
-    environment = suite.load(domain, task, task_kwargs={"random": 0})
+    environment = suite.load(*measuring.FEATURES[name], task_kwargs={"random": 0})
     for _ in range(BATCH):
         environment.reset()
         for action in generator.integers(environment.task.num_interactions, size=5):
@@ -133,21 +137,15 @@ def composer_rendering() -> Callable[[], int]:
     return draw
 
 
-def bare_network_rate(task: tuple[str, str], num_processes: int = 2) -> float:
+def bare_network_rate(task: measuring.Task, num_processes: int = 2) -> float:
     """Frames per second of a preset's network that acts and trains on random images, in as many processes."""
     context = multiprocessing.get_context("spawn")
     with context.Pool(num_processes) as pool:
         return sum(pool.map(_bare_network_rate, [task] * num_processes, chunksize=1))
 
 
-def _bare_network_rate(task: tuple[str, str]) -> float:
+def _bare_network_rate(task: measuring.Task) -> float:
     """Each image passes forward once to act, and forward and backward to train, in rounds like those of training."""
-    import torch
-
-    from physexp.agents import agent as agent_lib
-    from physexp.agents import losses
-    from physexp.analysis.training import config as config_lib
-
     torch.set_num_threads(1)
     config = config_lib.A3C[task]
     environment = suite.load_batch(*task, 1)
