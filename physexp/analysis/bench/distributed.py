@@ -76,7 +76,7 @@ def figures() -> Iterator[dict]:
 
 
 def _measure(num_workers: int) -> tuple[float, distributed.Traffic, float]:
-    """Frames per second once all workers are under way; the traffic; and frames in an update."""
+    """Returns frames per second once all workers are under way; the traffic; and frames in an update."""
     agent = _agent(num_workers)
     heard: set[int] = set()
     start, first, last = 0.0, None, None
@@ -96,7 +96,7 @@ def _measure(num_workers: int) -> tuple[float, distributed.Traffic, float]:
 
 
 def _final_return(on_cluster: bool) -> float:
-    """Mean discounted return of an agent that two workers have trained."""
+    """Returns mean discounted return of an agent that two workers have trained."""
     domain, task = measuring.REFERENCE
     agent = config_lib.A3C[domain, task].replace(num_workers=2, frames=_FRAMES)
     with tempfile.TemporaryDirectory() as folder:
@@ -107,7 +107,7 @@ def _final_return(on_cluster: bool) -> float:
 
 
 def _recovery() -> float:
-    """Seconds from the death of the only worker to the first update of the one that takes its place."""
+    """Returns seconds from the death of the only worker to the first update of the one that takes its place."""
     told: list[str] = []
     updates = _agent(1, told.append).updates(poll_seconds=0.1)
     next(update for update in updates if update is not None)
@@ -131,7 +131,7 @@ def _agent(num_workers: int, tell: callbacks.Tell = callbacks.ignore) -> distrib
 
 
 def _processes(title: str) -> list[int]:
-    """Those of this machine whose command line starts so."""
+    """Returns the processes of this machine whose command line starts with a title."""
     found = []
     for entry in Path("/proc").glob("[0-9]*"):
         try:

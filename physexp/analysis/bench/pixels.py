@@ -91,7 +91,7 @@ def _batch_drawing(name: str) -> Callable[[], int]:
 
 
 def _played_poses(name: str) -> tuple[np.ndarray, np.ndarray]:
-    """Poses of the geoms after some random interactions in each of `BATCH` environments."""
+    """Returns poses of the geoms after some random interactions in each of `BATCH` environments."""
     poses = []
     generator = np.random.default_rng(0)
     environment = suite.load(*measuring.FEATURES[name], task_kwargs={"random": 0})
@@ -105,7 +105,7 @@ def _played_poses(name: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def bare_rendering(name: str) -> Callable[[], int]:
-    """MuJoCo's own drawing and read-back of a task's scene, which stays as it is."""
+    """Returns what draws a task's scene, which stays as it is, and reads it back with MuJoCo's own functions."""
     model = suite.load_task(*TASKS[name], {"random": 0}).build_apparatus(0).model
     renderer = rendering.Renderer(model)
     size = rendering.SIZE
@@ -123,7 +123,7 @@ def bare_rendering(name: str) -> Callable[[], int]:
 
 
 def composer_rendering() -> Callable[[], int]:
-    """The blocks of a tower in composer's default arena, seen by its default camera, drawn by dm_control."""
+    """Returns what draws the blocks of a tower in composer's default arena, by its default camera, with dm_control."""
     arena = composer.Arena()
     for k in range(tower.NUM_BLOCKS):
         cube = block.Block(rgba=block.COLORS[k], mass=1.0, name=f"block_{k}")
@@ -138,14 +138,14 @@ def composer_rendering() -> Callable[[], int]:
 
 
 def bare_network_rate(task: measuring.Task, num_processes: int = 2) -> float:
-    """Frames per second of a preset's network that acts and trains on random images, in as many processes."""
+    """Returns frames per second of a preset's network that acts and trains on random images, in as many processes."""
     context = multiprocessing.get_context("spawn")
     with context.Pool(num_processes) as pool:
         return sum(pool.map(_bare_network_rate, [task] * num_processes, chunksize=1))
 
 
 def _bare_network_rate(task: measuring.Task) -> float:
-    """Each image passes forward once to act, and forward and backward to train, in rounds like those of training."""
+    """Returns frames per second; as in training, an image passes forward to act, and forward and backward to learn."""
     torch.set_num_threads(1)
     config = config_lib.A3C[task]
     environment = suite.load_batch(*task, 1)

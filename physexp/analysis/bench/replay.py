@@ -31,7 +31,7 @@ def figures() -> Iterator[dict]:
 
 
 def _recording(name: str, task: measuring.Task) -> dict:
-    """What recording adds to playing with a trained agent: the same episodes with and without it, in turns."""
+    """Returns what recording adds to playing with a trained agent: the same episodes with and without it, in turns."""
     environment, actor = suite.load(*task, task_kwargs={"random": 0}), pretrained.load(*task).actor(greedy=True)
     recorder = replay.EpisodeRecorder(environment, *task, {}, actor)
     loops = [environment_loop.EnvironmentLoop(environment, actor, observers) for observers in ([], [recorder])]
@@ -56,7 +56,7 @@ def _recording(name: str, task: measuring.Task) -> dict:
 
 
 def _replay_in_training(name: str, task: measuring.Task) -> dict:
-    """Processor time of a replay over that of training from one to the next, on two workers."""
+    """Returns processor time of a replay over that of training from one to the next, on two workers."""
     agent = pretrained.load(*task)
     config = playing.config_of(agent)
     seconds = []

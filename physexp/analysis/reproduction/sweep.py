@@ -60,7 +60,7 @@ def jobs(
 
 
 def num_cores() -> int:
-    """How many agents to train at a time: each has one busy process."""
+    """Returns how many agents to train at a time: each has one busy process."""
     return len(os.sched_getaffinity(0))
 
 
@@ -208,7 +208,7 @@ class Meter:
         self._jobs, self._results, self._num_processes = jobs, results, num_processes
 
     def line(self, num_pending: int) -> str:
-        """How many agents and frames there are to go, and for how long, as far as that is known."""
+        """Returns how many agents and frames there are to go, and for how long, as far as that is known."""
         done = total = left = 0.0
         speeds: dict[tuple[str, ...], list[tuple[float, float]]] = {}
         remaining: dict[tuple[str, ...], float] = {}

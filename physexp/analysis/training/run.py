@@ -102,7 +102,7 @@ class Run:
 
     @contextlib.contextmanager
     def locked(self) -> Iterator[None]:
-        """A context in which no other trainer works in the folder; see `FolderLock.held`.
+        """Returns a context in which no other trainer works in the folder; see `FolderLock.held`.
 
         Raises:
           OSError: if the folder cannot be made or written to.
