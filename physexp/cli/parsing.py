@@ -10,7 +10,7 @@ import os
 from pathlib import Path
 import shlex
 import sys
-from typing import Annotated, Any, Generic, Literal, NoReturn, TypeVar, Union, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, NoReturn, TypeVar, Union
 
 import tyro
 from tyro import _errors as tyro_errors  # Its hook on what it refuses; not public as yet, so setup.cfg bounds tyro.
@@ -18,19 +18,15 @@ from tyro.conf import OmitArgPrefixes, Positional
 
 from physexp import __version__, extras
 from physexp.agents import config as agent_config
+from physexp.analysis import bench
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import stopping
 
 Config = TypeVar("Config", bound=agent_config.AgentConfig)
-BenchSection = Literal[
-    "reset", "batch", "training", "peers", "pixels", "pretrained", "replay", "distributed", "learning"
-]
-_NEEDED = {
-    "peers": ("gymnasium", "stable_baselines3", "sb3_contrib"),
-    "distributed": ("ray",),
-    "learning": ("matplotlib", "pandas"),
-}
-"""Modules of extras that sections of the benchmark use."""
+if TYPE_CHECKING:
+    BenchSection = str
+else:
+    BenchSection = Literal[tuple(bench.SECTIONS)]
 
 # Names for the values of arguments in help; an optional value's text says what happens without it.
 Domain = Annotated[Positional[str], tyro.conf.arg(metavar="DOMAIN")]
@@ -167,7 +163,13 @@ class Train(Generic[Config]):
                     for log in logs:
                         log(row)
 
-                trainer.train(run, report, self.cluster is not None, _warn, None if self.resume else config)
+                on_checkpoint = None
+                if config.replay_every:
+                    from physexp.analysis.replay import training
+
+                    on_checkpoint = training.Writer(run, config)
+                start = None if self.resume else config
+                trainer.train(run, report, self.cluster is not None, _warn, start, on_checkpoint)
         except KeyboardInterrupt:
             self._tell_how_to_go_on(run)
             raise
@@ -220,7 +222,7 @@ class Evaluate:
         seed = playing.SEED if self.seed is None else self.seed
         with progress.bar("episodes", self.episodes) as show:
             played = playing.play(
-                network, config, self.episodes, self.interaction, self.greedy, seed, device=self.device, report=show
+                network, config, self.episodes, self.interaction, self.greedy, seed, device=self.device, show=show
             )
         _show(played.summary(config.agent.discount), self.json)
 
@@ -402,7 +404,7 @@ class Reproduce:
                 num_processes=self.jobs,
                 frames=self.frames,
                 submit=submit,
-                report=_tell,
+                tell=_tell,
             )
 
 
@@ -434,18 +436,16 @@ class Bench:
       json: print JSON.
     """
 
-    sections: Annotated[Positional[tuple[BenchSection, ...]], tyro.conf.arg(metavar="[SECTION ...]")] = get_args(
-        BenchSection
-    )[:-1]
+    sections: Annotated[Positional[tuple[BenchSection, ...]], tyro.conf.arg(metavar="[SECTION ...]")] = bench.BY_DEFAULT
     results_dir: Path = Path("results")
     json: Switch = False
 
     def run(self) -> None:
-        extras.require(*dict.fromkeys(module for section in self.sections for module in _NEEDED.get(section, ())))
+        extras.require(*bench.extras(self.sections))
         from physexp.analysis.bench import measuring
 
         rows = []
-        for row in measuring.run(self.sections, self.results_dir):
+        for row in bench.run(self.sections, self.results_dir):
             rows.append(row)
             if not self.json:
                 print(measuring.line(row), flush=True)

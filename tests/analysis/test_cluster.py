@@ -29,6 +29,7 @@ from physexp.agents.a3c import agent as a3c_agent
 from physexp.agents.a3c import config as a3c_config
 from physexp.agents.a3c import distributed
 from physexp.agents.a3c import learning as a3c
+from physexp.analysis.data import provenance
 from physexp.analysis.evaluation import playing
 from physexp.analysis.experiments import EXPERIMENTS, base
 from physexp.analysis.reproduction import cluster, reproduce
@@ -205,7 +206,7 @@ def test_a_loss_that_is_not_a_number_stops_training_and_leaves_the_batch(nodes, 
     tensors = trainer.make_agent(run.config).save()
     tensors["network/value.bias"][0] = 3e38  # Finite, but not its square.
     run.checkpointer.save(
-        tensors, {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
+        tensors, {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": provenance.versions()}
     )
     with pytest.raises(RuntimeError, match="worker 0: loss -?(inf|nan).*failed_batch.npz.*last checkpoint"):
         trainer.train(run, on_cluster=True)
@@ -259,7 +260,7 @@ def test_a_sweep_gathers_what_the_cluster_made_and_survives_a_killed_task(nodes,
             num_seeds=1,
             frames=5_000,
             submit=cluster.submit,
-            report=lines.append,
+            tell=lines.append,
         )
 
     killer = threading.Thread(target=kill_one)
@@ -283,7 +284,7 @@ def test_training_ends_without_workers_that_find_no_room_and_says_how_many(nodes
     agent = distributed.DistributedA3C(
         functools.partial(trainer.make_environment, config),
         config.agent,
-        run_lib.versions,
+        provenance.versions,
         lines.append,
         distributed.Patience(room=0.0),
     )
@@ -298,7 +299,7 @@ def test_stopped_processes_of_a_cluster_hang_nobody(nodes, tmp_path):
     lines = []
     patience = types.SimpleNamespace(room=math.inf, silent=math.inf, stop=math.inf, answer=150.0)
     agent = distributed.DistributedA3C(
-        functools.partial(trainer.make_environment, config), config.agent, run_lib.versions, lines.append, patience
+        functools.partial(trainer.make_environment, config), config.agent, provenance.versions, lines.append, patience
     )
     updates = agent.updates(poll_seconds=0.05)
     assert any(update is not None for update in updates)
@@ -316,7 +317,7 @@ def test_a_parameter_server_that_does_not_answer_counts_as_dead(nodes, tmp_path)
     config = trainers.create(tmp_path / "run", frames=10**9, num_workers=1, envs_per_worker=2).config
     patience = types.SimpleNamespace(room=math.inf, silent=math.inf, stop=math.inf, answer=150.0)
     agent = distributed.DistributedA3C(
-        functools.partial(trainer.make_environment, config), config.agent, run_lib.versions, patience=patience
+        functools.partial(trainer.make_environment, config), config.agent, provenance.versions, patience=patience
     )
     updates = agent.updates(poll_seconds=0.05)
     assert any(update is not None for update in updates)

@@ -12,8 +12,10 @@ import torch
 import trainers
 
 from physexp.agents import pretrained
+from physexp.analysis.data import provenance
 from physexp.analysis.evaluation import playing, publishing
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
 from physexp.cli import parsing
@@ -35,7 +37,7 @@ def test_the_card_says_what_was_done_and_what_came_of_it(published):
     assert (card["domain"], card["task"], card["difficulty"]) == ("which_is_heavier", "features", 10.0)
     assert (card["seed"], card["frames"], card["seconds"]) == (5, int(last["frames"]), round(last["seconds"]))
     assert card["evaluation"]["drawn"]["episodes"] == card["evaluation"]["greedy"]["episodes"] == 200
-    assert card["versions"] == run_lib.versions()
+    assert card["versions"] == provenance.versions()
 
 
 def test_the_command_on_the_card_describes_the_same_run(published):
@@ -88,7 +90,7 @@ def copy_of(run, path):
     return run_lib.Run(path)
 
 
-HEADER = ",".join(run_lib.METRICS) + "\n"
+HEADER = ",".join(metrics_lib.METRICS) + "\n"
 
 
 @pytest.mark.parametrize(
