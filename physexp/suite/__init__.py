@@ -24,6 +24,8 @@ __all__ = [
     "load",
     "load_batch",
     "load_task",
+    "options",
+    "tags",
 ]
 
 _DOMAINS = {"which_is_heavier": which_is_heavier, "towers": towers}
@@ -77,12 +79,42 @@ def load_task(domain_name, task_name, task_kwargs=None):
     Raises:
       ValueError: for an unknown name or a bad keyword argument.
     """
-    if not isinstance(domain_name, str) or domain_name not in _DOMAINS:
-        raise ValueError(f"domain_name is {checks.shown(domain_name)}; known domains: {', '.join(_DOMAINS)}")
-    domain = _DOMAINS[domain_name]
+    domain = _domain_with(domain_name, task_name)
+    return domain.SUITE[task_name](_call(domain.Options, "task_kwargs", task_kwargs))
+
+
+def options(domain_name):
+    """Returns the dataclass of a domain's options: its fields are the `task_kwargs` of `load`.
+
+    Raises:
+      ValueError: for an unknown name.
+    """
+    return _domain(domain_name).Options
+
+
+def tags(domain_name, task_name) -> frozenset[str]:
+    """Returns the tags of a task, as `features` or `pixels`.
+
+    Raises:
+      ValueError: for an unknown name.
+    """
+    registered = _domain_with(domain_name, task_name).SUITE
+    return frozenset(tag for tag in registered.tags() if task_name in registered.tagged(tag))
+
+
+def _domain(name):
+    """Returns the module of a domain; raises ValueError for an unknown name."""
+    if not isinstance(name, str) or name not in _DOMAINS:
+        raise ValueError(f"domain_name is {checks.shown(name)}; known domains: {', '.join(_DOMAINS)}")
+    return _DOMAINS[name]
+
+
+def _domain_with(domain_name, task_name):
+    """Returns the module of a domain that has the task; raises ValueError for an unknown name."""
+    domain = _domain(domain_name)
     if not isinstance(task_name, str) or task_name not in domain.SUITE:
         raise ValueError(f"task_name is {checks.shown(task_name)}; tasks of {domain_name}: {', '.join(domain.SUITE)}")
-    return domain.SUITE[task_name](_call(domain.Options, "task_kwargs", task_kwargs))
+    return domain
 
 
 def _call(function, name, kwargs, *args):

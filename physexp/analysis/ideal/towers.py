@@ -15,10 +15,11 @@ import numpy as np
 
 from physexp import suite
 from physexp.agents import core
+from physexp.analysis import domains
 from physexp.analysis.ideal import trajectories as trajectories_lib
-from physexp.analysis.training import config
 from physexp.suite.parts import tower
 
+_DISCOUNT = domains.find("towers").discount
 OBJECTIVES = ("return", "time")
 _COUNTS = np.array([tower.num_bodies(pattern) for pattern in tower.PATTERNS])
 # The count is uniform, the pattern uniform given the count.
@@ -162,7 +163,7 @@ class Solution:
 def solve(
     task: str = "fist_features",
     resolution: float = 0.0,
-    discount: float = config.DISCOUNT["towers"],
+    discount: float = _DISCOUNT,
     objective: str = "return",
     *,
     max_depth: int = 8,
@@ -208,7 +209,7 @@ def solve(
     )
 
 
-def curve(task: str, resolutions: Sequence[float], discount: float = config.DISCOUNT["towers"]) -> list[dict[str, Any]]:
+def curve(task: str, resolutions: Sequence[float], discount: float = _DISCOUNT) -> list[dict[str, Any]]:
     """Summaries for both objectives at several resolutions, with `resolution` and `objective` beside them."""
     trajectories = trajectories_lib.Trajectories(task)
     return [
