@@ -9,6 +9,7 @@ import time
 import numpy as np
 
 from physexp import suite
+from physexp.agents.a3c import config as a3c
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import trainer
 
@@ -23,12 +24,12 @@ REPETITIONS = 5
 def tasks(observations: str) -> dict[str, Task]:
     """Returns the tasks with one kind of observations, `features` or `pixels`, under short names for figures.
 
-    What is left of a task's name without its observations, or the last word of its domain's.
+    The short name is the task's other tags, or the last word of its domain's name.
     """
     found = {}
-    for domain, task in suite.ALL_TASKS:
-        if task == observations or task.endswith(f"_{observations}"):
-            found[task.removesuffix(observations).rstrip("_") or domain.rpartition("_")[2]] = (domain, task)
+    for domain, task in suite.tagged(observations):
+        kind = "_".join(sorted(suite.tags(domain, task) - {observations}))
+        found[kind or domain.rpartition("_")[2]] = (domain, task)
     return found
 
 
@@ -120,7 +121,8 @@ def random_batch(task: Task, size: int = BATCH, only_interactions: bool = False)
 
 def training_rate(task: Task, seconds: float) -> float:
     """Returns frames per second of the default agent on two workers, from scratch, once all workers are under way."""
-    preset = config_lib.A3C[task]
+    preset = config_lib.preset(*task)
+    assert isinstance(preset, a3c.A3CConfig)
     agent = trainer.make_agent(config_lib.TrainConfig(domain=task[0], task=task[1], agent=preset))
     heard: set[int] = set()
     start, frames, at_start = None, 0, 0

@@ -10,6 +10,7 @@ import torch
 from physexp import suite  # Before mujoco and dm_control, for which it chooses the GL backend.
 from physexp.agents import agent as agent_lib
 from physexp.agents import losses
+from physexp.agents.a3c import config as a3c
 from physexp.analysis.bench import measuring
 from physexp.analysis.training import config as config_lib
 from physexp.suite.engine import gl, rendering
@@ -149,7 +150,8 @@ def bare_network_rate(task: measuring.Task, num_processes: int = 2) -> float:
 def _bare_network_rate(task: measuring.Task) -> float:
     """Returns frames per second; as in training, an image passes forward to act, and forward and backward to learn."""
     torch.set_num_threads(1)
-    config = config_lib.A3C[task]
+    config = config_lib.preset(*task)
+    assert isinstance(config, a3c.A3CConfig)
     environment = suite.load_batch(*task, 1)
     network = agent_lib.make_network(environment, config)
     shape = (_ROUND_STEPS, config.envs_per_worker, rendering.SIZE, rendering.SIZE, 3)

@@ -54,7 +54,7 @@ def table(
         SCHEMA,
         domain=config.domain,
         task=config.task,
-        difficulty=config.difficulty,
+        difficulty=config.task_kwargs.get("difficulty"),
         discount=config.agent.discount,
         training_seed=config.agent.seed,
         interaction=interaction,
