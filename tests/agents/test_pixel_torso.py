@@ -84,11 +84,11 @@ def test_the_policy_starts_from_the_logits_it_is_told():
     network = make_network()
     before, _, _ = network.step(network.encode({"pixels": images}), network.initial_state(4))
     prior = torch.arange(9.0)
-    network.prefer(prior.tolist())
+    network.initialize_policy(prior.tolist())
     after, _, _ = network.step(network.encode({"pixels": images}), network.initial_state(4))
     torch.testing.assert_close(after - before, prior.expand(4, 9))
     with pytest.raises(ValueError, match="action_prior has 2 logits; give 9, or none"):
-        network.prefer([1.0, 2.0])
+        network.initialize_policy([1.0, 2.0])
 
 
 def test_features_are_computed_on_the_processor_unless_told_otherwise():

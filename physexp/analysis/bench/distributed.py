@@ -8,7 +8,7 @@ import statistics
 import tempfile
 import time
 
-from physexp.agents.a3c import distributed
+from physexp.agents.a3c import distributed, parameter_server
 from physexp.analysis.bench import measuring
 from physexp.analysis.evaluation import playing
 from physexp.analysis.reproduction import cluster
@@ -75,7 +75,7 @@ def run() -> Iterator[dict]:
         yield measuring.row(f"{workers} workers, derived: bound by the {bound}", limits[bound], "f/s", 0)
 
 
-def _measure(num_workers: int) -> tuple[float, distributed.Traffic, float]:
+def _measure(num_workers: int) -> tuple[float, parameter_server.Traffic, float]:
     """Frames per second once all workers are under way; the traffic; and frames in an update."""
     agent = _agent(num_workers)
     heard: set[int] = set()

@@ -144,14 +144,13 @@ def _bare_network_rate(task: tuple[str, str]) -> float:
     """Each image passes forward once to act, and forward and backward to train, in rounds like those of training."""
     import torch
 
-    from physexp.agents import agent as agent_lib
-    from physexp.agents import losses
+    from physexp.agents import losses, starting
     from physexp.analysis.training import config as config_lib
 
     torch.set_num_threads(1)
     config = config_lib.A3C[task]
     environment = suite.load_batch(*task, 1)
-    network = agent_lib.make_network(environment, config)
+    network = starting.make_network(environment, config)
     shape = (_ROUND_STEPS, config.envs_per_worker, rendering.SIZE, rendering.SIZE, 3)
     images = torch.randint(256, shape, dtype=torch.uint8, generator=torch.Generator().manual_seed(0))
     batch_sizes = torch.full((_ROUND_STEPS,), config.envs_per_worker)

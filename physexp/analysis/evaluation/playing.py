@@ -10,8 +10,7 @@ import numpy as np
 import torch
 
 from physexp import suite
-from physexp.agents import acting, devices, networks, pretrained
-from physexp.agents import agent as agent_lib
+from physexp.agents import acting, devices, networks, pretrained, rounds, starting
 from physexp.analysis.data import estimates
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
@@ -48,7 +47,7 @@ class Episodes:
     actions: list[np.ndarray]
 
     @classmethod
-    def of_round(cls, episodes: acting.Round, environment, number: int) -> "Episodes":
+    def of_round(cls, episodes: rounds.Round, environment, number: int) -> "Episodes":
         """The episodes of a round that has just been played in the environments of a batch, all with this index."""
         columns = trainer.episode_columns(episodes, environment.task.num_interactions)
         return cls(
@@ -99,9 +98,9 @@ def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
     config = run.config
     environment = trainer.make_environment(config, 0, 1, 1)
     with torch.device("meta"):  # Nothing is made that the variables do not fit.
-        like = agent_lib.make_network(environment, config.agent).state_dict()
+        like = starting.make_network(environment, config.agent).state_dict()
     variables = run.variables(like)
-    network = agent_lib.make_network(environment, config.agent)
+    network = starting.make_network(environment, config.agent)
     environment.close()
     network.load_state_dict(variables)
     return network.eval()
@@ -166,7 +165,7 @@ def network_facts(config: config_lib.TrainConfig) -> dict[str, Any]:
     return {
         "observations": observations,
         "num_actions": num_actions,
-        "hyperparameters": agent_lib.hyperparameters(config.agent),
+        "hyperparameters": starting.hyperparameters(config.agent),
     }
 
 
@@ -220,7 +219,7 @@ def play(
       greedy: take the likeliest action instead of drawing one.
       seed: of the environments and the actions.
       num_threads: threads that simulate.
-      device: where convolutions are computed, as in `A3CConfig`.
+      device: where convolutions are computed, as in `AgentConfig`.
       num_steps: go on, in rounds of whole episodes, until there are so many environment steps.
       report: called after each round with how many of the episodes are played.
 

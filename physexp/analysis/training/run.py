@@ -20,6 +20,7 @@ import contextlib
 import importlib.metadata
 import itertools
 import json
+import math
 import os
 from pathlib import Path
 import platform
@@ -52,17 +53,13 @@ METRICS = {
     "episode_return": "mean discounted return",
     "interactions": "mean interaction actions in an episode",
     "timeouts": "share of episodes that ran out of time",
-    "entropy": "mean entropy of the policy, nats",
-    "policy_loss": "",
-    "baseline_loss": "",
-    "gradient_norm": "before clipping",
-    "learning_rate": "",
-    "entropy_cost": "",
-    "staleness": "updates of others between taking the parameters and applying the gradient",
 }
-"""The columns of `metrics.csv`; losses and rates are means over the updates since the row before."""
+"""The columns of `metrics.csv` that every run has.
 
-_HEADER = ",".join(METRICS) + "\n"
+Those of its learner follow, `AgentConfig.metrics`: means over the updates since the row before.
+"""
+
+_KNOWN = {*METRICS, *itertools.chain.from_iterable(agent.metrics for agent in config_lib.ALGORITHMS.values())}
 
 EPISODES = pyarrow.schema(
     [
@@ -181,9 +178,13 @@ class Run:
         """Makes sure that training can go on, or start, without a loss.
 
         Raises:
-          ValueError: if there are records or an agent, but no checkpoint that training could go on from.
+          ValueError: if there are records or an agent, but no checkpoint that training could go on from; as `metrics`;
+            or if the rows lack columns of the learner.
         """
         if self.checkpointer.paths():
+            names, _ = self._lines()
+            if names and not {*METRICS, *self.config.agent.metrics} <= set(names):
+                raise ValueError(f"{self.path}/metrics.csv has the columns of an earlier version; resume it with that")
             return
         if self.agent_path.exists():
             raise ValueError(
@@ -279,11 +280,18 @@ class Run:
     # Metrics.
 
     def append_metrics(self, row: dict[str, float]) -> None:
-        """Adds a row to `metrics.csv`."""
-        values = (f"{row[name]:.6g}" if isinstance(row[name], float) else str(row[name]) for name in METRICS)
-        with files.open_plain(self.path / "metrics.csv", "ab") as file:
-            header = b"" if file.tell() else _HEADER.encode()
-            file.write(header + f"{','.join(values)}\n".encode())
+        """Adds a row to `metrics.csv`, under the columns that the first row has made.
+
+        A run that an earlier version has begun may have more columns than rows have now: those get `nan`.
+        """
+        with files.open_plain(self.path / "metrics.csv", "a+b") as file:
+            file.seek(0)
+            header = file.readline().decode(errors="replace")
+            names = header.strip().split(",") if header else list(row)
+            values = [row.get(name, math.nan) for name in names]
+            cells = [f"{value:.6g}" if isinstance(value, float) else str(value) for value in values]
+            lines = [cells] if header else [names, cells]
+            file.write("".join(f"{','.join(line)}\n" for line in lines).encode())
 
     def metrics(self) -> list[dict[str, float]]:
         """The rows of `metrics.csv`, without one that a crash has torn.
@@ -306,14 +314,16 @@ class Run:
         return rows
 
     def _lines(self) -> tuple[list[str], list[str]]:
-        """The names of the columns of `metrics.csv`, and its whole lines, without their ends."""
+        """Returns the names of the columns of `metrics.csv`, none if it has none yet, and its whole lines."""
         try:
             content = files.read_plain(self.path / "metrics.csv", _LARGEST_METRICS).decode(errors="replace")
         except (FileNotFoundError, NotADirectoryError):
             content = ""
-        header, *lines = (content[: content.rfind("\n") + 1] or _HEADER).splitlines()
+        if "\n" not in content:
+            return [], []
+        header, *lines = content[: content.rfind("\n") + 1].splitlines()
         names = header.split(",")
-        if names[0] != "frames" or not set(names) <= set(METRICS):  # Earlier versions had fewer columns.
+        if names[0] != "frames" or not set(names) <= _KNOWN:  # Earlier versions had fewer columns.
             raise ValueError(
                 f"{self.path}/metrics.csv is damaged: its first line names no metrics; mend it, or move it away"
             )
@@ -331,11 +341,9 @@ class Run:
         What it tells of was learned and lost. One worker, or PPO, makes it again to the bit; several workers do not.
 
         Raises:
-          ValueError: as `metrics`, or if the rows have the columns of an earlier version.
+          ValueError: as `metrics`.
         """
         header, lines = self._lines()
-        if header != list(METRICS):
-            raise ValueError(f"{self.path}/metrics.csv has the columns of an earlier version; resume it with that")
         is_kept = [row["frames"] <= frames for row in self._rows(header, lines)]
         kept = list(itertools.compress(lines, is_kept))
         later = [line for line, keep in zip(lines, is_kept, strict=True) if not keep]
@@ -346,13 +354,14 @@ class Run:
             (folder / "episodes.parquet").mkdir()
             for part in later_parts:
                 part.rename(folder / "episodes.parquet" / part.name)
-            _write_lines(folder / "metrics.csv", later)
+            _write_lines(folder / "metrics.csv", header, later)
         if (self.path / "metrics.csv").exists():
-            _write_lines(self.path / "metrics.csv", kept)
+            _write_lines(self.path / "metrics.csv", header, kept)
 
 
-def _write_lines(path: Path, lines: list[str]) -> None:
-    files.write_atomically(path, (_HEADER + "".join(f"{line}\n" for line in lines)).encode())
+def _write_lines(path: Path, names: list[str], lines: list[str]) -> None:
+    lines = [",".join(names), *lines] if names else []
+    files.write_atomically(path, "".join(f"{line}\n" for line in lines).encode())
 
 
 def renderer(config: config_lib.TrainConfig) -> str:

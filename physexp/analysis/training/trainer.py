@@ -11,12 +11,7 @@ import time
 import numpy as np
 
 from physexp import suite
-from physexp.agents import agent as agent_lib
-from physexp.agents import checkpointing, devices, files, learning
-from physexp.agents.a3c import agent as a3c
-from physexp.agents.a3c.config import A3CConfig
-from physexp.agents.ppo import agent as ppo
-from physexp.agents.ppo.config import PPOConfig
+from physexp.agents import checkpointing, core, devices, files, learning, registry, starting
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import stopping
@@ -49,10 +44,11 @@ def check(config: config_lib.TrainConfig, on_cluster: bool = False) -> None:
             devices.choose(config.agent.device, needs_gl)
     except RuntimeError as error:
         raise ValueError(str(error)) from None
-    if not isinstance(config.agent, A3CConfig):
-        if on_cluster:
-            raise ValueError(f"agent is {config.agent.algorithm}, which has one process; on a cluster train a3c")
-        return
+    if on_cluster and not config.agent.can_run_on_cluster:
+        able = [name for name, agent in config_lib.ALGORITHMS.items() if agent.can_run_on_cluster]
+        raise ValueError(
+            f"agent is {config.agent.algorithm}, which has one process; on a cluster train {' or '.join(able)}"
+        )
     cores = os.cpu_count() or 1
     most = _WORKERS_PER_CORE * cores
     if not on_cluster and config.agent.num_workers > most:
@@ -64,7 +60,7 @@ def check(config: config_lib.TrainConfig, on_cluster: bool = False) -> None:
 
 def make_agent(
     config: config_lib.TrainConfig, on_cluster: bool = False, tell: Callable[[str], None] = lambda line: None
-) -> agent_lib.Agent:
+) -> core.Agent:
     """The agent of a run, as it is before training.
 
     Args:
@@ -73,17 +69,9 @@ def make_agent(
       tell: called with a line when a worker has died that can be replaced, or has fallen silent.
     """
     environments = functools.partial(make_environment, config)
-    match config.agent:
-        case A3CConfig() if on_cluster:
-            from physexp.agents.a3c import distributed
-
-            return distributed.DistributedA3C(environments, config.agent, run_lib.versions, tell)
-        case A3CConfig():
-            return a3c.A3C(environments, config.agent, tell)
-        case PPOConfig():
-            return ppo.PPO(environments, config.agent)
-        case _:
-            raise TypeError(f"no agent has a {type(config.agent).__name__}")
+    if on_cluster:
+        return registry.make_on_cluster(environments, config.agent, tell, run_lib.versions)
+    return registry.make(environments, config.agent, tell)
 
 
 def train(
@@ -135,7 +123,7 @@ def train(
         raise interruption.happened
 
 
-def _check_room(run: run_lib.Run, agent: agent_lib.Agent) -> None:
+def _check_room(run: run_lib.Run, agent: core.Agent) -> None:
     """Refuses a folder that is too full for checkpoints."""
     needed = _CHECKPOINTS_AT_ONCE * sum(value.nbytes for value in agent.save().values())
     free = shutil.disk_usage(run.path).free
@@ -146,7 +134,7 @@ def _check_room(run: run_lib.Run, agent: agent_lib.Agent) -> None:
         )
 
 
-def _run(agent: agent_lib.Agent, recorder: "_Recorder", run: run_lib.Run, tell: Callable[[str], None]) -> bool:
+def _run(agent: core.Agent, recorder: "_Recorder", run: run_lib.Run, tell: Callable[[str], None]) -> bool:
     """Trains to the end; returns False if it has to go on from the last checkpoint."""
     try:
         with contextlib.closing(agent.updates()) as updates:
@@ -156,10 +144,10 @@ def _run(agent: agent_lib.Agent, recorder: "_Recorder", run: run_lib.Run, tell: 
                 if recorder.checkpoint_is_due():
                     recorder.snapshot(agent.save())
         recorder.snapshot(agent.save())
-    except agent_lib.VariablesLostError as error:
+    except core.VariablesLostError as error:
         tell(f"{error}; training goes on from {'the last checkpoint' if run.checkpointer.paths() else 'the start'}")
         return False
-    except learning.AgentError as error:
+    except core.AgentError as error:
         raise RuntimeError(f"training stopped: {error}{recorder.save_failure(error)}; {_standing(run)}") from None
     except OSError as error:
         run.check_lock()  # Where the folder has gone, nothing in it can be written either.
@@ -202,12 +190,12 @@ class _Recorder:
         self._started = self._checkpointed = time.monotonic()
         self._row_started = 0.0  # Set by the first update: the workers take a while to start.
         self._frames_at_row = self._replayed = 0
-        self._window: list[agent_lib.Update] = []
+        self._window: list[core.Update] = []
         self._snapshot: dict | None = None
-        self._later: list[agent_lib.Update] = []
+        self._later: list[core.Update] = []
         self._records: list[dict[str, list]] = []
 
-    def resume(self, agent: agent_lib.Agent) -> None:
+    def resume(self, agent: core.Agent) -> None:
         """Puts the agent and the records back to the last checkpoint that is whole, or to the start.
 
         Raises:
@@ -243,7 +231,7 @@ class _Recorder:
         if not isinstance(seconds, (int, float)) or isinstance(seconds, bool) or not 0 <= seconds < 2**63:
             raise ValueError("the checkpoint's `seconds` is no duration; put back the run's own")
 
-    def add(self, update: agent_lib.Update) -> None:
+    def add(self, update: core.Update) -> None:
         """Records an update, or keeps it until the checkpoint before it has been written."""
         if self._snapshot is not None and update.metrics["updates"] > int(self._snapshot["updates"]):
             self._later.append(update)
@@ -269,7 +257,7 @@ class _Recorder:
         self._snapshot = tensors
         self._write_checkpoint_when_complete()
 
-    def save_failure(self, error: learning.AgentError) -> str:
+    def save_failure(self, error: core.AgentError) -> str:
         """Saves the episodes that made the loss diverge; returns a phrase that says where."""
         if error.batch is None:
             return ""
@@ -311,7 +299,7 @@ class _Recorder:
         """Lets the agent as it is now play one episode, always the same, and writes it for the viewer."""
         from physexp.analysis.replay import recording, writing  # Takes seconds to import, and most runs do without.
 
-        network = agent_lib.make_network(make_environment(self._config, 0, 1, 1), self._config.agent)
+        network = starting.make_network(make_environment(self._config, 0, 1, 1), self._config.agent)
         network.load_state_dict(learning.network_variables(tensors))
         title = f"{self._config.name} after {self._frames:,} steps"
         path = self._run.path / "replays" / f"{self._frames:015d}.rrd"
@@ -342,15 +330,7 @@ class _Recorder:
         reward, length, pokes = (np.concatenate(arrays) for arrays in (rewards, lengths, interactions))
         learner = {
             name: float(np.mean([update.metrics[name] for update in self._window]))
-            for name in (
-                "entropy",
-                "policy_loss",
-                "baseline_loss",
-                "gradient_norm",
-                "learning_rate",
-                "entropy_cost",
-                "staleness",
-            )
+            for name in self._config.agent.metrics
         }
         return {
             "success_rate": float((reward > 0).mean()),
@@ -360,7 +340,7 @@ class _Recorder:
             **learner,
         }
 
-    def _columns(self, update: agent_lib.Update) -> dict[str, list]:
+    def _columns(self, update: core.Update) -> dict[str, list]:
         """The episodes of an update as columns of `run.EPISODES`."""
         episodes = update.episodes
         size = len(episodes.lengths)
@@ -368,7 +348,7 @@ class _Recorder:
         return {
             "frames": [self._frames] * size,
             "seed": environments,
-            "episode": [int(update.metrics["rounds"])] * size,
+            "episode": [update.episode] * size,
             **episode_columns(episodes, self._num_interactions),
         }
 
