@@ -90,7 +90,7 @@ def card(number: int) -> dict:
     return {
         "domain": "which_is_heavier",
         "task": "features",
-        "difficulty": 10.0,
+        "task_kwargs": {"difficulty": 10.0},
         "frames": number,
         "agent": config().to_json()["agent"],
         "network": {
@@ -107,7 +107,7 @@ def publish(folder, number: int) -> None:
 
 def published(folder) -> int:
     """The number of the agent in a folder, weights and card alike."""
-    agent = pretrained.load("which_is_heavier", "features", 10.0, folder)
+    agent = pretrained.load("which_is_heavier", "features", 10.0, folder=folder)
     numbers = {float(value) for tensor in agent.network.state_dict().values() for value in tensor.flatten()}
     assert numbers == {float(agent.card["frames"])}
     return agent.card["frames"]

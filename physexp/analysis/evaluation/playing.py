@@ -121,7 +121,7 @@ def find_agent(
     if not Path(target).exists():
         domain, _, task = target.partition("/")
         if (domain, task) in suite.ALL_TASKS:
-            return _with_config(pretrained.load(domain, task, difficulty))
+            return _with_config(pretrained.load(domain, task, difficulty=difficulty))
         if target in pretrained.names():
             agent = pretrained.load_named(target)
             _check_difficulty(target, config_of(agent), difficulty)
@@ -177,7 +177,7 @@ def config_of(agent: pretrained.Pretrained) -> config_lib.TrainConfig:
     """
     try:
         return config_lib.TrainConfig.from_json(
-            {name: agent.card[name] for name in ("domain", "task", "difficulty", "agent")}
+            {**{name: agent.card[name] for name in ("domain", "task", "agent")}, **agent.card["task_kwargs"]}
         )
     except (KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"an agent's card is not what was written: {error!r}; publish the agent again") from None
