@@ -66,7 +66,7 @@ def write_metrics(folder, number):
 def read_metrics(folder):
     rows = run_lib.Run(folder).metrics()
     assert [row["frames"] for row in rows] == list(range(len(rows)))
-    assert all(set(row) == set(metrics_lib.METRICS) and row["staleness"] == row["frames"] + 0.25 for row in rows)
+    assert all(set(row) == set(metrics_lib.METRICS) and row["timeouts"] == row["frames"] + 0.25 for row in rows)
     return len(rows) - 1
 
 
