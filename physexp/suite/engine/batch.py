@@ -278,7 +278,9 @@ class _Group:
         self._batch = Batch(apparatus.model, size, num_threads)
         self._batch.reset(stage=mujoco.mjtStage.mjSTAGE_NONE)
         self._rest = self._batch.state[0].copy()
-        self._qpos, self._control = (self._batch.bind(name) for name in ("qpos", "ctrl"))
+        self._qpos, self._control, self._sensordata = (
+            self._batch.bind(name) for name in ("qpos", "ctrl", "sensordata")
+        )
         self._looked_at = {field: self._batch.bind(field) for field in task.sense.fields}
 
     @functools.cached_property
@@ -293,6 +295,7 @@ class _Group:
     def reset(self, rows, hidden) -> None:
         self._batch.state[rows] = self._rest
         self._control[rows] = 0
+        self._sensordata[rows] = self.apparatus.rest["sensordata"]  # It is no part of the state.
         for field, (addresses, values) in self._task.hidden_fields(self.apparatus, hidden).items():
             self._batch.expand(field)[rows[:, None], addresses] = values
 
@@ -317,10 +320,9 @@ class _Group:
         positions, rotations = np.zeros((len(rows), model.ngeom, 3)), np.zeros((len(rows), model.ngeom, 9))
         for i, row in enumerate(rows):
             data.qpos[:] = self._qpos[row]
-            mujoco.mj_fwdPosition(model, data)
-            mujoco.mj_sensorPos(model, data)
+            mujoco.mj_kinematics(model, data)
             positions[i], rotations[i] = data.geom_xpos, data.geom_xmat
-            self.apparatus.indicate(positions[i][None], data.sensordata[None])
+        self.apparatus.indicate(positions, self._sensordata[rows])
         return positions, rotations
 
     def view(self, field) -> np.ndarray:
