@@ -15,8 +15,8 @@ SUITE = containers.TaggedTasks()
 PHYSICS_TIMESTEP = 0.01  # s
 
 # A block on a rail between two stops. A push goes away from the stop that the block leans on, and a force above its
-# friction takes it to the other one within a control step. All that can be read of the block is whether it has slid: how
-# far would tell the friction after a single push.
+# friction takes it to the other one within a control step. All that can be read of the block is whether it has slid:
+# how far would tell the friction after a single push.
 NUM_LEVELS = 8
 LEVEL_SPACING = 4.0  # N: level k pushes with (k + 1) times this force
 MASS = 0.05  # kg: so light that the smallest surplus of force takes the block across in time
@@ -203,7 +203,7 @@ class Threshold(task.QuestionTask):
 
 @SUITE.add("features")
 def features(options):
-    """Observes `strength`, float32 (1,): the last push's share of the greatest force; and `slid`, float32 (1,): 0 or 1."""
+    """Observes `strength`, float32 (1,): the last push's share of the greatest force; `slid`, float32 (1,): 0 or 1."""
     return Threshold(options, senses.Features())
 
 
