@@ -51,24 +51,24 @@ def replay(
     chosen = list(selection.select(network, config, count, select, interaction, seed))
     if len(chosen) < count:
         report(f"only {len(chosen)} episodes are {select}")
-    groups = [functools.partial(_episodes, targets, agents, episode, interaction) for episode in chosen]
+    groups = [functools.partial(_episodes, targets, agents, instance, interaction) for instance in chosen]
     return writing.write(output, groups, report)
 
 
 def _what(config) -> str:
-    """What a configuration's agent plays, in words."""
+    """Returns what a configuration's agent plays, in words."""
     options = "".join(f", {name} {value:g}" for name, value in config.task_kwargs.items())
     return f"{config.domain}/{config.task}{options}"
 
 
-def _episodes(targets, agents, episode, interaction) -> list[Episode]:
-    """One instance as the first agent has played it, and as the others play it."""
-    seed, number, actions = episode
+def _episodes(targets, agents, instance, interaction) -> list[Episode]:
+    """Returns one instance as the first agent has played it, and as the others play it."""
+    seed, episode, actions = instance
     (network, config), *others = agents
     title = targets[0] if interaction == "learned" else f"{targets[0]}, {interaction} interaction"
-    first = recording.reenact(network, config, seed, number, actions, title)
+    first = recording.reenact(network, config, seed, episode, actions, title)
     rest = [
-        recording.reenact(other, other_config, seed, number, None, target)
+        recording.reenact(other, other_config, seed, episode, None, target)
         for target, (other, other_config) in zip(targets[1:], others, strict=True)
     ]
     return [first, *rest]

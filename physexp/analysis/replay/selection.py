@@ -31,7 +31,7 @@ def select(
         task has it, or else those that take this agent the longest.
 
     Yields:
-      Seed, number and actions of each chosen episode; fewer than wanted where there are not enough.
+      Seed, index and actions of each chosen episode; fewer than wanted where there are not enough.
 
     Raises:
       ValueError: if count is below one, or none of many episodes is as wanted.
@@ -53,7 +53,7 @@ def select(
 
 
 def _order(played: playing.Episodes, selection: Selection, hardness: np.ndarray | None) -> np.ndarray:
-    """Indices of the episodes that are as wanted, the best first."""
+    """Returns the indices of the episodes that are as wanted, the best first."""
     if selection == "wrong":
         return np.flatnonzero(played.rewards < 0)
     if selection == "right":
