@@ -59,7 +59,7 @@ def _values_in_words(reading: readings_lib.Shown) -> str:
     of_things = f" of {', '.join(reading.names)}" if len(reading.names) > 1 else ""
     if not reading.unit:
         is_switch = reading.limits is not None and (reading.limits == (0, 1)).all()
-        return f"{of_things}: 1 is yes, 0 is no" if is_switch else of_things
+        return f"{of_things}, 0 or 1" if is_switch else of_things
     return f"{of_things}, in {'cm' if reading.unit == 'm' else reading.unit}"
 
 
@@ -108,15 +108,24 @@ def _rows(seen: Sequence[readings_lib.Shown], observation, columns: int) -> list
         values = reading.values(observation[reading.name])[0]
         for name, of_thing in zip(reading.names, values, strict=True):
             for number, (component, value) in enumerate(zip(reading.components, of_thing, strict=True)):
-                thing = name if len(seen) == 1 else f"{readings_lib.spoken(reading.name)}, {name}"
                 largest = None if reading.limits is None else np.abs(reading.limits[number]).max()
-                found.append((f"{thing} {component}".rstrip(), float(value), largest, reading.unit))
+                label = _label(reading, name, component, len(seen) > 1)
+                found.append((label, float(value), largest, reading.unit))
     width = max((len(label) for label, *_ in found), default=0)
     room = max(1, min(_LONGEST_BAR, columns - width - 11))
     return [
         f"{label:{width}} {_bar(value, largest, unit, room)}{_number(value, unit)}"[:columns]
         for label, value, largest, unit in found
     ]
+
+
+def _label(reading: readings_lib.Shown, name: str, component: str, are_several: bool) -> str:
+    """Returns what a value is called: after its reading, where that has no other value, or else after its thing."""
+    if len(reading.names) == 1:
+        name = readings_lib.spoken(reading.name)
+    elif are_several:
+        name = f"{readings_lib.spoken(reading.name)}, {name}"
+    return f"{name} {component}".rstrip()
 
 
 def _bar(value: float, largest: float | None, unit: str, room: int) -> str:

@@ -54,16 +54,29 @@ def _column(episode: recording.Episode, root: str) -> rrb.Container:
 
 
 def _scene(episode: recording.Episode, root: str) -> rrb.Tabs:
-    """Returns the scene without what is hidden, and, behind it, with it."""
+    """Returns the scene without what is hidden, and, behind it, with it, where covers are seen through."""
     eye, origin = _eye(episode), f"{root}/world"
     without: Any = {f"{root}/world/hidden": rrb.EntityBehavior(visible=False)}
+    edges = rr.Boxes3D.from_fields(fill_mode="majorwireframe")
+    through: Any = {f"{root}/world/things/{name}": edges for name in _covers(episode)}
     return rrb.Tabs(
         rrb.Spatial3DView(
             origin=origin, name=titled(root, episode.agent or "scene"), eye_controls=eye, overrides=without
         ),
-        rrb.Spatial3DView(origin=origin, name=titled(root, words.HIDDEN_TAB), eye_controls=eye),
+        rrb.Spatial3DView(origin=origin, name=titled(root, words.HIDDEN_TAB), eye_controls=eye, overrides=through),
         active_tab=0,
     )
+
+
+def _covers(episode: recording.Episode) -> list[str]:
+    """Returns the names of the boxes that have something in them, at the start, that is not drawn."""
+    shapes, positions = episode.shapes, episode.positions[0]
+    covers = []
+    for k in np.flatnonzero(shapes.are_drawn).tolist():
+        inside = np.abs((positions[~shapes.are_drawn] - positions[k]) @ episode.rotations[0, k]) < shapes.sizes[k]
+        if shapes.kinds[k] == "box" and inside.all(axis=1).any():
+            covers.append(shapes.names[k])
+    return covers
 
 
 def _eye(episode: recording.Episode) -> rrb.EyeControls3D:

@@ -12,6 +12,7 @@ from physexp import suite
 from physexp.agents import acting, core, environment_loop, networks
 from physexp.analysis import readings
 from physexp.analysis.training import config as config_lib
+from physexp.suite.engine import rendering
 from physexp.suite.engine import task as task_lib
 
 MakeTask = Callable[..., task_lib.QuestionTask]
@@ -71,6 +72,7 @@ class Episode:
       shapes: what is in the scene.
       times: when they were where, s, float64 [F].
       positions, rotations: their true poses at every physics step, float64 [F, K, 3] and [F, K, 3, 3].
+      controls: what was sent to the actuators in the physics steps that led there, float64 [F, nu].
     """
 
     domain: str
@@ -91,6 +93,7 @@ class Episode:
     times: np.ndarray
     positions: np.ndarray
     rotations: np.ndarray
+    controls: np.ndarray
 
 
 class EpisodeRecorder(environment_loop.Observer):
@@ -213,7 +216,7 @@ class _Rebuilder:
         self._poses: list[tuple] = []
         self._note_poses(self._environment.physics)
         seen = [timestep.observation, *(self._environment.step(action).observation for action in actions)]
-        times, positions, rotations = (np.array(values) for values in zip(*self._poses, strict=True))
+        times, positions, rotations, controls = (np.array(values) for values in zip(*self._poses, strict=True))
         return {name: np.stack([each[name] for each in seen]) for name in seen[0]}, {
             "declared": task,
             "hidden": np.array(task.hidden),
@@ -222,18 +225,20 @@ class _Rebuilder:
             "times": times,
             "positions": positions,
             "rotations": rotations,
+            "controls": controls,
         }
 
     def _note_poses(self, physics) -> None:
         data = physics.data
         positions = data.geom_xpos.copy()
         self._environment.task.apparatus.indicate(positions[None], data.sensordata[None])
-        self._poses.append((data.time, positions[self._geoms], data.geom_xmat[self._geoms].reshape(-1, 3, 3)))
+        rotations = data.geom_xmat[self._geoms].reshape(-1, 3, 3)
+        self._poses.append((data.time, positions[self._geoms], rotations, data.ctrl.copy()))
 
 
 def _shapes(model: mujoco.MjModel, floor: Sequence[int]) -> Shapes:
     """Returns the shapes of a scene: all that moves, and what stands still and is drawn, but for the floor's geoms."""
-    are_drawn = np.array(mujoco.MjvOption().geomgroup, bool)[model.geom_group]
+    are_drawn = model.geom_group != rendering.UNDRAWN_GROUP
     is_moving = model.body_weldid[model.geom_bodyid] != 0
     geoms = np.setdiff1d(np.flatnonzero(are_drawn | is_moving), floor)
     geoms = geoms[np.argsort(~are_drawn[geoms], kind="stable")]  # A thing's name is that of a shape that can be seen.

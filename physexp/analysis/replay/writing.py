@@ -28,6 +28,7 @@ from physexp.analysis import readings
 from physexp.analysis.replay import beliefs, layout, palette, recording, words
 from physexp.analysis.replay.layout import TIMELINE
 from physexp.analysis.replay.viewing import PROGRAM, last_line
+from physexp.suite.engine import declarations
 
 _ARROW_LENGTH = 0.25  # m
 _FLOOR_THICKNESS, _FLOOR_COLOR = 0.01, (190, 190, 185)  # m
@@ -289,16 +290,22 @@ class EpisodeWriter:
         origins, vectors = np.zeros((2, len(steps), 3))
         for frame, step in enumerate(steps):
             if episode.actions[step] < len(interactions):
-                interaction = interactions[episode.actions[step]]
-                length = np.linalg.norm(interaction.vector)
-                k = episode.shapes.index(interaction.thing)
+                k = episode.shapes.index(interactions[episode.actions[step]].thing)
                 # An arrow does not tell where something hidden has gone.
                 origins[frame] = episode.positions[frame if episode.shapes.are_drawn[k] else 0, k]
-                vectors[frame] = _ARROW_LENGTH * np.array(interaction.vector) / (length or 1.0)
+                # Nothing has been sent yet in the first frame; it shows what is about to be.
+                vectors[frame] = _arrow(interactions[episode.actions[step]], episode.controls[max(frame, 1)])
         self._log("world/action", rr.Arrows3D.from_fields(colors=[palette.ACTION], radii=[0.012]))
         self._columns("world/action", episode.times, rr.Arrows3D.columns(origins=origins, vectors=vectors))
         end = self._step_times[-1] + 1e-3  # After the last step, when nothing is done any more.
         self._columns("world/action", [end], rr.Arrows3D.columns(origins=[(0, 0, 0)], vectors=[(0, 0, 0)]))
+
+
+def _arrow(interaction: declarations.Interaction, sent: np.ndarray) -> np.ndarray:
+    """Returns the arrow of an interaction that sent this, (3,): backwards, where that is against what it declares."""
+    vector, control = np.array(interaction.vector, float), np.asarray(interaction.control, float)
+    share = sent @ control / (control @ control or 1.0)
+    return _ARROW_LENGTH * share * vector / (np.linalg.norm(vector) or 1.0)
 
 
 def _archetype(kind: str, size: np.ndarray, color: np.ndarray):
