@@ -2,9 +2,11 @@
 
 import signal
 
+import commands
 import pytest
 
 from physexp.agents.a3c import config as a3c
+from physexp.analysis.data import provenance
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
@@ -16,16 +18,41 @@ for _number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(_number, signal.default_int_handler if _number == signal.SIGINT else signal.SIG_DFL)
 
 
+# Imports of torch and MuJoCo take seconds of each process that is spawned. What a real `physexp` spawns imports them
+# as ever, in the tests that start one.
+commands.spawn_quickly()
+
+
+LONGEST = {
+    "test_cluster",
+    "test_determinism",
+    "test_docs",
+    "test_faults",
+    "test_kills",
+    "test_learning_beats_chance",
+    "test_readme",
+    "test_replay",
+    "test_reproduce",
+    "test_soak",
+}
+"""Files with tests that take long."""
+
+
+def pytest_collection_modifyitems(items):
+    """Has these begin first: what two processes take from each other in the end is short."""
+    items.sort(key=lambda item: item.path.stem not in LONGEST)
+
+
 @pytest.fixture
 def untrained(tmp_path):
     """A run whose checkpoint holds a network as it is before training."""
     config = config_lib.TrainConfig(
-        domain="which_is_heavier", task="features", difficulty=10.0, agent=a3c.A3CConfig(num_workers=1)
+        domain="which_is_heavier", task="features", task_kwargs={"difficulty": 10.0}, agent=a3c.A3CConfig(num_workers=1)
     )
     run = run_lib.Run(tmp_path / "run")
     run.create(config)
     agent = trainer.make_agent(config)
     run.checkpointer.save(
-        agent.save(), {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
+        agent.save(), {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": provenance.versions()}
     )
     return run

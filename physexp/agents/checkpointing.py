@@ -19,7 +19,6 @@ from physexp.agents import files
 
 FORMAT = 1
 """Of checkpoints."""
-_MOST_JSON = 1_000_000  # Bytes; a card has two thousand.
 _MOST_HEADER = 1_000_000  # Bytes, of the names and shapes of tensors; those of a checkpoint take five thousand.
 
 
@@ -78,24 +77,6 @@ def read_agent(path: Path, like: Mapping[str, torch.Tensor], sha256: str | None 
     except ValueError as error:
         raise ValueError(f"{path} {error}; put back the agent's own") from None
     return tensors
-
-
-def read_json(path: Path) -> Any:
-    """What a JSON file of ours holds.
-
-    Raises:
-      OSError: if it cannot be read.
-      ValueError: if it is no JSON, has numbers that are not finite, or is larger than any of ours.
-    """
-    content = files.read_plain(path, _MOST_JSON)
-    try:
-        return json.loads(content, parse_constant=_refuse_constant)
-    except (ValueError, RecursionError) as error:
-        raise ValueError(f"{path} is no JSON: {' '.join(str(error).split())}; put back what was written") from None
-
-
-def _refuse_constant(name: str) -> float:
-    raise ValueError(f"{name} is no number")
 
 
 def num_bytes(tensors: Iterable[torch.Tensor]) -> int:
@@ -258,7 +239,7 @@ def _read(path: Path, most: int | None) -> tuple[dict[str, torch.Tensor], dict[s
     """Reads a checkpoint; nothing in it is run, and nothing is looked at whose checksum differs."""
     facts_path = path.with_suffix(".json")
     try:
-        card = read_json(facts_path)
+        card = files.read_json(facts_path)
         form, checksum, facts = card["format"], card["sha256"], card["facts"]
         is_whole = isinstance(facts, dict) and card.get("facts_sha256") in (None, json_digest(facts))
     except (FileNotFoundError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 import contextlib
 import errno
 import fcntl
+import json
 import os
 from pathlib import Path
 import re
@@ -11,6 +12,7 @@ import secrets
 import stat
 from typing import IO, Any
 
+_MOST_JSON = 1_000_000  # Bytes; an agent's card has two thousand.
 _LITTER = re.compile(r"\..+\.[0-9a-f]{16}\.tmp")  # The names of `_temporary`.
 
 
@@ -96,6 +98,24 @@ def read_plain(path: Path, most: int) -> bytes:
             f"{path} is larger than {most / 1e6:g} MB, which no file of its kind is; put another in its place"
         )
     return content
+
+
+def read_json(path: Path) -> Any:
+    """Returns what a JSON file of ours holds.
+
+    Raises:
+      OSError: if it cannot be read.
+      ValueError: if it is no JSON, has numbers that are not finite, or is larger than any of ours.
+    """
+    content = read_plain(path, _MOST_JSON)
+    try:
+        return json.loads(content, parse_constant=_refuse_constant)
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"{path} is no JSON: {' '.join(str(error).split())}; put back what was written") from None
+
+
+def _refuse_constant(name: str) -> float:
+    raise ValueError(f"{name} is no number")
 
 
 @contextlib.contextmanager

@@ -80,7 +80,7 @@ def load_named(base: str, folder: Path = FOLDER) -> Pretrained:
     path = folder / f"{base}.json"
     if folder == FOLDER:
         path = path.resolve()  # Some installers put links in the place of a package's files.
-    card = checkpointing.read_json(path)
+    card = files.read_json(path)
     try:
         _check(card, base)
         with torch.device("meta"):  # Nothing is made that its weights do not fit.
@@ -91,7 +91,7 @@ def load_named(base: str, folder: Path = FOLDER) -> Pretrained:
     try:
         weights = _read_weights(path, card, like)
     except ValueError:
-        if checkpointing.read_json(path) == card:
+        if files.read_json(path) == card:
             raise
         return load_named(base, folder)  # Another has just been written.
     network = _network(card["network"])
@@ -172,7 +172,7 @@ def _put_in_place(card_path: Path) -> None:
     waiting = card_path.with_suffix(_WAITING)
     # Without a card, or with one that is damaged or older than checksums, they are nobody's.
     with contextlib.suppress(FileNotFoundError, ValueError, KeyError, TypeError):
-        wanted = checkpointing.read_json(card_path)["sha256"]
+        wanted = files.read_json(card_path)["sha256"]
         with files.open_plain(waiting) as file:
             found = hashlib.sha256(file.read()).hexdigest()
         if found == wanted:

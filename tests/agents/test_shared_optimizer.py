@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import torch
 from torch import multiprocessing
+from waiting import wait_until
 
 from physexp import suite
 from physexp.agents import acting, learning, networks
@@ -54,7 +55,7 @@ def test_two_processes_move_one_set_of_adam_statistics(context):
     for gradient in (1.0, 2.0):  # One process after the other, so that the order is known.
         process = context.Process(target=apply_constant_gradient, args=(shared, gradient))
         process.start()
-        process.join(60)
+        process.join()
         assert process.exitcode == 0
     # Adam, beta1 = 0.9, beta2 = 0.999, learning rate 0.001, gradients 1 then 2:
     # exp_avg = 0.9 * (0.1 * 1) + 0.1 * 2 = 0.29; exp_avg_sq = 0.999 * (0.001 * 1) + 0.001 * 4 = 0.004999; step = 2.
@@ -77,9 +78,16 @@ def test_two_learners_at_once_share_weights_statistics_and_counters(context):
     processes = [context.Process(target=learn_once, args=(memory, worker, results)) for worker in range(2)]
     for process in processes:
         process.start()
-    reported = [results.get(timeout=90) for _ in processes]
+    reported = []
+
+    def have_both_reported():
+        while not results.empty():
+            reported.append(results.get())
+        return len(reported) == 2
+
+    wait_until(have_both_reported, "the reports of two learners")
     for process in processes:
-        process.join(30)
+        process.join()
         assert process.exitcode == 0
     results.close()
     results.join_thread()

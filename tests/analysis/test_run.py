@@ -11,6 +11,7 @@ import torch
 
 from physexp.agents.a3c import config as a3c
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 
 ROUNDS = 50
@@ -22,7 +23,7 @@ def make_config(seed=0):
 
 
 def row(frames):
-    return {**dict.fromkeys(run_lib.METRICS, 0.5), "frames": frames}
+    return {**dict.fromkeys(metrics_lib.METRICS, 0.5), "frames": frames}
 
 
 def checkpoint(run, frames=10):
@@ -148,7 +149,7 @@ def test_a_run_has_no_place_where_a_file_is(place, tmp_path):
 
 def test_an_attempt_without_a_checkpoint_is_started_anew_and_its_records_are_moved_aside(run):
     run.append_metrics(row(10))
-    run.append_episodes(10, {name: [] for name in run_lib.EPISODES.names})
+    run.append_episodes(10, run_lib.EPISODES.empty_table())
     before = contents(run.path)
     moved = run.create(make_config(seed=1))
     assert moved == run.path / "superseded-1" and contents(moved) == before
@@ -194,7 +195,7 @@ def test_a_run_that_has_kept_its_agent_alone_is_not_resumed(run):
 def test_rewinding_moves_later_records_aside_and_drops_a_torn_row(run):
     for frames in (10, 20, 30):
         run.append_metrics(row(frames))
-        run.append_episodes(frames, {name: [] for name in run_lib.EPISODES.names})
+        run.append_episodes(frames, run_lib.EPISODES.empty_table())
     with open(run.path / "metrics.csv", "a") as file:
         file.write("1,7")  # Torn by a crash: a part of a row, whose frames look small.
     run.rewind(30)
@@ -258,7 +259,7 @@ def test_wherever_a_kill_tears_the_metrics_whole_rows_are_read_and_a_resumed_run
     ],
 )
 def test_damaged_metrics_are_named_in_one_line_and_left_alone(content, words, run):
-    first, *rest = run_lib.METRICS
+    first, *rest = metrics_lib.METRICS
     fields = {"rest": ",".join(rest), "row": "1" + ",1" * len(rest), "word": "a" + ",1" * len(rest)}
     damaged = content.format(**fields).encode("latin-1")
     (run.path / "metrics.csv").write_bytes(damaged)

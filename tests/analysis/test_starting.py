@@ -3,17 +3,18 @@
 import os
 import shutil
 import signal
-import subprocess
 import sys
 
+import commands
 import pandas as pd
 import pytest
 import torch
 import trainers
-from trainers import PHYSEXP
+from waiting import wait_until
 
 from physexp.analysis import demo
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
 from physexp.cli import parsing
@@ -33,7 +34,7 @@ def refusal(capsys, *arguments):
 def small(**agent):
     """PPO plays in the process that trains: nothing has to start."""
     agent = trainers.SMALL["ppo"].replace(**{"frames": 2_000, "checkpoint_seconds": 0.01, **agent})
-    return config_lib.TrainConfig(domain=TASK[0], task=TASK[1], difficulty=10.0, agent=agent)
+    return config_lib.TrainConfig(domain=TASK[0], task=TASK[1], task_kwargs={"difficulty": 10.0}, agent=agent)
 
 
 def everything(folder):
@@ -90,33 +91,16 @@ def test_a_disk_without_room_for_checkpoints_is_told_before_training(tmp_path, m
 @pytest.fixture
 def starting(tmp_path):
     """`physexp train` in a new folder, as soon as its worker's process is there: seconds before it learns anything."""
-    command = [
-        PHYSEXP,
-        "train",
-        *TASK,
-        "--num-workers",
-        "1",
-        "--frames",
-        "1000000000",
-        "--run-dir",
-        tmp_path / "a" / "run",
-    ]
-    process = subprocess.Popen(
-        list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
-    )
-    try:
-        trainers.wait_until(lambda: trainers.workers(process), 300, "a worker")
+    options = ["--num-workers", 1, "--frames", 10**9, "--run-dir", tmp_path / "a" / "run"]
+    with commands.start("train", *TASK, *options) as process:
+        wait_until(lambda: trainers.workers(process), "a worker")
         yield process
-    finally:
-        for member in trainers.group(process.pid):
-            member.kill()
-        process.communicate()
 
 
 def test_a_worker_that_dies_before_it_has_learned_anything_leaves_no_folder(starting, tmp_path):
     (worker,) = trainers.workers(starting)
     worker.kill()
-    _, errors = starting.communicate(timeout=300)
+    _, errors = starting.communicate()
     assert starting.returncode == 1 and errors.count("\n") == 1, errors
     assert "worker 0 died" in errors and "there is no checkpoint yet" in errors and "whole" not in errors
     assert os.listdir(tmp_path) == []
@@ -124,7 +108,7 @@ def test_a_worker_that_dies_before_it_has_learned_anything_leaves_no_folder(star
 
 def test_ctrl_c_before_anything_was_learned_leaves_no_folder(starting, tmp_path):
     os.killpg(starting.pid, signal.SIGINT)
-    _, errors = starting.communicate(timeout=300)
+    _, errors = starting.communicate()
     assert starting.returncode == 130 and "Traceback" not in errors, errors
     assert "no checkpoint" in errors and "the same command starts anew" in errors
     assert os.listdir(tmp_path) == []
@@ -133,7 +117,8 @@ def test_ctrl_c_before_anything_was_learned_leaves_no_folder(starting, tmp_path)
 def test_records_without_a_checkpoint_are_not_resumed_but_moved_aside_by_a_new_start(tmp_path, capsys):
     run = run_lib.Run(tmp_path / "run")
     run.create(small())
-    run.append_metrics({**dict.fromkeys(run_lib.METRICS, 0.5), "frames": 7})  # As a kill leaves it in the first minute.
+    # As a kill leaves it in the first minute.
+    run.append_metrics({**dict.fromkeys(metrics_lib.METRICS, 0.5), "frames": 7})
     before = everything(run.path)
     line = refusal(capsys, "train", *TASK, "--run-dir", run.path, "--resume")
     assert "holds no checkpoint to resume from; leave out --resume to start anew" in line
@@ -156,7 +141,7 @@ def test_records_without_a_checkpoint_are_not_resumed_but_moved_aside_by_a_new_s
 def test_the_demo_refuses_a_folder_with_another_run_and_changes_nothing(tmp_path, capsys):
     run = run_lib.Run(tmp_path / "run")
     run.create(small())
-    run.append_metrics({**dict.fromkeys(run_lib.METRICS, 0.5), "frames": 7})
+    run.append_metrics({**dict.fromkeys(metrics_lib.METRICS, 0.5), "frames": 7})
     before = everything(tmp_path)
     line = refusal(capsys, "demo", "--run-dir", run.path)
     assert "holds a run that is no demo's; choose another --run-dir" in line
@@ -170,7 +155,7 @@ def test_a_demo_in_the_folder_of_an_earlier_one_moves_that_aside_and_tells_that_
     monkeypatch.setattr(demo, "EPISODES", 10)
     run = run_lib.Run(tmp_path / "demo")
     run.create(demo.config())
-    run.append_metrics({**dict.fromkeys(run_lib.METRICS, 0.5), "frames": 100})
+    run.append_metrics({**dict.fromkeys(metrics_lib.METRICS, 0.5), "frames": 100})
     checkpoint = run.checkpointer.save({"frames": torch.tensor(100)}, {})
     before = everything(run.path)
     demo.run(run.path)

@@ -10,8 +10,8 @@ from physexp.agents import networks, pretrained
 from physexp.agents.ppo import config as ppo
 from physexp.analysis.data import records
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import recorder, trainer
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import trainer
 
 SMALL = ppo.PPOConfig(
     num_threads=1, num_environments=4, num_minibatches=2, num_epochs=1, lstm_units=8, frames=60, checkpoint_seconds=1e-9
@@ -21,7 +21,7 @@ SMALL = ppo.PPOConfig(
 
 def config(**agent) -> config_lib.TrainConfig:
     return config_lib.TrainConfig(
-        domain="which_is_heavier", task="features", difficulty=10.0, agent=SMALL.replace(**agent)
+        domain="which_is_heavier", task="features", task_kwargs={"difficulty": 10.0}, agent=SMALL.replace(**agent)
     )
 
 
@@ -57,7 +57,7 @@ OPTIONS = [
 
 def train(path) -> None:
     """Trains a run to its end, from the start if it has no checkpoint, with a row of metrics for each update."""
-    trainer.ROW_SECONDS = -1.0
+    recorder.ROW_SECONDS = -1.0
     run = run_lib.Run(path)
     trainer.train(run, start=None if run.checkpointer.paths() else config())
 

@@ -5,6 +5,8 @@ import functools
 import subprocess
 
 import attacks
+import commands
+import pyarrow
 import pytest
 import reading
 import subjects
@@ -16,8 +18,9 @@ from physexp.analysis.evaluation import playing
 from physexp.analysis.experiments import base
 from physexp.analysis.replay import recording, writing
 from physexp.analysis.reproduction import sweep
+from physexp.analysis.training import metrics as metrics_lib
+from physexp.analysis.training import recorder
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import trainer
 
 pytestmark = pytest.mark.long
 
@@ -43,7 +46,7 @@ def write_episodes(folder, number):
     size = 50
     columns = {name: [0] * size for name in run_lib.EPISODES.names}
     columns |= {"frames": [number] * size, "actions": [[number % 100] * 20] * size}
-    run.append_episodes(number, columns)
+    run.append_episodes(number, pyarrow.table(columns, run_lib.EPISODES))
 
 
 def read_episodes(folder):
@@ -57,13 +60,13 @@ def read_episodes(folder):
 def write_metrics(folder, number):
     run = run_lib.Run(folder)
     run.rewind(number - 1)  # As a trainer does that goes on.
-    run.append_metrics({name: number if name == "frames" else number + 0.25 for name in run_lib.METRICS})
+    run.append_metrics({name: number if name == "frames" else number + 0.25 for name in metrics_lib.METRICS})
 
 
 def read_metrics(folder):
     rows = run_lib.Run(folder).metrics()
     assert [row["frames"] for row in rows] == list(range(len(rows)))
-    assert all(set(row) == set(run_lib.METRICS) and row["staleness"] == row["frames"] + 0.25 for row in rows)
+    assert all(set(row) == set(metrics_lib.METRICS) and row["staleness"] == row["frames"] + 0.25 for row in rows)
     return len(rows) - 1
 
 
@@ -190,7 +193,7 @@ JOB = sweep.Job(
 
 
 def sweep_one(folder):
-    trainer.ROW_SECONDS = -1.0  # A row for each update, however long they take.
+    recorder.ROW_SECONDS = -1.0  # A row for each update, however long they take.
     sweep._work(print, JOB, base.Results(folder))
 
 
@@ -231,7 +234,7 @@ def test_reproducing_that_was_killed_goes_on_to_the_same_figure_of_the_same_agen
 
     def reproduce(folder, **kwargs):
         words = ["reproduce", "learners", "--observations", "features", "--seeds", 1, "--frames", 60, "--jobs", 2]
-        return attacks.run(attacks.command, *words, "--results-dir", folder, seconds=900.0, **kwargs)
+        return attacks.run(commands.physexp, *words, "--results-dir", folder, **kwargs)
 
     attacks.run(print)  # The server has its imports behind it.
     whole = reproduce(tmp_path / "whole")

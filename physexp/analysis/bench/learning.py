@@ -15,7 +15,7 @@ SUCCESS = {"fist_features": 0.98, "direct_features": 0.95}  # Share of right ans
 HOURS = 12.0  # For all experiments on features.
 
 
-def run(results_dir: Path) -> Iterator[dict]:
+def figures(results_dir: Path) -> Iterator[dict]:
     """Trains the agents that are missing, reads what all of them reached, and takes the time of the rest."""
     results = base.Results(results_dir)
     features = sweep.jobs(list(EXPERIMENTS.values()), ["features"], conditions.SEEDS.__getitem__)
@@ -54,12 +54,13 @@ def _reached(results: base.Results, condition) -> Iterator[dict]:
     if condition.domain == "towers":
         yield measuring.row(f"right answers: {name}", reached(success), "", SUCCESS[condition.task], **absolute)
         return
-    best = ideal.solve(condition.difficulty, condition.agent.discount).value
-    yield measuring.row(f"return: {name}", reached(returns), "", RETURN[condition.difficulty], **absolute)
+    difficulty = condition.task_kwargs["difficulty"]
+    best = ideal.solve(difficulty, condition.agent.discount).value
+    yield measuring.row(f"return: {name}", reached(returns), "", RETURN[difficulty], **absolute)
     yield measuring.row(
         f"return / ideal experimenter's: {name}",
         reached(returns) / best,
         "x",
-        ideal_gap.LEAST[condition.difficulty],
+        ideal_gap.LEAST[difficulty],
         ideal=best,
     )

@@ -6,10 +6,8 @@ from typing import Any
 import numpy as np
 import pyarrow
 
-from physexp.analysis.data import tables
-from physexp.analysis.evaluation import playing
+from physexp.analysis.data import episodes, provenance, tables
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import run as run_lib
 from physexp.suite.domains import which_is_heavier
 
 SCHEMA = pyarrow.schema(
@@ -42,47 +40,54 @@ _REPEATED = ["actions.list.element", *(name for name in SCHEMA.names if name not
 
 
 def table(
-    played: playing.Episodes, config: config_lib.TrainConfig, interaction: str, control_timestep: float
+    played: episodes.Episodes, config: config_lib.TrainConfig, interaction: str, control_timestep: float
 ) -> pyarrow.Table:
-    """The rows of some episodes, as `SCHEMA` has them; `config` is of the agent that played them."""
-    count = len(played.lengths)
-    is_masses = played.hidden.ndim == 2
-    nothing = [None] * count
-    columns: dict[str, Any] = {
-        "domain": [config.domain] * count,
-        "task": [config.task] * count,
-        "difficulty": [config.difficulty] * count,
-        "discount": [config.agent.discount] * count,
-        "training_seed": [config.agent.seed] * count,
-        "interaction": [interaction] * count,
-        "control_timestep": [control_timestep] * count,
-        "seed": played.seeds,
-        "episode": played.numbers,
-        "masses": list(played.hidden.astype(np.float32)) if is_masses else nothing,
-        "mass_gap": which_is_heavier.mass_gaps(played.hidden).astype(np.float32) if is_masses else nothing,
-        "pattern": nothing if is_masses else played.hidden,
-        "actions": played.actions,
-        "answer": played.answers,
-        "label": played.labels,
-        "reward": played.rewards,
-        "length": played.lengths,
-        "interactions": played.interactions,
-        "time": played.interactions * control_timestep,
-    }
-    return pyarrow.table(columns, SCHEMA)
+    """Returns the rows of some episodes, as `SCHEMA` has them.
+
+    Args:
+      played: the episodes.
+      config: of the agent that played them.
+      interaction: `learned` or `random`.
+      control_timestep: time between actions, s.
+    """
+    return played.table(
+        SCHEMA,
+        domain=config.domain,
+        task=config.task,
+        difficulty=config.task_kwargs.get("difficulty"),
+        discount=config.agent.discount,
+        training_seed=config.agent.seed,
+        interaction=interaction,
+        control_timestep=control_timestep,
+        time=played.interactions * control_timestep,
+        **_hidden_columns(played.hidden),
+    )
+
+
+def _hidden_columns(hidden) -> dict[str, Any]:
+    """Returns the columns that say what was hidden, null for those of the other domain."""
+    if hidden.ndim != 2:
+        return {"masses": None, "mass_gap": None, "pattern": hidden}
+    masses = episodes.lists(hidden.astype(np.float32).ravel(), np.full(len(hidden), hidden.shape[1]))
+    gaps = which_is_heavier.mass_gaps(hidden).astype(np.float32)
+    return {"masses": masses, "mass_gap": gaps, "pattern": None}
 
 
 def write(path: Path, rows: pyarrow.Table) -> None:
-    """Writes rows and the commit that made them; there is the whole file or none."""
+    """Writes rows and the commit that made them; there is the whole file or none.
+
+    Raises:
+      OSError: if it cannot be written.
+    """
     path.parent.mkdir(parents=True, exist_ok=True)
-    stamped = rows.replace_schema_metadata({"commit": run_lib.commit()})
+    stamped = rows.replace_schema_metadata({"commit": provenance.commit()})
     tables.write(
         path, stamped, compression="zstd", compression_level=9, use_dictionary=_REPEATED, use_byte_stream_split=_VARIED
     )
 
 
 def read(paths: list[Path], columns: list[str] | None = None):
-    """The rows of some files as a pandas DataFrame; `commit` is what made them.
+    """Returns the rows of some files as a pandas DataFrame; `commit` is what made them.
 
     Args:
       paths: files that `write` has written.
@@ -103,5 +108,5 @@ def read(paths: list[Path], columns: list[str] | None = None):
 
 
 def discounted_return(frame) -> np.ndarray:
-    """Discounted returns of the episodes in a frame: the reward, discounted once for each action before the last."""
+    """Returns discounted returns of the episodes in a frame, as `Episodes.returns` does."""
     return (frame.reward * frame.discount ** (frame.length - 1)).to_numpy()

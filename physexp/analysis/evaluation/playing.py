@@ -1,7 +1,6 @@
 """Evaluation: plays episodes with a trained agent and measures how well it answers."""
 
-from collections.abc import Callable, Sequence
-import dataclasses
+from collections.abc import Callable, Mapping
 import functools
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,7 @@ import torch
 from physexp import suite
 from physexp.agents import acting, devices, networks, pretrained
 from physexp.agents import agent as agent_lib
-from physexp.analysis.data import estimates
+from physexp.analysis.data.episodes import Episodes
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
@@ -22,76 +21,8 @@ INTERACTIONS = ("learned", "random")
 _BATCH = 256
 
 
-@dataclasses.dataclass(frozen=True)
-class Episodes:
-    """What happened in many episodes.
-
-    Attributes:
-      seeds, numbers: seed of the environment and index of the episode, int64 [N] each: together they rebuild it.
-      hidden: the hidden property, [N, ...].
-      answers: the right labels, int64 [N].
-      labels: the labels given, -1 where time ran out, int64 [N].
-      rewards: final rewards, float64 [N].
-      lengths: actions in each episode, int64 [N].
-      interactions: interaction actions in each episode, int64 [N].
-      actions: the actions of each episode, N arrays int64 [length].
-    """
-
-    seeds: np.ndarray
-    numbers: np.ndarray
-    hidden: np.ndarray
-    answers: np.ndarray
-    labels: np.ndarray
-    rewards: np.ndarray
-    lengths: np.ndarray
-    interactions: np.ndarray
-    actions: list[np.ndarray]
-
-    @classmethod
-    def of_round(cls, episodes: acting.Round, environment, number: int) -> "Episodes":
-        """The episodes of a round that has just been played in the environments of a batch, all with this index."""
-        columns = trainer.episode_columns(episodes, environment.task.num_interactions)
-        return cls(
-            seeds=environment.seeds,
-            numbers=np.full(environment.num_environments, number),
-            hidden=environment.hidden,
-            answers=episodes.answers,
-            labels=np.array(columns["label"]),
-            rewards=episodes.rewards.sum(axis=0, dtype=np.float64),
-            lengths=episodes.lengths,
-            interactions=trainer.interaction_counts(episodes, environment.task.num_interactions),
-            actions=[np.array(actions) for actions in columns["actions"]],
-        )
-
-    @classmethod
-    def joined(cls, parts: "Sequence[Episodes]") -> "Episodes":
-        """The episodes of all parts, one after the other."""
-        columns: dict[str, Any] = {}
-        for field in dataclasses.fields(cls):
-            values: list[Any] = [getattr(part, field.name) for part in parts]
-            columns[field.name] = sum(values, []) if field.name == "actions" else np.concatenate(values)
-        return cls(**columns)
-
-    def first(self, count: int) -> "Episodes":
-        """The first episodes."""
-        return Episodes(*(getattr(self, field.name)[:count] for field in dataclasses.fields(self)))
-
-    def summary(self, discount: float) -> dict:
-        """The figures of `physexp evaluate`; the interval is Wilson's, at 95 %."""
-        right = int((self.rewards > 0).sum())
-        return {
-            "episodes": len(self.rewards),
-            "success_rate": right / len(self.rewards),
-            "success_interval": list(estimates.wilson_interval(right, len(self.rewards))),
-            "mean_return": float((self.rewards * discount ** (self.lengths - 1)).mean()),
-            "mean_interactions": float(self.interactions.mean()),
-            "median_interactions": float(np.median(self.interactions)),
-            "timeouts": int((self.interactions == self.lengths).sum()),
-        }
-
-
 def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
-    """The network that a run has trained.
+    """Returns the network that a run has trained.
 
     Raises:
       ValueError: if there is none yet, or its files are damaged or do not fit; it names the file.
@@ -108,42 +39,59 @@ def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
 
 
 def find_agent(
-    target: str, difficulty: float | None = None
+    target: str, task_kwargs: Mapping[str, Any] | None = None
 ) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
-    """A trained agent's network, and what it plays.
+    """Returns a trained agent's network, and what it plays.
 
     Args:
       target: the folder of a run, or an agent that comes with the package: `domain/task`, or the name of its files.
-      difficulty: what the agent is to be trained at; by default that of the folder or name, or else the task's.
+      task_kwargs: options that the agent is to be trained with; the others are those of the folder or name, or else
+        the task's.
 
     Raises:
-      ValueError: if there is no such agent, or none of that difficulty; it lists those that come with the package.
+      ValueError: if there is no such agent, or none with these options; it lists those that come with the package.
     """
-    if not Path(target).exists():
-        domain, _, task = target.partition("/")
-        if (domain, task) in suite.ALL_TASKS:
-            return _with_config(pretrained.load(domain, task, difficulty))
-        if target in pretrained.names():
-            agent = pretrained.load_named(target)
-            _check_difficulty(target, config_of(agent), difficulty)
-            return _with_config(agent)
-        raise ValueError(
-            f"{target} holds no run (no config.json); give the folder of a run or a trained agent: "
-            f"{', '.join(pretrained.names())}"
-        )
-    run = run_lib.Run(Path(target))
-    _check_difficulty(target, run.config, difficulty)
-    return load_network(run), run.config
+    wanted = task_kwargs or {}
+    if Path(target).exists():
+        run = run_lib.Run(Path(target))
+        _check_options(target, run.config, wanted)
+        return load_network(run), run.config
+    domain, _, task = target.partition("/")
+    if (domain, task) in suite.ALL_TASKS:
+        return shipped_agent(domain, task, wanted)
+    if target in pretrained.names():
+        agent = pretrained.load_named(target)
+        _check_options(target, config_of(agent), wanted)
+        return _with_config(agent)
+    raise ValueError(
+        f"{target} holds no run (no config.json); give the folder of a run or a trained agent: "
+        f"{', '.join(pretrained.names())}"
+    )
 
 
-def _check_difficulty(target: str, config: config_lib.TrainConfig, wanted: float | None) -> None:
-    if wanted is None:
+def shipped_agent(
+    domain: str, task: str, task_kwargs: Mapping[str, Any]
+) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
+    """Returns the network of the agent that comes with the package for a task with these options, and what it plays.
+
+    Raises:
+      ValueError: if there is none; it lists those that there are.
+    """
+    agent = pretrained.load(domain, task, task_kwargs.get("difficulty"))  # Which names the files.
+    _check_options(f"{domain}/{task}", config_of(agent), task_kwargs)
+    return _with_config(agent)
+
+
+def _check_options(target: str, config: config_lib.TrainConfig, wanted: Mapping[str, Any]) -> None:
+    """Refuses an agent that was trained with other options than are wanted."""
+    if not wanted:
         return
     options = suite.load_task(config.domain, config.task, config.task_kwargs).options
-    trained_at = getattr(options, "difficulty", None)  # None in the configuration is the task's own.
-    if wanted != trained_at:
-        what = "has no difficulty" if trained_at is None else f"was trained at difficulty {trained_at:g}"
-        raise ValueError(f"{target} {what}, and difficulty is {wanted}; leave that out, or name another agent")
+    for name, value in wanted.items():
+        trained_at = getattr(options, name, None)  # The task's own, where the configuration has none.
+        if value != trained_at:
+            what = f"has no {name}" if trained_at is None else f"was trained at {name} {config_lib.shown(trained_at)}"
+            raise ValueError(f"{target} {what}, and {name} is {value}; leave that out, or name another agent")
 
 
 def _with_config(agent: pretrained.Pretrained) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
@@ -177,9 +125,8 @@ def config_of(agent: pretrained.Pretrained) -> config_lib.TrainConfig:
       ValueError: if its card does not say so.
     """
     try:
-        return config_lib.TrainConfig.from_json(
-            {name: agent.card[name] for name in ("domain", "task", "difficulty", "agent")}
-        )
+        facts = {name: agent.card[name] for name in ("domain", "task", "difficulty", "agent")}
+        return config_lib.TrainConfig.from_json({**facts, "task_kwargs": agent.card.get("task_kwargs", {})})
     except (KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"an agent's card is not what was written: {error!r}; publish the agent again") from None
 
@@ -207,9 +154,9 @@ def play(
     num_threads: int = 2,
     device: str = "auto",
     num_steps: int = 0,
-    report: Callable[[int], None] | None = None,
+    show: Callable[[int], None] | None = None,
 ) -> Episodes:
-    """Plays episodes with a network.
+    """Plays episodes with a network; returns them.
 
     Args:
       network: the agent's network.
@@ -220,9 +167,9 @@ def play(
       greedy: take the likeliest action instead of drawing one.
       seed: of the environments and the actions.
       num_threads: threads that simulate.
-      device: where convolutions are computed, as in `A3CConfig`.
+      device: where convolutions are computed, as in `AgentConfig`.
       num_steps: go on, in rounds of whole episodes, until there are so many environment steps.
-      report: called after each round with how many of the episodes are played.
+      show: called after each round with how many of the episodes are played.
 
     Raises:
       ValueError: for an unknown interaction or a number of episodes below one.
@@ -241,13 +188,13 @@ def play(
     rounds: list[Episodes] = []
     episodes_left, steps_left = num_episodes, num_steps
     while episodes_left > 0 or steps_left > 0:
-        number = len(rounds)
-        generator = np.random.default_rng([seed, number])
-        episodes = acting.play_round(network, environment, number, generator, greedy, action_override)
-        rounds.append(Episodes.of_round(episodes, environment, number))
-        episodes_left, steps_left = episodes_left - len(episodes.lengths), steps_left - episodes.num_frames
-        if report is not None:
-            report(num_episodes - max(0, episodes_left))
+        episode = len(rounds)
+        generator = np.random.default_rng([seed, episode])
+        played = acting.play_round(network, environment, episode, generator, greedy, action_override)
+        rounds.append(Episodes.of_round(played, num_interactions, environment.seeds, episode, environment.hidden))
+        episodes_left, steps_left = episodes_left - len(rounds[-1]), steps_left - played.num_frames
+        if show is not None:
+            show(num_episodes - max(0, episodes_left))
     environment.close()
     joined = Episodes.joined(rounds)
     return joined if num_steps else joined.first(num_episodes)

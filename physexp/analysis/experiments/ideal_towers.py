@@ -4,7 +4,7 @@ from collections.abc import Callable
 import json
 from typing import Any
 
-from physexp.agents import checkpointing, files
+from physexp.agents import files
 from physexp.analysis.experiments import base, conditions
 from physexp.analysis.ideal import towers
 
@@ -35,7 +35,7 @@ def read(results: base.Results) -> dict[str, list[dict]]:
         path = _path(results, condition.task)
         if not path.exists():
             raise ValueError(f"{path} is missing; `physexp reproduce ideal_gap` makes it")
-        found[condition.task] = rows = checkpointing.read_json(path)
+        found[condition.task] = rows = files.read_json(path)
         if not isinstance(rows, list) or not rows or not all(map(_is_summary, rows)):
             raise ValueError(f"{path} is not what was written; remove it, and `physexp reproduce ideal_gap` makes it")
     return found
@@ -69,7 +69,7 @@ def lengths_and_accuracies(results: base.Results) -> dict[str, tuple[float, floa
     found = {}
     for task, rows in read(results).items():
         summary = best(rows)
-        found[conditions.label("towers", task, None)] = (summary["mean_interactions"], summary["accuracy"])
+        found[conditions.label("towers", task)] = (summary["mean_interactions"], summary["accuracy"])
     return found
 
 

@@ -15,11 +15,12 @@ import numpy as np
 
 from physexp import suite
 from physexp.agents import core
+from physexp.analysis import domains
 from physexp.analysis.ideal import trajectories as trajectories_lib
-from physexp.analysis.training import config
 from physexp.suite.domains import towers
 from physexp.suite.parts import tower
 
+_DISCOUNT = domains.find("towers").discount
 OBJECTIVES = ("return", "time")
 _COUNTS, _PRIOR = towers.NUM_BODIES, towers.PRIOR
 _EVERYTHING = tuple(range(len(_COUNTS)))
@@ -161,7 +162,7 @@ class Solution:
 def solve(
     task: str = "fist_features",
     resolution: float = 0.0,
-    discount: float = config.DISCOUNT["towers"],
+    discount: float = _DISCOUNT,
     objective: str = "return",
     *,
     max_depth: int = 8,
@@ -207,7 +208,7 @@ def solve(
     )
 
 
-def curve(task: str, resolutions: Sequence[float], discount: float = config.DISCOUNT["towers"]) -> list[dict[str, Any]]:
+def curve(task: str, resolutions: Sequence[float], discount: float = _DISCOUNT) -> list[dict[str, Any]]:
     """Summaries for both objectives at several resolutions, with `resolution` and `objective` beside them."""
     trajectories = trajectories_lib.Trajectories(task)
     return [

@@ -14,7 +14,7 @@ import numpy as np
 from scipy import interpolate, special
 from scipy.stats import qmc
 
-from physexp.analysis.training import config
+from physexp.analysis import domains
 from physexp.suite.domains import which_is_heavier
 
 _HEAVIEST_NODES, _RATIO_NODES = 400, 33
@@ -162,7 +162,7 @@ def _evenly_drawn_episodes(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
 @functools.lru_cache(maxsize=64)
 def solve(
     difficulty: float = which_is_heavier.Options.difficulty,
-    discount: float = config.DISCOUNT["which_is_heavier"],
+    discount: float = domains.find("which_is_heavier").discount,
     num_blocks: int = which_is_heavier.NUM_BLOCKS,
 ) -> Solution:
     """Finds the best policy, its value to better than 0.0001.

@@ -1,9 +1,11 @@
 """Replays: episodes recorded with all that was seen, believed and done, and written for the rerun viewer."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 import functools
 from pathlib import Path
+from typing import Any
 
+from physexp.analysis import callbacks
 from physexp.analysis.evaluation import playing
 from physexp.analysis.replay import recording, selection, writing
 from physexp.analysis.replay.recording import Episode, EpisodeRecorder
@@ -19,8 +21,8 @@ def replay(
     interaction: str = "learned",
     select: selection.Selection = "any",
     seed: int = playing.SEED,
-    report: Callable[[str], None] = lambda line: None,
-    difficulty: float | None = None,
+    tell: callbacks.Tell = callbacks.ignore,
+    task_kwargs: Mapping[str, Any] | None = None,
 ) -> Path:
     """Plays episodes with trained agents and writes them for the viewer.
 
@@ -29,8 +31,8 @@ def replay(
       count: how many episodes.
       output: the file.
       interaction, select, seed: see `selection.select`.
-      report: called with lines that tell how it goes.
-      difficulty: of the agents that come with the package, see `playing.find_agent`.
+      tell: called with lines that tell how it goes.
+      task_kwargs: options that the agents are to be trained with, see `playing.find_agent`.
 
     Returns:
       The path of the file.
@@ -41,7 +43,7 @@ def replay(
         else than a regular file at `output`.
     """
     writing.check_output(output)
-    agents = [playing.find_agent(target, difficulty) for target in targets]
+    agents = [playing.find_agent(target, task_kwargs) for target in targets]
     network, config = agents[0]
     for _, other in agents[1:]:
         if _what(other) != _what(config):
@@ -50,9 +52,9 @@ def replay(
             )
     chosen = list(selection.select(network, config, count, select, interaction, seed))
     if len(chosen) < count:
-        report(f"only {len(chosen)} episodes are {select}")
+        tell(f"only {len(chosen)} episodes are {select}")
     groups = [functools.partial(_episodes, targets, agents, instance, interaction) for instance in chosen]
-    return writing.write(output, groups, report)
+    return writing.write(output, groups, tell)
 
 
 def _what(config) -> str:

@@ -315,7 +315,7 @@ def reenact(
     Args:
       network: of the agent that played it, for its beliefs.
       config: what it plays.
-      seed, episode: seed of the environment and index of the episode.
+      seed, episode: seed of the environment and index of the episode, as `data.episodes.Episodes` has them.
       actions: what was done in it; None to let the agent do what it likes.
       agent: who played, in words.
     """

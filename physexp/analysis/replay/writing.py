@@ -24,7 +24,7 @@ import rerun as rr
 from scipy.spatial import transform
 
 from physexp.agents import files
-from physexp.analysis import readings
+from physexp.analysis import callbacks, readings
 from physexp.analysis.replay import beliefs, layout, palette, recording, words
 from physexp.analysis.replay.layout import TIMELINE
 from physexp.analysis.replay.viewing import PROGRAM, last_line
@@ -39,14 +39,14 @@ _MERGE_SECONDS = 300.0  # A few hundred times what it takes.
 def write(
     path: Path,
     groups: Sequence[Callable[[], Sequence[recording.Episode]]],
-    report: Callable[[str], None] = lambda line: None,
+    tell: callbacks.Tell = callbacks.ignore,
 ) -> Path:
     """Writes recordings into one file; after each of them the file is whole.
 
     Args:
       path: of the file, usually `*.rrd`.
       groups: called one after the other, each for the episodes of one recording: one, or several side by side.
-      report: called with a line for each recording.
+      tell: called with a line for each recording.
 
     Returns:
       The path.
@@ -64,7 +64,7 @@ def write(
         newest = _recording(episodes)
         written = _merge(written + newest) if written else newest
         files.write_atomically(path, written)
-        report(f"{number + 1} of {len(groups)}: {words.name(episodes[0])}")
+        tell(f"{number + 1} of {len(groups)}: {words.name(episodes[0])}")
     return path
 
 

@@ -70,7 +70,7 @@ class Progress:
 
 @contextlib.contextmanager
 def bar(name: str, total: int, file=None) -> Iterator[Callable[[int], None]]:
-    """A context with a function to be called with how many of `total` are done: it moves a bar on a terminal.
+    """Returns a context with a function to be called with how many of `total` are done: it moves a bar on a terminal.
 
     Elsewhere than on a terminal nothing is shown. By default `file` is standard error.
     """
@@ -89,7 +89,7 @@ def bar(name: str, total: int, file=None) -> Iterator[Callable[[int], None]]:
 
 
 def duration(seconds: float) -> str:
-    """Hours, minutes and seconds, as in 1:02:03."""
+    """Returns hours, minutes and seconds, as in 1:02:03."""
     minutes, seconds = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}:{minutes:02d}:{seconds:02d}"

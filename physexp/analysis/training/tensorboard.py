@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from physexp.analysis.training import metrics
 from physexp.analysis.training import run as run_lib
 
 
@@ -23,10 +24,10 @@ class TensorBoard:
             self._writer.close()
 
     def __call__(self, row: dict[str, float]) -> None:
-        """Logs a row of `run.METRICS`, the last of the run's, at its environment steps."""
+        """Logs a row of `metrics.METRICS`, the last of the run's, at its environment steps."""
         if self._writer is None:
             self._writer = self._open()
-        for name in run_lib.METRICS:
+        for name in metrics.METRICS:
             if name != "frames":
                 self._writer.add_scalar(name, row[name], int(row["frames"]))
         self._writer.flush()
