@@ -532,7 +532,7 @@ def test_a_selection_is_what_it_says():
     chosen = {kind: list(selection.select(network, config, 5, kind, seed=5)) for kind in kinds}
     rewards = dict(zip(zip(everything.seed, everything.episode, strict=True), everything.reward, strict=True))
     assert all(rewards[seed, episode] > 0 for seed, episode, _ in chosen["right"])
-    lengths = sorted((len(actions) for actions in everything.actions), reverse=True)
+    lengths = sorted(everything.length, reverse=True)
     assert [len(actions) for _, _, actions in chosen["longest"]] == lengths[:5]
     gaps = np.sort(everything.hidden)[:, -1] - np.sort(everything.hidden)[:, -2]
     hardest = np.argsort(gaps)[:5]

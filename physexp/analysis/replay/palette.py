@@ -17,6 +17,9 @@ ANSWERS = (255, 150, 220)
 VALUE = (235, 235, 235)
 """The return that the agent expects."""
 
+MARK = (255, 255, 255)
+"""A text beside a thing, which tells what is hidden."""
+
 JOINT = (255, 255, 255)
 """What joins two things that are one."""
 

@@ -187,7 +187,9 @@ class EpisodeWriter:
         for number, (thing, text) in enumerate(revealed.marks.items()):
             entity, k = f"world/hidden/mark_{thing}", shapes.index(thing)
             place = (0, 0, shapes.sizes[k].max() + _TEXT_ABOVE[number % 2])
-            self._log(entity, rr.Points3D([place], labels=[text], radii=[0.006], show_labels=True))
+            self._log(
+                entity, rr.Points3D([place], labels=[text], colors=[palette.MARK], radii=[0.006], show_labels=True)
+            )
             self._follow(entity, k)
         for first, second in revealed.joined:
             entity = f"world/hidden/{first}_to_{second}"
