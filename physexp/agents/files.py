@@ -85,7 +85,7 @@ def open_plain(path: Path, mode: str = "rb", **options: Any) -> IO[Any]:
 
 
 def read_plain(path: Path, most: int) -> bytes:
-    """The content of a regular file of at most so many bytes.
+    """Returns the content of a regular file of at most so many bytes.
 
     Raises:
       OSError, ValueError: as `open_plain`; ValueError also if the file is larger.
@@ -120,7 +120,7 @@ def _refuse_constant(name: str) -> float:
 
 @contextlib.contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """A context that one process at a time is in; the others wait."""
+    """Returns a context that one process at a time is in; the others wait."""
     opened = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         with contextlib.suppress(OSError):  # Of a file system without locks.
@@ -156,7 +156,7 @@ def _refusal(path: Path, kind: str) -> str:
 
 
 def _temporary(folder: int, name: str) -> tuple[str, int]:
-    """The name and descriptor of a new file beside `name`, which is locked as long as its writer lives."""
+    """Returns the name and descriptor of a new file beside `name`, which is locked as long as its writer lives."""
     while True:
         temporary = f".{name}.{secrets.token_hex(8)}.tmp"
         flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW

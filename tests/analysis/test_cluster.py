@@ -23,9 +23,7 @@ import trainers
 from trainers import PHYSEXP, fresh_seed
 from waiting import Patience, wait_until
 
-from physexp.agents import agent as agent_lib
-from physexp.agents import learning
-from physexp.agents.a3c import agent as a3c_agent
+from physexp.agents import core, learning, rounds, starting
 from physexp.agents.a3c import config as a3c_config
 from physexp.agents.a3c import distributed
 from physexp.agents.a3c import learning as a3c
@@ -186,7 +184,7 @@ def test_workers_that_find_no_room_join_when_there_is_some(nodes, tmp_path):
             added = True
         if len(seen) == 3:
             agent.stop()
-    assert seen == {agent_lib.worker_seed(run.config.agent.seed, worker) for worker in range(3)}
+    assert seen == {starting.worker_seed(run.config.agent.seed, worker) for worker in range(3)}
 
 
 def test_a_machine_with_other_versions_is_refused_in_one_line_that_names_both(nodes, tmp_path):
@@ -196,7 +194,7 @@ def test_a_machine_with_other_versions_is_refused_in_one_line_that_names_both(no
     agent = distributed.DistributedA3C(
         environments, run.config.agent, lambda: {"mujoco": "3.17.0" if os.getpid() == trainer_pid else "3.16.0"}
     )
-    with pytest.raises(a3c_agent.WorkerError, match=r"has mujoco 3\.16\.0, not 3\.17\.0; install") as caught:
+    with pytest.raises(core.WorkerError, match=r"has mujoco 3\.16\.0, not 3\.17\.0; install") as caught:
         list(agent.updates())
     assert "\n" not in str(caught.value)
 
@@ -224,7 +222,7 @@ def test_a_gradient_that_is_too_old_is_not_applied():
     network = torch.nn.Linear(2, 1)
     variables = learning.Variables(network)
     gradients = [torch.ones_like(parameter) for parameter in network.parameters()]
-    episodes = playing.acting.Round(
+    episodes = rounds.Round(
         actions=torch.zeros(1, 1).numpy(),
         rewards=torch.zeros(1, 1).numpy(),
         lengths=torch.ones(1, dtype=int).numpy(),
@@ -306,7 +304,7 @@ def test_stopped_processes_of_a_cluster_hang_nobody(nodes, tmp_path):
     (worker,) = nodes.processes("Worker")
     os.kill(worker, signal.SIGSTOP)
     patience.silent = patience.stop = 0.3
-    assert any("worker 0 has been silent for 0 s" in line for _ in updates for line in lines)
+    assert any("worker 0 has been silent since" in line for _ in updates for line in lines)
     agent.stop()
     list(updates)
     assert lines[-1] == "worker 0 did not end within 0 s: killed"
@@ -324,7 +322,7 @@ def test_a_parameter_server_that_does_not_answer_counts_as_dead(nodes, tmp_path)
     (server,) = nodes.processes("ParameterServer")
     os.kill(server, signal.SIGSTOP)
     patience.answer = 0.3
-    with pytest.raises(agent_lib.VariablesLostError, match="the parameter server has not answered for 0 s"):
+    with pytest.raises(core.VariablesLostError, match="the parameter server has not answered for 0 s"):
         list(updates)
     wait_until(lambda: not Path(f"/proc/{server}").exists(), "the end of a stopped server")
 

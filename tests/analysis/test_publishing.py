@@ -35,8 +35,8 @@ def test_the_card_says_what_was_done_and_what_came_of_it(published):
     card = json.loads(path.read_text())
     last = run.metrics()[-1]
     assert path.name == "which_is_heavier-features-difficulty10.json"
-    assert (card["domain"], card["task"], card["difficulty"]) == ("which_is_heavier", "features", 10.0)
-    assert card["task_kwargs"] == {"difficulty": 10.0}
+    assert (card["domain"], card["task"], card["task_kwargs"]) == ("which_is_heavier", "features", {"difficulty": 10.0})
+    assert not card["default"], "the task's own difficulty is another"
     assert (card["seed"], card["frames"], card["seconds"]) == (5, int(last["frames"]), round(last["seconds"]))
     assert card["evaluation"]["drawn"]["episodes"] == card["evaluation"]["greedy"]["episodes"] == 200
     assert card["versions"] == provenance.versions()

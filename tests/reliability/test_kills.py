@@ -1,6 +1,5 @@
 """A process that is killed while it writes leaves what was there before or what it wrote, and the next one goes on."""
 
-import dataclasses
 import functools
 import subprocess
 
@@ -66,7 +65,7 @@ def write_metrics(folder, number):
 def read_metrics(folder):
     rows = run_lib.Run(folder).metrics()
     assert [row["frames"] for row in rows] == list(range(len(rows)))
-    assert all(set(row) == set(metrics_lib.METRICS) and row["staleness"] == row["frames"] + 0.25 for row in rows)
+    assert all(set(row) == set(metrics_lib.METRICS) and row["timeouts"] == row["frames"] + 0.25 for row in rows)
     return len(rows) - 1
 
 
@@ -187,7 +186,7 @@ def test_training_that_was_killed_goes_on_to_the_same_variables_bit_for_bit(unin
 # A sweep's agent: training, keeping the network alone, playing.
 
 JOB = sweep.Job(
-    dataclasses.replace(subjects.config(frames=30), control_timestep=None),
+    subjects.config(frames=30),
     (base.Trial(name="learned", num_steps=10), base.Trial(name="random", interaction="random", num_steps=10)),
 )
 

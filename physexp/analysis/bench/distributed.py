@@ -8,7 +8,7 @@ import statistics
 import tempfile
 import time
 
-from physexp.agents.a3c import distributed
+from physexp.agents.a3c import distributed, parameter_server
 from physexp.analysis import callbacks
 from physexp.analysis.bench import measuring
 from physexp.analysis.evaluation import playing
@@ -75,7 +75,7 @@ def figures() -> Iterator[dict]:
         yield measuring.row(f"{workers} workers, derived: bound by the {bound}", limits[bound], "f/s", 0)
 
 
-def _measure(num_workers: int) -> tuple[float, distributed.Traffic, float]:
+def _measure(num_workers: int) -> tuple[float, parameter_server.Traffic, float]:
     """Returns frames per second once all workers are under way; the traffic; and frames in an update."""
     agent = _agent(num_workers)
     heard: set[int] = set()

@@ -31,7 +31,7 @@ def figures() -> Iterator[dict]:
             playing.play(agent.network, config, EPISODES, greedy=greedy).summary(config.agent.discount)
             for greedy in (False, True)
         )
-        name = pretrained.name(domain, task, difficulty)
+        name = pretrained.name(domain, task, agent.card["task_kwargs"])
         yield measuring.row(
             f"{measured}: {name}",
             drawn[measured],

@@ -10,7 +10,7 @@ import pyarrow
 from physexp.analysis.data import estimates
 
 if TYPE_CHECKING:
-    from physexp.agents import acting  # Imports torch, without which tables are read in no time.
+    from physexp.agents import rounds  # Imports torch, without which tables are read in no time.
 
 
 @dataclasses.dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Episodes:
     @classmethod
     def of_round(
         cls,
-        played: "acting.Round",
+        played: "rounds.Round",
         num_interactions: int,
         seed: np.ndarray,
         episode: int,

@@ -9,8 +9,7 @@ import numpy as np
 import torch
 
 from physexp import suite
-from physexp.agents import acting, devices, networks, pretrained
-from physexp.agents import agent as agent_lib
+from physexp.agents import acting, devices, networks, pretrained, starting
 from physexp.analysis.data.episodes import Episodes
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
@@ -30,9 +29,9 @@ def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
     config = run.config
     environment = trainer.make_environment(config, 0, 1, 1)
     with torch.device("meta"):  # Nothing is made that the variables do not fit.
-        like = agent_lib.make_network(environment, config.agent).state_dict()
+        like = starting.make_network(environment, config.agent).state_dict()
     variables = run.variables(like)
-    network = agent_lib.make_network(environment, config.agent)
+    network = starting.make_network(environment, config.agent)
     environment.close()
     network.load_state_dict(variables)
     return network.eval()
@@ -77,8 +76,7 @@ def shipped_agent(
     Raises:
       ValueError: if there is none; it lists those that there are.
     """
-    agent = pretrained.load(domain, task, task_kwargs.get("difficulty"))  # Which names the files.
-    _check_options(f"{domain}/{task}", config_of(agent), task_kwargs)
+    agent = pretrained.load(domain, task, **task_kwargs)
     return _with_config(agent)
 
 
@@ -114,7 +112,7 @@ def network_facts(config: config_lib.TrainConfig) -> dict[str, Any]:
     return {
         "observations": observations,
         "num_actions": num_actions,
-        "hyperparameters": agent_lib.hyperparameters(config.agent),
+        "hyperparameters": starting.hyperparameters(config.agent),
     }
 
 
@@ -125,8 +123,8 @@ def config_of(agent: pretrained.Pretrained) -> config_lib.TrainConfig:
       ValueError: if its card does not say so.
     """
     try:
-        facts = {name: agent.card[name] for name in ("domain", "task", "difficulty", "agent")}
-        return config_lib.TrainConfig.from_json({**facts, "task_kwargs": agent.card.get("task_kwargs", {})})
+        facts = {name: agent.card[name] for name in ("domain", "task", "task_kwargs", "agent")}
+        return config_lib.TrainConfig.from_json(facts)
     except (KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"an agent's card is not what was written: {error!r}; publish the agent again") from None
 

@@ -1,10 +1,12 @@
 """The metrics of a run: rows that say how training goes, in a table that survives crashes."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 import itertools
+import math
 from pathlib import Path
 
 from physexp.agents import files
+from physexp.analysis.training import config
 
 METRICS = {
     "frames": "environment steps trained on",
@@ -16,20 +18,13 @@ METRICS = {
     "episode_return": "mean discounted return",
     "interactions": "mean interaction actions in an episode",
     "timeouts": "share of episodes that ran out of time",
-    "entropy": "mean entropy of the policy, nats",
-    "policy_loss": "",
-    "baseline_loss": "",
-    "gradient_norm": "before clipping",
-    "learning_rate": "",
-    "entropy_cost": "",
-    "staleness": "updates of others between taking the parameters and applying the gradient",
 }
-"""The columns of `metrics.csv`; losses and rates are means over the updates since the row before."""
+"""The columns of `metrics.csv` that every run has.
 
-LEARNER_METRICS = tuple(METRICS)[list(METRICS).index("entropy") :]
-"""Those that the learner reports with each update; the recorder computes the others."""
+Those of its learner follow, `AgentConfig.metrics`: means over the updates since the row before.
+"""
 
-_HEADER = ",".join(METRICS) + "\n"
+_KNOWN = {*METRICS, *itertools.chain.from_iterable(agent.metrics for agent in config.ALGORITHMS.values())}
 _LARGEST = 2**28  # Bytes: rows of a hundred days.
 
 
@@ -41,15 +36,21 @@ class MetricsFile:
         self.path = path
 
     def append(self, row: Mapping[str, float]) -> None:
-        """Adds a row.
+        """Adds a row, under the columns that the first row has made.
+
+        A run that an earlier version has begun may have more columns than rows have now: those get `nan`.
 
         Raises:
           OSError, ValueError: as `files.open_plain`.
         """
-        values = (f"{row[name]:.6g}" if isinstance(row[name], float) else str(row[name]) for name in METRICS)
-        with files.open_plain(self.path, "ab") as file:
-            header = b"" if file.tell() else _HEADER.encode()
-            file.write(header + f"{','.join(values)}\n".encode())
+        with files.open_plain(self.path, "a+b") as file:
+            file.seek(0)
+            header = file.readline().decode(errors="replace")
+            names = header.strip().split(",") if header else list(row)
+            values = [row.get(name, math.nan) for name in names]
+            cells = [f"{value:.6g}" if isinstance(value, float) else str(value) for value in values]
+            lines = [cells] if header else [names, cells]
+            file.write("".join(f"{','.join(line)}\n" for line in lines).encode())
 
     def rows(self) -> list[dict[str, float]]:
         """Returns the rows, without one that a crash has torn.
@@ -59,26 +60,25 @@ class MetricsFile:
         """
         return self._parse(*self._lines())
 
-    def split(self, frames: int) -> tuple[list[str], list[str]]:
-        """Returns the lines up to a number of frames, and those after it, as `write` takes them.
+    def split(self, frames: int) -> tuple[list[str], list[str], list[str]]:
+        """Returns the names of the columns, the lines up to a number of frames, and those after it.
 
         Raises:
-          ValueError: as `rows`, or if they have the columns of an earlier version.
+          ValueError: as `rows`.
         """
-        header, lines = self._lines()
-        if header != list(METRICS):
-            raise ValueError(f"{self.path} has the columns of an earlier version; resume it with that")
-        is_kept = [row["frames"] <= frames for row in self._parse(header, lines)]
+        names, lines = self._lines()
+        is_kept = [row["frames"] <= frames for row in self._parse(names, lines)]
         later = [line for line, keep in zip(lines, is_kept, strict=True) if not keep]
-        return list(itertools.compress(lines, is_kept)), later
+        return names, list(itertools.compress(lines, is_kept)), later
 
-    def write(self, lines: Iterable[str]) -> None:
-        """Replaces the file by one with these lines below the header.
+    def write(self, names: Sequence[str], lines: Sequence[str]) -> None:
+        """Replaces the file by one with these columns and lines, as `split` returns them.
 
         Raises:
           OSError: if it cannot be written.
         """
-        files.write_atomically(self.path, (_HEADER + "".join(f"{line}\n" for line in lines)).encode())
+        lines = [",".join(names), *lines] if names else []
+        files.write_atomically(self.path, "".join(f"{line}\n" for line in lines).encode())
 
     def _parse(self, header: list[str], lines: list[str]) -> list[dict[str, float]]:
         rows = []
@@ -93,13 +93,15 @@ class MetricsFile:
         return rows
 
     def _lines(self) -> tuple[list[str], list[str]]:
-        """Returns the names of the columns, and the whole lines below them, without their ends."""
+        """Returns the names of the columns, none if there are none yet, and the whole lines below them."""
         try:
             content = files.read_plain(self.path, _LARGEST).decode(errors="replace")
         except (FileNotFoundError, NotADirectoryError):
             content = ""
-        header, *lines = (content[: content.rfind("\n") + 1] or _HEADER).splitlines()
+        if "\n" not in content:
+            return [], []
+        header, *lines = content[: content.rfind("\n") + 1].splitlines()
         names = header.split(",")
-        if names[0] != "frames" or not set(names) <= set(METRICS):  # Earlier versions had fewer columns.
+        if names[0] != "frames" or not set(names) <= _KNOWN:  # Earlier versions had fewer columns.
             raise ValueError(f"{self.path} is damaged: its first line names no metrics; mend it, or move it away")
         return names, lines

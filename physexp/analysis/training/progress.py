@@ -49,7 +49,7 @@ class Progress:
     def _show(self, row: dict) -> None:
         self._rates = [*self._rates[-11:], row["frames_per_second"]]
         left = (self._config.agent.frames - row["frames"]) / max(1.0, sum(self._rates) / len(self._rates))
-        cells = {name: form.format(row[name]) for name, form in _COLUMNS}
+        cells = {name: form.format(row[name]) for name, form in _COLUMNS if name in row}
         cells["time left"] = duration(max(0.0, left))
         if self._live is not None:
             from rich import table

@@ -10,13 +10,11 @@ import pyarrow
 import torch
 
 from physexp import suite
-from physexp.agents import agent as agent_lib
-from physexp.agents import checkpointing, files, learning
+from physexp.agents import checkpointing, core, files, learning
 from physexp.analysis import callbacks
 from physexp.analysis.data import episodes as episodes_lib
 from physexp.analysis.data import provenance
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 
 ROW_SECONDS = 5.0  # Between rows of metrics.csv.
@@ -61,12 +59,12 @@ class Recorder:
         self._started = self._checkpointed = time.monotonic()
         self._row_started = 0.0  # Set by the first update: the workers take a while to start.
         self._frames_at_row = 0
-        self._window: list[agent_lib.Update] = []  # Updates since the last row.
+        self._window: list[core.Update] = []  # Updates since the last row.
         self._snapshot: dict | None = None  # The variables of a checkpoint that waits for updates before it.
-        self._later: list[agent_lib.Update] = []  # Updates after that checkpoint.
+        self._later: list[core.Update] = []  # Updates after that checkpoint.
         self._rows: list[pyarrow.Table] = []  # Episodes since the last checkpoint.
 
-    def resume(self, agent: agent_lib.Agent) -> None:
+    def resume(self, agent: core.Agent) -> None:
         """Puts the agent and the records back to the last checkpoint that is whole, or to the start.
 
         Raises:
@@ -89,7 +87,7 @@ class Recorder:
         self._frames_at_row = self._frames
         self._run.rewind(self._frames)
 
-    def add(self, update: agent_lib.Update) -> None:
+    def add(self, update: core.Update) -> None:
         """Records an update, or keeps it until the checkpoint before it has been written."""
         if self._snapshot is not None and update.metrics["updates"] > int(self._snapshot["updates"]):
             self._later.append(update)
@@ -116,7 +114,7 @@ class Recorder:
         self._snapshot = tensors
         self._write_checkpoint_when_complete()
 
-    def save_failure(self, error: learning.AgentError) -> str:
+    def save_failure(self, error: core.AgentError) -> str:
         """Saves the episodes that made the loss diverge; returns a phrase that says where."""
         if error.batch is None:
             return ""
@@ -196,14 +194,14 @@ class Recorder:
             "timeouts": float(episodes.is_timeout.mean()),
             **{
                 name: float(np.mean([update.metrics[name] for update in self._window]))
-                for name in metrics_lib.LEARNER_METRICS
+                for name in self._config.agent.metrics
             },
         }
 
-    def _episodes_of(self, update: agent_lib.Update) -> episodes_lib.Episodes:
+    def _episodes_of(self, update: core.Update) -> episodes_lib.Episodes:
         played = update.episodes
         seeds = _environment_seeds(update.seed, len(played.lengths))
-        return episodes_lib.Episodes.of_round(played, self._num_interactions, seeds, int(update.metrics["rounds"]))
+        return episodes_lib.Episodes.of_round(played, self._num_interactions, seeds, update.episode)
 
 
 @functools.lru_cache(maxsize=256)  # A worker's batch of environments has one seed for all of its updates.

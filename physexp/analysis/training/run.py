@@ -163,9 +163,13 @@ class Run:
         """Makes sure that training can go on, or start, without a loss.
 
         Raises:
-          ValueError: if there are records or an agent, but no checkpoint that training could go on from.
+          ValueError: if there are records or an agent, but no checkpoint that training could go on from; as `metrics`;
+            or if the rows lack columns of the learner.
         """
         if self.checkpointer.paths():
+            names, *_ = self._metrics.split(0)
+            if names and not {*metrics.METRICS, *self.config.agent.metrics} <= set(names):
+                raise ValueError(f"{self.path}/metrics.csv has the columns of an earlier version; resume it with that")
             return
         if self.agent_path.exists():
             raise ValueError(
@@ -255,7 +259,7 @@ class Run:
     # Records.
 
     def append_metrics(self, row: Mapping[str, float]) -> None:
-        """Adds a row to `metrics.csv`."""
+        """Adds a row to `metrics.csv`, under the columns that the first row has made."""
         self._metrics.append(row)
 
     def metrics(self) -> list[dict[str, float]]:
@@ -283,9 +287,9 @@ class Run:
         What it tells of was learned and lost. One worker, or PPO, makes it again to the bit; several workers do not.
 
         Raises:
-          ValueError: as `metrics`, or if the rows have the columns of an earlier version.
+          ValueError: as `metrics`.
         """
-        kept, later = self._metrics.split(frames)
+        names, kept, later = self._metrics.split(frames)
         parts = (self.path / "episodes.parquet").glob(f"part-{'[0-9]' * 15}.parquet")
         later_parts = [part for part in parts if int(part.stem.removeprefix("part-")) > frames]
         if later or later_parts:
@@ -293,9 +297,9 @@ class Run:
             (folder / "episodes.parquet").mkdir()
             for part in later_parts:
                 part.rename(folder / "episodes.parquet" / part.name)
-            metrics.MetricsFile(folder / "metrics.csv").write(later)
+            metrics.MetricsFile(folder / "metrics.csv").write(names, later)
         if self._metrics.path.exists():
-            self._metrics.write(kept)
+            self._metrics.write(names, kept)
 
 
 def _renderer(config: config_lib.TrainConfig) -> str:

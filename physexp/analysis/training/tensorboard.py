@@ -2,7 +2,6 @@
 
 from typing import Any
 
-from physexp.analysis.training import metrics
 from physexp.analysis.training import run as run_lib
 
 
@@ -24,12 +23,12 @@ class TensorBoard:
             self._writer.close()
 
     def __call__(self, row: dict[str, float]) -> None:
-        """Logs a row of `metrics.METRICS`, the last of the run's, at its environment steps."""
+        """Logs a row of metrics, the last of the run's, at its environment steps."""
         if self._writer is None:
             self._writer = self._open()
-        for name in metrics.METRICS:
+        for name, value in row.items():
             if name != "frames":
-                self._writer.add_scalar(name, row[name], int(row["frames"]))
+                self._writer.add_scalar(name, value, int(row["frames"]))
         self._writer.flush()
 
     def _open(self):

@@ -6,12 +6,7 @@ import os
 import shutil
 
 from physexp import suite
-from physexp.agents import agent as agent_lib
-from physexp.agents import devices, learning
-from physexp.agents.a3c import agent as a3c
-from physexp.agents.a3c.config import A3CConfig
-from physexp.agents.ppo import agent as ppo
-from physexp.agents.ppo.config import PPOConfig
+from physexp.agents import core, devices, registry
 from physexp.analysis import callbacks
 from physexp.analysis.data import provenance
 from physexp.analysis.training import config as config_lib
@@ -45,10 +40,11 @@ def check(config: config_lib.TrainConfig, on_cluster: bool = False) -> None:
             devices.choose(config.agent.device, needs_gl)
     except RuntimeError as error:
         raise ValueError(str(error)) from None
-    if not isinstance(config.agent, A3CConfig):
-        if on_cluster:
-            raise ValueError(f"agent is {config.agent.algorithm}, which has one process; on a cluster train a3c")
-        return
+    if on_cluster and not config.agent.can_run_on_cluster:
+        able = [name for name, agent in config_lib.ALGORITHMS.items() if agent.can_run_on_cluster]
+        raise ValueError(
+            f"agent is {config.agent.algorithm}, which has one process; on a cluster train {' or '.join(able)}"
+        )
     cores = os.cpu_count() or 1
     most = _WORKERS_PER_CORE * cores
     if not on_cluster and config.agent.num_workers > most:
@@ -60,7 +56,7 @@ def check(config: config_lib.TrainConfig, on_cluster: bool = False) -> None:
 
 def make_agent(
     config: config_lib.TrainConfig, on_cluster: bool = False, tell: callbacks.Tell = callbacks.ignore
-) -> agent_lib.Agent:
+) -> core.Agent:
     """Returns the agent of a run, as it is before training.
 
     Args:
@@ -69,17 +65,9 @@ def make_agent(
       tell: called with a line when a worker has died that can be replaced, or has fallen silent.
     """
     environments = functools.partial(make_environment, config)
-    match config.agent:
-        case A3CConfig() if on_cluster:
-            from physexp.agents.a3c import distributed
-
-            return distributed.DistributedA3C(environments, config.agent, provenance.versions, tell)
-        case A3CConfig():
-            return a3c.A3C(environments, config.agent, tell)
-        case PPOConfig():
-            return ppo.PPO(environments, config.agent)
-        case _:
-            raise TypeError(f"no agent has a {type(config.agent).__name__}")
+    if on_cluster:
+        return registry.make_on_cluster(environments, config.agent, tell, provenance.versions)
+    return registry.make(environments, config.agent, tell)
 
 
 def train(
@@ -133,7 +121,7 @@ def train(
         raise interruption.happened
 
 
-def _check_room(run: run_lib.Run, agent: agent_lib.Agent) -> None:
+def _check_room(run: run_lib.Run, agent: core.Agent) -> None:
     """Refuses a folder that is too full for checkpoints."""
     needed = _CHECKPOINTS_AT_ONCE * sum(value.nbytes for value in agent.save().values())
     free = shutil.disk_usage(run.path).free
@@ -144,7 +132,7 @@ def _check_room(run: run_lib.Run, agent: agent_lib.Agent) -> None:
         )
 
 
-def _run(agent: agent_lib.Agent, recorder: recorder_lib.Recorder, run: run_lib.Run, tell: callbacks.Tell) -> bool:
+def _run(agent: core.Agent, recorder: recorder_lib.Recorder, run: run_lib.Run, tell: callbacks.Tell) -> bool:
     """Trains to the end; returns False if it has to go on from the last checkpoint."""
     try:
         with contextlib.closing(agent.updates()) as updates:
@@ -154,10 +142,10 @@ def _run(agent: agent_lib.Agent, recorder: recorder_lib.Recorder, run: run_lib.R
                 if recorder.checkpoint_is_due():
                     recorder.snapshot(agent.save())
         recorder.snapshot(agent.save())
-    except agent_lib.VariablesLostError as error:
+    except core.VariablesLostError as error:
         tell(f"{error}; training goes on from {'the last checkpoint' if run.checkpointer.paths() else 'the start'}")
         return False
-    except learning.AgentError as error:
+    except core.AgentError as error:
         raise RuntimeError(f"training stopped: {error}{recorder.save_failure(error)}; {_standing(run)}") from None
     except OSError as error:
         run.check_lock()  # Where the folder has gone, nothing in it can be written either.
