@@ -156,9 +156,11 @@ def test_a_player_is_compared_with_an_agent_of_the_difficulty_that_is_played(dif
 
 def test_the_agent_beside_a_player_is_the_one_of_that_difficulty(monkeypatch):
     loaded, load = [], pretrained.load
-    monkeypatch.setattr(pretrained, "load", lambda *names: loaded.append(names) or load(*names))
+    monkeypatch.setattr(
+        pretrained, "load", lambda *names, **options: loaded.append((*names, options)) or load(*names, **options)
+    )
     play.play("which_is_heavier", "features", {"difficulty": 10.0}, 1, read=typed("q"), show=lambda text: None)
-    assert loaded == [("which_is_heavier", "features", 10.0)]
+    assert loaded == [("which_is_heavier", "features", {"difficulty": 10.0})]
 
 
 def test_a_player_in_finer_time_is_compared_with_nobody_who_was_trained_in_another():
