@@ -63,9 +63,11 @@ def _shown(name: str, reading: declarations.Reading) -> Shown:
     count = int(np.prod(reading.shape)) // len(components)
     things = [_thing(sensor) for sensor in reading.sensors]
     names = [spoken(thing) for thing in things]
-    if count != len(things):  # Sensors of several values that have no names.
-        things = things * count if len(things) == 1 else [""] * count
+    if count == 1 and not reading.components:
+        names, things = [spoken(name)], things if len(things) == 1 else [""]
+    elif count != len(things):  # Values that have no names.
         names = [str(number) for number in range(count)]
+        things = (things if len(set(things)) == 1 else [""])[:1] * count
     elif len(set(things)) < len(things):  # Several sensors of one thing.
         names = [spoken(sensor.name or str(number)) for number, sensor in enumerate(reading.sensors)]
     return Shown(name, components, tuple(names), tuple(things), reading.unit, _limits(reading, len(components)))

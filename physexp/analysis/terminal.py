@@ -58,8 +58,8 @@ def _values_in_words(reading: readings_lib.Shown) -> str:
     """Returns of what a reading has values, and in which unit, in words."""
     of_things = f" of {', '.join(reading.names)}" if len(reading.names) > 1 else ""
     if not reading.unit:
-        is_switch = reading.limits is not None and (reading.limits == (0, 1)).all()
-        return f"{of_things}, 0 or 1" if is_switch else of_things
+        low_to_high = "" if reading.limits is None else f", from {reading.limits.min():g} to {reading.limits.max():g}"
+        return f"{of_things}{low_to_high}"
     return f"{of_things}, in {'cm' if reading.unit == 'm' else reading.unit}"
 
 

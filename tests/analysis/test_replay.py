@@ -328,7 +328,10 @@ def test_a_replay_shows_the_right_names(domain, task, tmp_path):
         for component in reading.components or [""]:
             curves = names_of(path, f"/seen/{name}/{component}".rstrip("/"))
             spoken = {thing.replace("_", " ") for thing in things(played, True) | things(played, False)}
-            assert set(curves) <= spoken and len(curves) == len(reading.sensors)
+            if reading.shape == (1,):
+                assert curves == [name.replace("_", " ")]
+            else:
+                assert set(curves) <= spoken and len(curves) == len(reading.sensors)
             title = component or f"seen: {name.replace('_', ' ')}"
             assert (f"{title}, {reading.unit}" if reading.unit else title) in printed
 
@@ -351,9 +354,8 @@ def test_what_is_covered_is_seen_through_its_cover_where_what_is_hidden_is_shown
         recorder.observe(environment, environment.step(action), action)
     episode, names = recorder.episode, recorder.episode.shapes.names
     steps = np.array([0, 1, 2]) * environment.task.options.substeps
-    left, right = (episode.positions[steps, names.index(name), 2] for name in ("left_flag", "right_flag"))
-    np.testing.assert_allclose([left, right], [[left[0], right[0], left[0]], [right[0], left[0], right[0]]])
-    assert left[0] > right[0] + 0.05
+    flag = episode.positions[steps, names.index("flag"), 2]
+    assert flag[0] + 0.05 < flag[1] == flag[2]  # It is up as long as pushes slide the block.
     path = writing.write(tmp_path / "one.rrd", [lambda: [episode]])
     assert entities(path, "/world/hidden/") == {"block", "mark_block"}
     assert "ViewContents/overrides/world/things/cover" in text_of(path)
