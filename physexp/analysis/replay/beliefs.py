@@ -8,13 +8,13 @@ from physexp.suite.domains import which_is_heavier
 
 
 def of_policy(policies: np.ndarray, num_interactions: int) -> np.ndarray:
-    """The policies [T, A] restricted to the labels and renormalized, float64 [T, L]."""
+    """Returns the policies [T, A] restricted to the labels and renormalized, float64 [T, L]."""
     answers = policies[:, num_interactions:]
     return answers / answers.sum(axis=1, keepdims=True)
 
 
 def _heaviest(episode: recording.Episode) -> np.ndarray:
-    """How likely each block is to be the heaviest, to who has seen what the pokes reveal: [T + 1, num_blocks]."""
+    """Returns how likely each block is the heaviest, to who has seen what the pokes reveal: [T + 1, num_blocks]."""
     known = np.full((len(episode.actions) + 1, len(episode.hidden)), np.nan)
     for step, action in enumerate(episode.actions):
         if action < len(episode.hidden):
@@ -23,5 +23,9 @@ def _heaviest(episode: recording.Episode) -> np.ndarray:
     return ideal.posterior(known, difficulty)
 
 
-IDEAL = {"which_is_heavier": _heaviest}
-"""For each domain where it is known, the ideal experimenter's belief, [T + 1, L], in an episode of T actions."""
+_IDEAL = {"which_is_heavier": _heaviest}
+
+
+def of_ideal(episode: recording.Episode) -> np.ndarray | None:
+    """Returns what an ideal experimenter would believe in an episode of T actions, [T + 1, L], where that is known."""
+    return _IDEAL[episode.domain](episode) if episode.domain in _IDEAL else None
