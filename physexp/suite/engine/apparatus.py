@@ -54,7 +54,7 @@ class Apparatus:
     held: tuple[_Held, ...]
     moving_geoms: np.ndarray
     _measures: Mapping[str, declarations.Measure]
-    _indicators: tuple[tuple[int, str, int, np.ndarray], ...]
+    _indicators: tuple[tuple[int, np.ndarray, declarations.Indicator], ...]  # Geoms, their places, and what they show.
 
     def shown(self, field: str, values: np.ndarray, touched: np.ndarray) -> np.ndarray:
         """Returns a field as it may be seen: held entities that were not touched are exactly as at the start.
@@ -87,9 +87,9 @@ class Apparatus:
 
     def indicate(self, geom_xpos: np.ndarray, sensordata: np.ndarray) -> None:
         """Puts the indicators where the readings have them: writes to `geom_xpos`, [N, ngeom, 3]."""
-        for geom, name, component, travel in self._indicators:
-            value = self.read(name, sensordata).reshape(len(sensordata), -1)[:, component]
-            geom_xpos[:, geom] = self.rest["geom_xpos"][geom] + value[:, None] * travel
+        for geom, place, indicator in self._indicators:
+            values = self.read(indicator.reading, sensordata).reshape(len(sensordata), -1)
+            geom_xpos[:, geom] = place + values[:, indicator.component, None] * np.array(indicator.travel)
 
     @functools.cached_property
     def _dofs(self) -> dict[tuple[str, ...], tuple[np.ndarray, np.ndarray]]:
@@ -142,12 +142,9 @@ def build(
     model = compile_xml(mjcf_model.to_xml_string())
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    drawn = [
-        (model.geom(each.geom.full_identifier).id, each.reading, each.component, np.array(each.travel, float))
-        for each in indicators
-    ]
+    geoms = [model.geom(indicator.geom.full_identifier).id for indicator in indicators]
     moving = model.body_weldid[model.geom_bodyid] != 0
-    moving[[geom for geom, *_ in drawn]] = True
+    moving[geoms] = True
     built = Apparatus(
         model=model,
         readings={
@@ -159,7 +156,7 @@ def build(
         held=tuple(_find_held(model, mjcf.get_attachment_frame(entity.mjcf_model)) for entity in held),
         moving_geoms=np.flatnonzero(moving),
         _measures={name: reading.measure for name, reading in readings.items() if reading.measure is not None},
-        _indicators=tuple(drawn),
+        _indicators=tuple(zip(geoms, data.geom_xpos[geoms], indicators, strict=True)),
     )
     built.indicate(built.rest["geom_xpos"][None], built.rest["sensordata"][None])
     return built

@@ -12,6 +12,7 @@ from physexp.suite.engine import gl
 
 SIZE = 84  # pixels, the edge of an image (paper, Section 4)
 SIZE_FOR_PEOPLE = 480  # pixels
+UNDRAWN_GROUP = 4  # Of geoms that are in no image.
 
 
 class Renderer:
@@ -29,7 +30,7 @@ class Renderer:
         """Makes a context and uploads the scene.
 
         Args:
-          model: a compiled model; its geoms in group 4 are not drawn.
+          model: a compiled model; its geoms in `UNDRAWN_GROUP` are not drawn.
           moving_geoms: the geoms whose poses differ between images, int [M]; they come after those that stand still.
           camera: name of the camera.
           size: edge of an image, pixels.
@@ -112,7 +113,7 @@ def _make_scene(model, camera: str):
     for effect in ("SHADOW", "REFLECTION", "SKYBOX", "HAZE"):
         scene.flags[getattr(mujoco.mjtRndFlag, f"mjRND_{effect}")] = False
     option = mujoco.MjvOption()
-    option.geomgroup[4] = False
+    option.geomgroup[UNDRAWN_GROUP] = False
     option.sitegroup[:] = False
     view = mujoco.MjvCamera()
     view.type = mujoco.mjtCamera.mjCAMERA_FIXED

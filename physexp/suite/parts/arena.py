@@ -3,6 +3,7 @@
 from dm_control import composer
 import numpy as np
 
+from physexp.suite.engine import rendering
 from physexp.suite.parts import material
 
 FLOOR_HALF_SIZE = 8.0  # m: the floor fills the view
@@ -66,7 +67,9 @@ class Laboratory(composer.Arena):
             contype=0,
             conaffinity=0,
         )
-        self.ground = world.add("geom", name="ground", type="plane", size=[1, 1, 0.1], group=4, **material.solid())
+        self.ground = world.add(
+            "geom", name="ground", type="plane", size=[1, 1, 0.1], group=rendering.UNDRAWN_GROUP, **material.solid()
+        )
         self.camera = world.add(
             "camera", name="observer", pos=camera_pos, fovy=fovy, xyaxes=_looking_at(camera_pos, camera_target)
         )
@@ -93,7 +96,7 @@ class Laboratory(composer.Arena):
                 type="box",
                 size=size,
                 pos=pos,
-                group=4,
+                group=rendering.UNDRAWN_GROUP,
                 **material.solid(material.WALL_FRICTION),
             )
 

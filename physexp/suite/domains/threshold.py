@@ -1,0 +1,196 @@
+"""Threshold: a block that friction holds, and the question which force makes it slide."""
+
+import dataclasses
+
+from dm_control.utils import containers
+import numpy as np
+
+from physexp.suite.engine import apparatus as apparatus_lib
+from physexp.suite.engine import checks, declarations, rendering, seeding, senses, task
+from physexp.suite.engine import options as options_lib
+from physexp.suite.parts import arena, block, flag
+
+SUITE = containers.TaggedTasks()
+
+PHYSICS_TIMESTEP = 0.005  # s
+
+# A block on a rail between two stops. A push goes away from the stop that the block leans on, and a force above its
+# friction takes it to the other one within a control step. All that can be read is on which stop it leans: how far it
+# slid would tell the friction after a single push.
+NUM_LEVELS = 8
+LEVEL_SPACING = 4.0  # N: level k pushes with (k + 1) times this force
+MASS = 0.05  # kg: so light that the smallest surplus of force takes the block across in time
+TRAVEL = 0.02  # m, between the stops
+# Share of an interval between two levels that friction keeps away from either. Nearer to a level, the surplus of force
+# would be too small to take the block across.
+MARGIN = 0.2
+
+# MuJoCo's friction is soft: with its defaults a block creeps by 18 mm under nine tenths of the force that moves it.
+# With these settings it creeps by 0.03 mm in a push of 0.1 s, and by less than a millimetre in a whole episode.
+_FRICTION = dict(solimpfriction=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreffriction=[2 * PHYSICS_TIMESTEP, 1.0])
+# Underdamped by 0.6, a stop loses most of what a block has gone into it with each physics step, and none bounces.
+_STOP = dict(solimplimit=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreflimit=[2 * PHYSICS_TIMESTEP, 0.6])
+
+_SHORTEST_STEP = 0.04  # s
+_LONGEST_EPISODE = 20.0  # s
+
+_ROOM = dict(mat_size=[0.36, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.1], fovy=14.5)
+_COVER_HALF_SIZE = (0.13, 0.08, 0.07)  # m
+_COVER_RGBA = (0.50, 0.50, 0.55, 1.0)
+_FLAG_DISTANCE = 0.24  # m, from the middle of the rail
+_FLAG_LOW, _FLAG_RISE = 0.05, 0.12  # m
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Options(options_lib.Options):
+    """The `task_kwargs` of this domain.
+
+    Attributes:
+      difficulty: how much likelier low levels are than high ones, >= 1, where all are equally likely; the larger, the
+        easier.
+    """
+
+    physics_timestep = PHYSICS_TIMESTEP
+
+    time_limit: float = 3.0
+    difficulty: float = 2.0
+
+    def __post_init__(self):
+        super().__post_init__()
+        if self.control_timestep < _SHORTEST_STEP:
+            raise ValueError(
+                f"control_timestep is {self.control_timestep} s; give at least {_SHORTEST_STEP} s, which a block needs "
+                "from one stop to the other"
+            )
+        if self.time_limit > _LONGEST_EPISODE:
+            raise ValueError(
+                f"time_limit is {self.time_limit} s; give at most {_LONGEST_EPISODE:g} s, in which a block that is held "
+                "creeps too little to be read"
+            )
+        object.__setattr__(
+            self, "difficulty", checks.number("difficulty", self.difficulty, 1, "the skew of the prior over levels")
+        )
+
+
+def prior(difficulty: float) -> np.ndarray:
+    """Returns the probabilities of the labels, float64 [NUM_LEVELS]: those of Beta(1, difficulty) in equal parts."""
+    above = 1 - np.arange(NUM_LEVELS + 1) / NUM_LEVELS
+    return -np.diff(above**difficulty)
+
+
+def draw_frictions(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
+    """Returns the friction of some episodes, N, float64 [N].
+
+    The label follows `prior`; friction is uniform between the forces of two neighbouring levels, away from both.
+
+    Args:
+      seeds, episodes: environment seeds and episode indices, int64 [N].
+      difficulty: the skew of the prior.
+    """
+    draws = seeding.uniforms(seeds, episodes, 2)
+    labels = np.searchsorted(np.cumsum(prior(difficulty))[:-1], draws[:, 0], side="right")
+    return LEVEL_SPACING * (labels + MARGIN + (1 - 2 * MARGIN) * draws[:, 1])
+
+
+def _side(positions: np.ndarray) -> np.ndarray:
+    """Returns on which stop a block leans, from its position on the rail, m: 0 on the left one, 1 on the right one."""
+    return (positions > TRAVEL / 2).astype(float)
+
+
+class Threshold(task.QuestionTask):
+    """A covered block on a rail with dry friction, which is hidden, and two flags that tell on which stop it leans."""
+
+    options: Options
+    question = "Which is the smallest of the forces that makes the block slide?"
+
+    def __init__(self, options: Options, sense: senses.Sense):
+        """Builds the scene."""
+        room = arena.Laboratory(**_ROOM)
+        room.mjcf_model.option.gravity = [0, 0, 0]
+        room.mjcf_model.option.flag.contact = "disable"
+        room.mjcf_model.worldbody.add(
+            "geom",
+            name="cover",
+            type="box",
+            size=_COVER_HALF_SIZE,
+            pos=[0, 0, _COVER_HALF_SIZE[2]],
+            rgba=_COVER_RGBA,
+            contype=0,
+            conaffinity=0,
+        )
+        cube = block.Block(rgba=block.COLORS[0], mass=MASS, name="block")
+        cube.geom.group = rendering.UNDRAWN_GROUP
+        frame = room.attach(cube)
+        frame.pos = [-TRAVEL / 2, 0, block.HALF_SIZE]
+        rail = frame.add(
+            "joint", name="rail", type="slide", axis=[1, 0, 0], limited=True, range=[0, TRAVEL], **_FRICTION, **_STOP
+        )
+        room.mjcf_model.actuator.add("motor", name="push", joint=rail)
+        self._rails = (rail.full_identifier,)
+        self._position = room.mjcf_model.sensor.add("jointpos", name="position", joint=rail)
+        self._flags = []
+        for name, x, low in (
+            ("left_flag", -_FLAG_DISTANCE, _FLAG_LOW + _FLAG_RISE),
+            ("right_flag", _FLAG_DISTANCE, _FLAG_LOW),
+        ):
+            built = flag.Flag(rgba=block.COLORS[1], name=name)
+            room.attach(built).pos = [x, 0, low]
+            self._flags.append(built)
+        super().__init__(room, options, sense)
+
+    @property
+    def interactions(self):
+        forces = LEVEL_SPACING * np.arange(1, NUM_LEVELS + 1)
+        return [
+            declarations.Interaction(f"push with {force:g} N", np.array([force]), "block", (float(force), 0.0, 0.0))
+            for force in forces
+        ]
+
+    @property
+    def label_names(self):
+        return [f"it slides from {LEVEL_SPACING * (k + 1):g} N on" for k in range(NUM_LEVELS)]
+
+    @property
+    def readings(self):
+        return {"side": declarations.Reading([self._position], (1,), unit="", bounds=(0, 1), measure=_side)}
+
+    @property
+    def indicators(self):
+        left, right = self._flags
+        return [
+            declarations.Indicator(left.geom, "side", 0, (0, 0, -_FLAG_RISE)),
+            declarations.Indicator(right.geom, "side", 0, (0, 0, _FLAG_RISE)),
+        ]
+
+    def draw(self, seeds, episodes):
+        """Returns frictions, N, float64 [N]."""
+        return draw_frictions(seeds, episodes, self.options.difficulty)
+
+    def answers(self, hidden):
+        return (hidden // LEVEL_SPACING).astype(np.int64)
+
+    def hidden_fields(self, apparatus, hidden):
+        return apparatus_lib.frictions(apparatus, self._rails, hidden[:, None])
+
+    def drive(self, actions, qpos, ctrl):
+        """Returns the force of a push, which goes away from the stop that the block leans on, N [N, 1]."""
+        return self.controls[actions] * (1 - 2 * _side(qpos))
+
+    def reveal(self, hidden):
+        return declarations.Revealed(marks={"block": f"friction {float(hidden):.1f} N"})
+
+    def hardness(self, hidden):
+        """Returns how rare the right answer is: the rarer, the more pushes it takes to find."""
+        return -prior(self.options.difficulty)[self.answers(hidden)]
+
+
+@SUITE.add("features")
+def features(options):
+    """Observes `side`, float32 (1,): on which stop the block leans, 0 on the left one, 1 on the right one."""
+    return Threshold(options, senses.Features())
+
+
+@SUITE.add("pixels")
+def pixels(options):
+    """Observes `pixels`, uint8 (84, 84, 3): a covered rail, and the flag of the stop that the block leans on is up."""
+    return Threshold(options, senses.Pixels())

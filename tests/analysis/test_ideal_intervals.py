@@ -1,0 +1,207 @@
+"""The ideal experimenter of ordered labels, against hand calculation, a search over sets, and simulated episodes."""
+
+import functools
+import math
+
+import numpy as np
+import pytest
+from trainers import fresh_seed
+
+from physexp.analysis.ideal import intervals
+
+
+def skewed(size, skew):
+    """Probabilities of `size` labels, the lower the likelier for a skew above 1: Beta(1, skew) in equal parts."""
+    return np.diff(1 - (1 - np.arange(size + 1) / size) ** skew)
+
+
+def search(prior, discount, step_limit, tests, choose):
+    """Expected discounted return by a search over sets of labels, bit masks, that knows nothing of their order.
+
+    Args:
+      prior: probabilities of the labels.
+      discount: the agent's gamma.
+      step_limit: steps in an unanswered episode.
+      tests: for each test the set of labels that pass it, a bit mask.
+      choose: what follows from the values of all tests: `max`, or their mean where they are made at random.
+    """
+
+    @functools.cache
+    def chance(labels):
+        return sum(share for label, share in enumerate(prior) if labels >> label & 1)
+
+    @functools.cache
+    def value(labels, steps):
+        likeliest = max(share for label, share in enumerate(prior) if labels >> label & 1)
+        answer = 2 * likeliest / chance(labels) - 1
+        if steps == 1:
+            return max(answer, -1)  # One more test, and the episode ends unanswered.
+        expected = []
+        for test in tests:
+            parts = [part for part in (labels & test, labels & ~test) if chance(part) > 0]
+            expected.append(sum(chance(part) / chance(labels) * value(part, steps - 1) for part in parts))
+        return max(answer, discount * choose(expected))
+
+    return value((1 << len(prior)) - 1, step_limit)
+
+
+def thresholds(size):
+    """Test l is passed by the labels 0 to l."""
+    return [(1 << level + 1) - 1 for level in range(size)]
+
+
+def mean(values):
+    return sum(values) / len(values)
+
+
+PRIORS = {
+    "uniform": skewed(8, 1.0),
+    "the default of threshold": skewed(8, 2.0),
+    "steep": skewed(8, 5.0),
+    "two labels": np.array([0.7, 0.3]),
+    "few and many": np.array([0.4, 0.02, 0.3, 0.01, 0.27]),
+    "impossible labels": np.array([0.5, 0.0, 0.0, 0.25, 0.25, 0.0]),
+    "sixteen": skewed(16, 3.0),
+}
+
+
+@pytest.mark.parametrize("discount", [0.3, 0.95, 1.0])
+@pytest.mark.parametrize("prior", PRIORS.values(), ids=PRIORS.keys())
+def test_a_search_over_sets_of_labels_finds_the_same_values(prior, discount):
+    solution = intervals.solve(prior, discount, 12)
+    tests = thresholds(len(prior))
+    assert solution.value == pytest.approx(search(prior, discount, 12, tests, max), abs=1e-9)
+    assert solution.random_value == pytest.approx(search(prior, discount, 12, tests, mean), abs=1e-9)
+
+
+def test_at_random_priors_too():
+    generator = np.random.default_rng(fresh_seed())
+    for _ in range(20):
+        size, step_limit = int(generator.integers(2, 9)), int(generator.integers(1, 8))
+        prior, discount = generator.dirichlet(np.full(size, 0.5)), float(generator.uniform(0.2, 1))
+        solution = intervals.solve(prior, discount, step_limit)
+        assert solution.value == pytest.approx(search(prior, discount, step_limit, thresholds(size), max), abs=1e-9)
+        at_random = search(prior, discount, step_limit, thresholds(size), mean)
+        assert solution.random_value == pytest.approx(at_random, abs=1e-9)
+
+
+def test_halving_finds_one_of_eight_equally_likely_labels_in_three_tests():
+    solution = intervals.solve(np.full(8, 1 / 8), 0.95, 30)
+    assert solution.value == pytest.approx(0.95**3)
+    assert solution.summary() == {
+        "value": pytest.approx(0.95**3),
+        "bound": solution.value,
+        "accuracy": pytest.approx(1.0),
+        "mean_interactions": pytest.approx(3.0),
+        "histogram": {0: 0.0, 1: 0.0, 2: 0.0, 3: pytest.approx(1.0)},
+    }
+    assert solution.actions(0, 7, 0) == 3
+    assert solution.actions(4, 7, 1) == 5
+    assert solution.actions(6, 6, 3) == 8 + 6
+
+
+def test_three_labels_by_hand():
+    # Test 0 first: 0.9 (0.5 + 0.5 * 0.9) = 0.855, for the other two labels are worth 0.9 with one more test, and 0.2 at
+    # once. Test 1 first: 0.9 (0.8 * 0.9 + 0.2) = 0.828. At once: 0.
+    # Tests at random: two labels, a, are told apart by one test of three, a = 0.3 (1 + 2 a) = 0.75. All three, r, are
+    # divided by tests 0 and 1: r = 0.3 ((0.5 + 0.5 a) + (0.8 a + 0.2) + r) = 0.3 (0.875 + 0.8 + r) = 0.5025 / 0.7.
+    solution = intervals.solve([0.5, 0.3, 0.2], 0.9, 200)
+    assert solution.value == pytest.approx(0.855)
+    assert solution.at_once == pytest.approx(0.0)
+    assert solution.random_value == pytest.approx(0.5025 / 0.7)
+    assert [solution.actions(0, 2, 0), solution.actions(1, 2, 1)] == [0, 1]
+
+
+def test_a_skewed_prior_is_split_by_probability_and_not_by_rank():
+    # Labels 0, 1 and 2 have 15, 13 and 11 of 64: test 1 is passed by 28, nearer to a half than the 39 that pass test 2.
+    solution = intervals.solve(PRIORS["the default of threshold"], 0.95, 30)
+    assert solution.actions(0, 7, 0) == 1
+    assert solution.value == pytest.approx(0.8685, abs=1e-4)
+    assert solution.summary()["mean_interactions"] == pytest.approx(2.766, abs=1e-3)
+
+
+def test_there_is_something_to_find_out_at_the_default_of_threshold():
+    solution = intervals.solve(PRIORS["the default of threshold"], 0.95, 30)
+    assert solution.summary()["mean_interactions"] >= 2
+    assert solution.at_once <= 0.3 * solution.value
+    assert solution.random_value <= 0.8 * solution.value
+
+
+def test_with_ever_more_skew_the_question_is_easier():
+    solutions = [intervals.solve(skewed(8, skew), 0.95, 30) for skew in (1.0, 1.5, 2.0, 3.0, 5.0)]
+    assert (np.diff([solution.value for solution in solutions]) > 0).all()
+    assert (np.diff([solution.summary()["mean_interactions"] for solution in solutions]) < 0).all()
+
+
+@pytest.mark.parametrize(("skew", "discount"), [(1.0, 0.95), (2.0, 0.95), (3.0, 0.95), (2.0, 0.7)])
+def test_episodes_earn_what_was_promised(skew, discount):
+    prior = skewed(8, skew)
+    solution = intervals.solve(prior, discount, 30)
+    labels = np.random.default_rng(fresh_seed()).choice(8, 100_000, p=prior)
+    interactions, right = solution.play(labels)
+    earned = discount**interactions * np.where(right, 1, -1)
+    # With all labels equally likely every episode earns the same, and there is no error to speak of.
+    assert abs(earned.mean() - solution.value) <= 3 * earned.std() / math.sqrt(len(earned)) + 1e-12
+    summary = solution.summary()
+    error = 3 * interactions.std() / math.sqrt(len(interactions)) + 1e-12
+    assert abs(interactions.mean() - summary["mean_interactions"]) <= error
+    assert abs(right.mean() - summary["accuracy"]) <= 3 * right.std() / math.sqrt(len(right)) + 1e-12
+
+
+def test_when_information_costs_nothing_all_is_found_out_and_nothing_is_tested_in_vain():
+    solution = intervals.solve(skewed(8, 2.0), 1.0, 30)
+    assert solution.value == pytest.approx(1.0)
+    # The same tree as at any discount below 1: no test more is made although it would be free.
+    expected = intervals.solve(skewed(8, 2.0), 0.999, 30).summary()["mean_interactions"]
+    assert solution.summary()["mean_interactions"] == pytest.approx(expected)
+
+
+def test_dear_tests_look_for_one_label_at_a_time():
+    # n equally likely labels at gamma 0.1, times n: w(1) = 1 and w(n) = 0.1 (1 + w(n - 1)), so w(2) = 0.2, w(3) = 0.12,
+    # w(4) = 0.112, ... w(8) = 0.1111112. Halves would be worth 8 * 0.001.
+    assert intervals.solve(np.full(8, 1 / 8), 0.1, 30).value == pytest.approx(0.1111112 / 8)
+
+
+def test_when_time_is_short_the_best_guess_is_given_at_the_last_step():
+    # Three steps leave two tests, and one of two labels to be guessed: its chance is a half, worth 0.
+    solution = intervals.solve(np.full(8, 1 / 8), 0.95, 3)
+    assert solution.value == pytest.approx(0.0, abs=1e-12)
+    assert intervals.solve(np.full(8, 1 / 8), 0.95, 1).value == pytest.approx(2 / 8 - 1)
+
+
+def test_a_loss_that_is_certain_is_put_off():
+    # In two steps there is time for one test, after which each answer is right once in four: -0.5, but a step later.
+    assert intervals.solve(np.full(8, 1 / 8), 0.1, 2).value == pytest.approx(-0.05)
+
+
+def test_what_is_known_is_the_prior_within_the_interval():
+    solution = intervals.solve([0.5, 0.3, 0.2], 0.9, 10)
+    np.testing.assert_allclose(solution.posterior(0, 2), [0.5, 0.3, 0.2])
+    np.testing.assert_allclose(solution.posterior([0, 1, 2], [1, 2, 2]), [[0.625, 0.375, 0], [0, 0.6, 0.4], [0, 0, 1]])
+
+
+def test_a_test_leaves_the_labels_on_its_side():
+    low, high = intervals.narrow([0, 0, 2, 2], [7, 7, 4, 4], [3, 3, 6, 1], [True, False, True, False])
+    np.testing.assert_array_equal(low, [0, 4, 2, 2])
+    np.testing.assert_array_equal(high, [3, 7, 4, 4])
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"prior": [1.0]}, "two or more probabilities"),
+        ({"prior": [0.5, 0.6]}, "whose sum is 1"),
+        ({"prior": [1.5, -0.5]}, "probabilities"),
+        ({"prior": [[0.5, 0.5]]}, "probabilities"),
+        ({"prior": [math.nan, 1.0]}, "probabilities"),
+        ({"discount": 0}, "discount is 0"),
+        ({"discount": 1.1}, r"\(0, 1\]"),
+        ({"discount": math.nan}, "discount is nan"),
+        ({"step_limit": 0}, "step_limit is 0"),
+        ({"step_limit": 2.5}, "step_limit is 2.5"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_in_a_line(change, message):
+    good = {"prior": [0.5, 0.5], "discount": 0.9, "step_limit": 10}
+    with pytest.raises(ValueError, match=message):
+        intervals.solve(**{**good, **change})
