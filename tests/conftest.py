@@ -20,7 +20,7 @@ for _number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
 def untrained(tmp_path):
     """A run whose checkpoint holds a network as it is before training."""
     config = config_lib.TrainConfig(
-        domain="which_is_heavier", task="features", difficulty=10.0, agent=a3c.A3CConfig(num_workers=1)
+        domain="which_is_heavier", task="features", task_kwargs={"difficulty": 10.0}, agent=a3c.A3CConfig(num_workers=1)
     )
     run = run_lib.Run(tmp_path / "run")
     run.create(config)

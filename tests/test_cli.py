@@ -15,10 +15,11 @@ import pytest
 
 import physexp as package
 from physexp import extras, suite
-from physexp.analysis import doctor
+from physexp.analysis import bench, doctor, experiments
 from physexp.analysis.evaluation import playing
+from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import progress
-from physexp.cli import parsing
+from physexp.cli import commands, options, parsing, printing
 
 PHYSEXP = Path(sys.executable).with_name("physexp")
 
@@ -83,7 +84,7 @@ def test_help_lists_the_commands_and_train_help_the_configuration():
     for command in ("tasks", "train", "evaluate", "bench", "doctor"):
         assert command in text
     text = physexp("train", "--help").stdout
-    for option in ("difficulty", "discount", "frames", "seed", "num-workers", "envs-per-worker", "run-dir", "resume"):
+    for option in ("discount", "frames", "seed", "num-workers", "envs-per-worker", "run-dir", "resume"):
         assert f"--{option}" in text
 
 
@@ -99,9 +100,79 @@ def test_help_imports_nothing_heavy():
     assert done.stdout.splitlines()[-1] == "[]"
 
 
-@pytest.mark.parametrize("command", ["train", "evaluate", "replay", "play", "ideal"])
-def test_help_says_that_a_larger_difficulty_is_easier(run, command):
-    assert "the larger the easier" in " ".join(run(command, "--help").stdout.replace("│", "").split())
+def words_of(text):
+    """A help text without its boxes, line ends and commas."""
+    return " ".join(text.replace("│", "").replace(",", "").split())
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["train", "which_is_heavier"],
+        ["play", "which_is_heavier", "features"],
+        ["evaluate", "which_is_heavier/features"],
+        ["replay", "which_is_heavier/pixels"],
+        ["evaluate", "some/run"],
+        ["ideal"],
+    ],
+)
+def test_help_says_that_a_larger_difficulty_is_easier(run, arguments):
+    text = run(*arguments, "--help").stdout
+    assert "--difficulty FLOAT" in text and "the larger the easier" in words_of(text)
+
+
+@pytest.mark.parametrize("domain", suite.TASKS_BY_DOMAIN)
+def test_help_lists_a_domain_s_options_with_its_own_words_and_defaults_where_the_domain_is_named(run, domain):
+    options = suite.options(domain)
+    offered = {field.name for field in dataclasses.fields(options)} - {"random", "visualize_reward"}
+    assert "control_timestep" in offered
+    for arguments in (["train", domain], ["play", domain, "features"], ["train", "--agent", "ppo", domain]):
+        text = run(*arguments, "--help").stdout
+        for name in offered:
+            assert f"--{name.replace('_', '-')} FLOAT" in text
+        assert "--random" not in text and "--visualize-reward" not in text
+        limit = f"{options().time_limit:g}"
+        assert f"rounded up to whole control steps s. (default: {limit})" in words_of(text)
+
+
+@pytest.mark.parametrize(("command", "what"), [("train", "DOMAIN"), ("play", "DOMAIN"), ("evaluate", "AGENT")])
+def test_help_without_a_domain_says_how_to_see_its_options(run, command, what):
+    text = run(command, "--help").stdout
+    assert "--help after it lists" in words_of(text) and what in text
+    assert "--difficulty" not in text and "--control-timestep" not in text
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["which_is_heavier", "features", "--difficulty", "3"],
+        ["--difficulty=3", "which_is_heavier", "features"],
+        ["--run-dir", "towers", "--difficulty", "3", "which_is_heavier", "features"],
+        ["--resume", "which_is_heavier", "--difficulty", "3", "features"],
+        ["--action-prior", "1", "2", "--no-relative-pixels", "which_is_heavier", "features", "--difficulty", "3"],
+    ],
+)
+def test_options_of_the_domain_stand_before_or_after_its_name(arguments):
+    train = parsing.parse(["train", *arguments])
+    assert (train.domain, train.task) == ("which_is_heavier", "features")
+    assert options.chosen(train.options) == {"difficulty": 3.0}
+    assert train.config.trace == 0.98, "and the preset is the task's"
+
+
+@pytest.mark.parametrize("algorithm", config_lib.ALGORITHMS)
+def test_train_has_the_options_and_presets_of_every_learner(run, algorithm):
+    train = parsing.parse(["train", "towers", "fist_features", "--agent", algorithm])
+    assert train.config == config_lib.preset("towers", "fist_features", algorithm=algorithm)
+    text = run("train", "--agent", algorithm, "--help").stdout
+    for field in dataclasses.fields(config_lib.ALGORITHMS[algorithm]):
+        assert f"--{field.name.replace('_', '-')}" in text
+
+
+def test_help_lists_the_experiments_and_the_sections_that_there_are(run):
+    assert f"{' '.join(experiments.EXPERIMENTS)} or all." in words_of(run("reproduce", "--help").stdout)
+    assert " ".join(bench.DEFAULT) in words_of(run("bench", "--help").stdout)
+    assert tuple(experiments.EXPERIMENTS) == experiments.NAMES
+    assert all(name == experiment.name for name, experiment in experiments.EXPERIMENTS.items())
 
 
 @pytest.mark.parametrize(
@@ -143,7 +214,7 @@ def test_tasks_prints_each_question_and_a_line_for_each_task(run):
 
 def test_a_table_in_a_pipe_has_a_line_for_each_row_however_long(capsys):
     rows = [{"name": "a", "text": "x" * 500}, {"name": "[b]", "text": "two words"}]
-    parsing._show_rows(rows, as_json=False)
+    printing.show_rows(rows, as_json=False)
     assert capsys.readouterr().out == f"name  text\na     {'x' * 500}\n[b]   two words\n"
 
 
@@ -216,6 +287,11 @@ def test_doctor_ends_with_status_1_only_if_the_core_is_broken(run, monkeypatch):
         (["train", "towers", "fist_features", "--difficulty", "3"], ["--difficulty is not an option of towers"]),
         (["train", "towers", "fist_features", "--control-timestep", "0.0123"], ["0.0123"]),
         (["play", "towers", "fist_features", "--difficulty", "3"], ["--difficulty is not an option of towers"]),
+        (
+            ["replay", "towers/fist_features", "--difficulty", "3"],
+            ["--difficulty is not an option of towers; leave it"],
+        ),
+        (["train", "towers", "fist_features", "--random", "3"], ["--random is not an option of train"]),
         (["ideal", "towers", "--difficulty", "3"], ["--difficulty is not an option of ideal towers"]),
         (["ideal", "towers", "--blocks", "3"], ["--blocks is not an option of ideal towers"]),
         (["ideal", "which_is_heavier", "--task", "features"], ["--task is not an option of ideal which_is_heavier"]),
@@ -233,8 +309,8 @@ def test_what_cannot_be_done_is_refused_in_one_line(run, arguments, words):
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        ([], f"give a command: {', '.join(parsing._COMMANDS)}; see physexp --help"),
-        (["fly"], f"'fly' is no command; choose from {', '.join(parsing._COMMANDS)}; see physexp --help"),
+        ([], f"give a command: {', '.join(commands.COMMANDS)}; see physexp --help"),
+        (["fly"], f"'fly' is no command; choose from {', '.join(commands.COMMANDS)}; see physexp --help"),
         (["train"], "train needs DOMAIN TASK; see physexp train --help"),
         (["train", "towers"], "train needs TASK; see physexp train --help"),
         (["evaluate", "a", "b"], "evaluate does not take 'b'; see physexp evaluate --help"),

@@ -123,6 +123,7 @@ paths = st.sampled_from(
         ["format"],
         ["train"],
         ["train", "domain"],
+        ["train", "task_kwargs"],
         ["train", "difficulty"],
         ["train", "agent"],
         ["train", "extra"],
@@ -197,7 +198,7 @@ def test_the_command_line_takes_anything(tmp_path_factory, arguments):
     out, err = io.StringIO(), io.StringIO()
     with contextlib.chdir(folder), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         try:
-            command = parsing._parse(arguments)
+            command = parsing.parse(arguments)
         except SystemExit as exit_:  # Of --help.
             assert exit_.code == 0, (arguments, out.getvalue(), err.getvalue())
             assert err.getvalue() == ""

@@ -16,7 +16,9 @@ EPISODES = 2000
 def config() -> config_lib.TrainConfig:
     """What a demo trains."""
     agent = config_lib.preset("which_is_heavier", "features").replace(frames=FRAMES)
-    return config_lib.TrainConfig(domain="which_is_heavier", task="features", difficulty=DIFFICULTY, agent=agent)
+    return config_lib.TrainConfig(
+        domain="which_is_heavier", task="features", task_kwargs={"difficulty": DIFFICULTY}, agent=agent
+    )
 
 
 def run(folder: Path) -> None:

@@ -1,15 +1,17 @@
 """A person plays in a terminal, beside the ideal experimenter and a trained agent on the same instances."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 import dataclasses
 import shutil
 from typing import Any
 
 from physexp import suite
-from physexp.agents import core, environment_loop, pretrained
-from physexp.analysis import terminal
-from physexp.analysis.ideal import playing, towers, which_is_heavier
-from physexp.analysis.training import config
+from physexp.agents import acting, core, environment_loop
+from physexp.analysis import domains, terminal
+from physexp.analysis.evaluation import playing
+from physexp.analysis.ideal import playing as ideal_playing
+from physexp.analysis.ideal import towers, which_is_heavier
+from physexp.analysis.training import config as config_lib
 
 _QUIT, _HELP = "q", "?"
 
@@ -40,7 +42,7 @@ class Score:
 def play(
     domain: str,
     task: str,
-    difficulty: float | None = None,
+    task_kwargs: Mapping[str, Any] | None = None,
     seed: int | None = None,
     view: bool = False,
     read: Callable[[str], str] = input,
@@ -49,7 +51,7 @@ def play(
     """Plays until the player quits.
 
     Args:
-      domain, task, difficulty: what is played.
+      domain, task, task_kwargs: what is played, as for `suite.load`, without the seed.
       seed: of the environment; by default one from the operating system.
       view: show the scene in rerun's viewer as well.
       read: asks the player; an end of file quits.
@@ -61,12 +63,12 @@ def play(
     Raises:
       ValueError: for an unknown name, or where the scene is to be shown and there is no display.
     """
-    kwargs: dict[str, Any] = {} if difficulty is None else {"difficulty": difficulty}
+    kwargs = dict(task_kwargs or {})
     environment = suite.load(domain, task, task_kwargs={**kwargs, "random": seed})
     observers = _viewers(environment, domain, task, kwargs) if view else []
     rules = _rules(environment)
     show(rules)
-    others, discount = _others(environment, domain, task, difficulty, show)
+    others, discount = _others(environment, domain, task, kwargs, show)
     scores = {"you": Score(), **{name: Score() for name in others}}
     while True:
         outcome = _play_episode(environment, rules, observers, read, show)
@@ -89,23 +91,24 @@ def _viewers(environment: suite.Environment, domain, task, kwargs) -> list[envir
 
 
 def _others(
-    environment: suite.Environment, domain: str, task: str, difficulty: float | None, show
+    environment: suite.Environment, domain: str, task: str, kwargs: dict[str, Any], show
 ) -> tuple[dict[str, core.Actor], float]:
     """The players to compare with, and the discount that the trained one knows."""
     others: dict[str, core.Actor] = {}
-    discount = config.DISCOUNT[domain]
+    discount = domains.find(domain).discount
     try:
-        agent = pretrained.load(domain, task, difficulty)
+        network, config = playing.shipped_agent(domain, task, kwargs)
     except ValueError:
-        show(f"There is no agent trained at difficulty {difficulty:g} to compare you with.\n")
+        trained = "".join(f" at {name} {config_lib.shown(value)}" for name, value in kwargs.items())
+        show(f"There is no agent trained{trained} to compare you with.\n")
     else:
-        discount = agent.card["agent"]["discount"]
-        others["trained agent"] = agent.actor()
-    if domain == "towers":
+        discount = config.agent.discount
+        others["trained agent"] = acting.RecurrentActor(network)
+    if domain == "towers" and not kwargs:  # What it expects to see is of the default control step.
         others["ideal experimenter"] = towers.IdealExperimenter(towers.solve(task, 0.0, discount))
-    elif task == "features":
+    elif domain == "which_is_heavier" and task == "features":
         solution = which_is_heavier.solve(environment.task.options.difficulty, discount)
-        others["ideal experimenter"] = playing.IdealExperimenter(solution)
+        others["ideal experimenter"] = ideal_playing.IdealExperimenter(solution, kwargs)
     return others, discount
 
 

@@ -25,7 +25,7 @@ _BUDGET = 4_000_000  # Environment steps of a learning curve.
 
 def label(config) -> str:
     """The name of a condition."""
-    return conditions.label(config.domain, config.task, config.difficulty)
+    return config.label
 
 
 def episodes(
@@ -41,7 +41,7 @@ def episodes(
         "task": config.task,
         "discount": config.agent.discount,
         "interaction": interaction,
-        "difficulty": math.nan if config.difficulty is None else config.difficulty,
+        "difficulty": config.task_kwargs.get("difficulty", math.nan),
         "training_seed": training_seed,
         "control_timestep": control_timestep,
         "condition": label(config),
@@ -122,7 +122,7 @@ def curves(
                         "success_rate": rising + generator.normal(0, 0.003, len(frames)),
                         "domain": config.domain,
                         "task": config.task,
-                        "difficulty": config.difficulty,
+                        "difficulty": config.task_kwargs.get("difficulty"),
                         "discount": config.agent.discount,
                         "training_seed": seed,
                         "condition": name,
@@ -284,7 +284,7 @@ def ideal_gap(num_agents, generator, share=0.985):
             row = {
                 "condition": label(config),
                 "domain": config.domain,
-                "difficulty": config.difficulty,
+                "difficulty": config.task_kwargs.get("difficulty"),
                 "training_seed": seed,
                 "agent_return": agent_return,
                 "return_error": 0.002,

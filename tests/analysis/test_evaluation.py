@@ -140,10 +140,10 @@ def test_every_episode_can_be_rebuilt_from_its_seed_number_and_actions(untrained
 
 
 @pytest.mark.parametrize("base", pretrained.names())
-def test_every_agent_is_found_by_name_and_by_difficulty(base):
+def test_every_agent_is_found_by_name_and_by_its_options(base):
     network, config = playing.find_agent(base)
-    for name, difficulty in ((base, config.difficulty), (config.task_name, config.difficulty)):
-        other, other_config = playing.find_agent(name, difficulty)
+    for name in (base, config.task_name):
+        other, other_config = playing.find_agent(name, config.task_kwargs)
         assert other_config == config
         assert all(torch.equal(value, network.state_dict()[key]) for key, value in other.state_dict().items())
 
@@ -152,27 +152,49 @@ THERE = "which_is_heavier-features-difficulty10, which_is_heavier-features-diffi
 
 
 @pytest.mark.parametrize(
-    ("target", "difficulty", "message"),
+    ("target", "options", "message"),
     [
-        ("which_is_heavier/features", 4, f"no trained agent is named which_is_heavier-features-difficulty4; .*{THERE}"),
-        ("which_is_heavier/features", 3.0000001, "named which_is_heavier-features-difficulty3.0000001; there are: "),
-        ("which_is_heavier/features", math.nan, "named which_is_heavier-features-difficultynan; there are: "),
-        ("towers/fist_features", 3, "named towers-fist_features-difficulty3; there are: "),
-        ("towers-fist_features", 3, "towers-fist_features has no difficulty, and difficulty is 3"),
-        ("which_is_heavier-features-difficulty3", 5, "was trained at difficulty 3, and difficulty is 5"),
+        (
+            "which_is_heavier/features",
+            {"difficulty": 4},
+            f"no trained agent is named which_is_heavier-features-difficulty4; .*{THERE}",
+        ),
+        (
+            "which_is_heavier/features",
+            {"difficulty": 3.0000001},
+            "named which_is_heavier-features-difficulty3.0000001; there are: ",
+        ),
+        (
+            "which_is_heavier/features",
+            {"difficulty": math.nan},
+            "named which_is_heavier-features-difficultynan; there are: ",
+        ),
+        ("towers/fist_features", {"difficulty": 3}, "named towers-fist_features-difficulty3; there are: "),
+        ("towers-fist_features", {"difficulty": 3}, "towers-fist_features has no difficulty, and difficulty is 3"),
+        (
+            "which_is_heavier-features-difficulty3",
+            {"difficulty": 5},
+            "was trained at difficulty 3, and difficulty is 5",
+        ),
+        (
+            "towers/fist_features",
+            {"control_timestep": 0.05},
+            "was trained at control_timestep 0.1, and control_timestep",
+        ),
         ("which_is_heavier-features-difficulty4", None, f"holds no run .* or a trained agent: .*{THERE}"),
     ],
 )
-def test_an_agent_that_there_is_not_is_refused_with_a_list_of_those_there_are(target, difficulty, message):
+def test_an_agent_that_there_is_not_is_refused_with_a_list_of_those_there_are(target, options, message):
     with pytest.raises(ValueError, match=message) as refused:
-        playing.find_agent(target, difficulty)
+        playing.find_agent(target, options)
     assert "\n" not in str(refused.value)
 
 
-def test_a_run_has_the_difficulty_it_was_trained_at(untrained):
-    assert playing.find_agent(str(untrained.path), 10)[1] == untrained.config
+def test_a_run_has_the_options_it_was_trained_with(untrained):
+    own = {"difficulty": 10, "control_timestep": 0.1}  # The second is the task's, which the run has not changed.
+    assert playing.find_agent(str(untrained.path), own)[1] == untrained.config
     with pytest.raises(ValueError, match="was trained at difficulty 10, and difficulty is 5"):
-        playing.find_agent(str(untrained.path), 5)
+        playing.find_agent(str(untrained.path), {"difficulty": 5})
 
 
 def test_whole_rounds_are_played_until_there_are_enough_steps(untrained):

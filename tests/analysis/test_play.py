@@ -9,6 +9,7 @@ import pytest
 from trainers import PHYSEXP, fresh_seed
 
 from physexp import suite
+from physexp.agents import pretrained
 from physexp.analysis import play, terminal
 
 
@@ -130,7 +131,9 @@ def test_the_question_comes_first_in_words_and_what_is_drawn_is_explained(domain
 @pytest.mark.parametrize("difficulty", [3.0, 4.0])
 def test_a_player_is_compared_with_an_agent_of_the_difficulty_that_is_played(difficulty):
     shown = []
-    scores = play.play("which_is_heavier", "features", difficulty, 1, read=typed("0", "4"), show=shown.append)
+    scores = play.play(
+        "which_is_heavier", "features", {"difficulty": difficulty}, 1, read=typed("0", "4"), show=shown.append
+    )
     players = {"you", "ideal experimenter"} | ({"trained agent"} if difficulty == 3 else set())
     assert set(scores) == players and all(score.episodes == 1 for score in scores.values())
     missing = "There is no agent trained at difficulty 4 to compare you with.\n"
@@ -138,10 +141,17 @@ def test_a_player_is_compared_with_an_agent_of_the_difficulty_that_is_played(dif
 
 
 def test_the_agent_beside_a_player_is_the_one_of_that_difficulty(monkeypatch):
-    loaded, load = [], play.pretrained.load
-    monkeypatch.setattr(play.pretrained, "load", lambda *names: loaded.append(names) or load(*names))
-    play.play("which_is_heavier", "features", 10.0, 1, read=typed("q"), show=lambda text: None)
+    loaded, load = [], pretrained.load
+    monkeypatch.setattr(pretrained, "load", lambda *names: loaded.append(names) or load(*names))
+    play.play("which_is_heavier", "features", {"difficulty": 10.0}, 1, read=typed("q"), show=lambda text: None)
     assert loaded == [("which_is_heavier", "features", 10.0)]
+
+
+def test_a_player_in_finer_time_is_compared_with_nobody_who_was_trained_in_another():
+    shown, options = [], {"control_timestep": 0.05}
+    scores = play.play("which_is_heavier", "features", options, 1, read=typed("0", "4"), show=shown.append)
+    assert set(scores) == {"you", "ideal experimenter"}
+    assert "There is no agent trained at control_timestep 0.05 to compare you with.\n" in shown
 
 
 def test_the_command_plays_without_any_gl_from_what_is_typed():

@@ -11,12 +11,13 @@ from safetensors import torch as safetensors
 import torch
 import trainers
 
+from physexp import suite
 from physexp.agents import pretrained
 from physexp.analysis.evaluation import playing, publishing
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
-from physexp.cli import parsing
+from physexp.cli import options, parsing
 
 
 @pytest.fixture(scope="module")
@@ -33,6 +34,7 @@ def test_the_card_says_what_was_done_and_what_came_of_it(published):
     last = run.metrics()[-1]
     assert path.name == "which_is_heavier-features-difficulty10.json"
     assert (card["domain"], card["task"], card["difficulty"]) == ("which_is_heavier", "features", 10.0)
+    assert card["task_kwargs"] == {"difficulty": 10.0}
     assert (card["seed"], card["frames"], card["seconds"]) == (5, int(last["frames"]), round(last["seconds"]))
     assert card["evaluation"]["drawn"]["episodes"] == card["evaluation"]["greedy"]["episodes"] == 200
     assert card["versions"] == run_lib.versions()
@@ -41,8 +43,12 @@ def test_the_card_says_what_was_done_and_what_came_of_it(published):
 def test_the_command_on_the_card_describes_the_same_run(published):
     run, path = published
     _, *arguments = shlex.split(json.loads(path.read_text())["command"])
-    train = parsing._parse(arguments)
-    assert (train.domain, train.task, train.difficulty) == ("which_is_heavier", "features", 10.0)
+    train = parsing.parse(arguments)
+    assert (train.domain, train.task, options.chosen(train.options)) == (
+        "which_is_heavier",
+        "features",
+        {"difficulty": 10.0},
+    )
     assert train.config == run.config.agent
 
 
@@ -50,14 +56,18 @@ def test_the_command_on_the_card_describes_the_same_run(published):
 def test_the_commands_of_the_agents_that_come_with_the_package_describe_them_still(card):
     said = json.loads(card.read_text())
     _, *arguments = shlex.split(said["command"])
-    train = parsing._parse(arguments)
-    assert (train.domain, train.task, train.difficulty) == (said["domain"], said["task"], said["difficulty"])
-    fields = {name: said[name] for name in ("domain", "task", "agent")}
-    assert train.config == config_lib.TrainConfig.from_json(fields).agent
+    train = parsing.parse(arguments)
+    config = config_lib.TrainConfig.from_json({name: said[name] for name in ("domain", "task", "difficulty", "agent")})
+    assert (train.domain, train.task, options.chosen(train.options)) == (
+        said["domain"],
+        said["task"],
+        config.task_kwargs,
+    )
+    assert train.config == config.agent
 
 
 @pytest.mark.parametrize("algorithm", config_lib.ALGORITHMS)
-@pytest.mark.parametrize("task", config_lib.A3C)
+@pytest.mark.parametrize("task", suite.ALL_TASKS)
 def test_every_field_of_an_agent_survives_the_way_over_the_command_line(task, algorithm):
     domain, name = task
     changed = config_lib.preset(domain, name, algorithm=algorithm).replace(
@@ -65,7 +75,7 @@ def test_every_field_of_an_agent_survives_the_way_over_the_command_line(task, al
     )
     config = config_lib.TrainConfig(domain=domain, task=name, agent=changed)
     _, *arguments = shlex.split(publishing.command(config))
-    assert parsing._parse(arguments).config == changed
+    assert parsing.parse(arguments).config == changed
 
 
 def test_the_agent_is_the_runs_rounded_to_half_precision(published):

@@ -92,11 +92,11 @@ def test_a_lost_terminal_ends_training_with_a_checkpoint(tmp_path):
 def test_a_command_that_trains_nothing_ends_with_one_line():
     code = """
         import os, signal, sys
-        from physexp.cli import parsing
+        from physexp.cli import parsing, tasks
 
-        parsing.Doctor.run = lambda self: (os.kill(os.getpid(), signal.SIGTERM), signal.pause())
+        tasks.Doctor.run = lambda self: (os.kill(os.getpid(), signal.SIGTERM), signal.pause())
         sys.argv = ["physexp", "doctor"]
-        cli.main()
+        parsing.main()
     """
     done = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stderr) == (128 + signal.SIGTERM, "physexp: interrupted\n")

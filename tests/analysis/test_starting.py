@@ -33,7 +33,7 @@ def refusal(capsys, *arguments):
 def small(**agent):
     """PPO plays in the process that trains: nothing has to start."""
     agent = trainers.SMALL["ppo"].replace(**{"frames": 2_000, "checkpoint_seconds": 0.01, **agent})
-    return config_lib.TrainConfig(domain=TASK[0], task=TASK[1], difficulty=10.0, agent=agent)
+    return config_lib.TrainConfig(domain=TASK[0], task=TASK[1], task_kwargs={"difficulty": 10.0}, agent=agent)
 
 
 def everything(folder):

@@ -1,37 +1,87 @@
 """What a run is told survives the trip through its folder; every task has a preset."""
 
 import json
+import subprocess
+import sys
 
 import pytest
 
 from physexp import suite
 from physexp.agents.a3c import config as a3c
+from physexp.analysis import domains
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 
 
 def make_config(**changes):
     agent = a3c.A3CConfig(frames=5, seed=2**62, discount=0.1 + 0.2)
-    fields = {"domain": "which_is_heavier", "task": "features", "difficulty": 3.3, "agent": agent}
+    fields = {"domain": "which_is_heavier", "task": "features", "task_kwargs": {"difficulty": 3.3}, "agent": agent}
     return config_lib.TrainConfig(**{**fields, **changes})
 
 
-@pytest.mark.parametrize("changes", [{}, {"difficulty": None, "control_timestep": 0.05}])
+@pytest.mark.parametrize("changes", [{}, {"task_kwargs": {"control_timestep": 0.05, "blocks": 3, "colour": "red"}}])
 def test_a_configuration_survives_json(changes):
     config = make_config(**changes)
     assert config_lib.TrainConfig.from_json(json.loads(json.dumps(config.to_json()))) == config
 
 
+@pytest.mark.parametrize(
+    ("stored", "task_kwargs"),
+    [
+        ({"difficulty": 3.3, "control_timestep": None}, {"difficulty": 3.3}),
+        ({"difficulty": None, "control_timestep": 0.05}, {"control_timestep": 0.05}),
+        ({"difficulty": None}, {}),
+    ],
+)
+def test_a_configuration_of_an_earlier_version_is_read(stored, task_kwargs):
+    fields = make_config(task_kwargs={}).to_json()
+    del fields["task_kwargs"]
+    assert config_lib.TrainConfig.from_json({**fields, **stored}) == make_config(task_kwargs=task_kwargs)
+
+
+def test_equal_configurations_have_one_hash_and_one_name_whatever_the_order_of_their_options():
+    one, other = (make_config(task_kwargs=dict(pairs)) for pairs in ([("b", 2), ("a", 0.5)], [("a", 0.5), ("b", 2.0)]))
+    assert one == other and len({one, other}) == 1
+    assert one.name == other.name == f"which_is_heavier-features-a0.5-b2-discount0.3-seed{2**62}"
+    assert one != make_config(task_kwargs={"a": 0.5})
+
+
+@pytest.mark.parametrize("wrong", [3, {"difficulty": None}, {"difficulty": [3]}, {3: 3}])
+def test_options_that_json_or_a_name_could_not_keep_are_refused(wrong):
+    with pytest.raises(ValueError, match="task_kwargs"):
+        make_config(task_kwargs=wrong)
+
+
+@pytest.mark.parametrize("algorithm", config_lib.ALGORITHMS)
 @pytest.mark.parametrize("names", suite.ALL_TASKS)
-def test_every_task_has_a_preset_and_no_other_does(names):
-    assert config_lib.preset(*names) is config_lib.A3C[names]
-    assert config_lib.preset(*names, algorithm="ppo") is config_lib.PPO[names]
-    assert set(config_lib.A3C) == set(config_lib.PPO) == set(suite.ALL_TASKS)
+def test_every_task_has_a_preset_of_its_domain_s_discount(names, algorithm):
+    domain, task = names
+    preset = config_lib.preset(domain, task, algorithm=algorithm)
+    assert preset is domains.find(domain).presets[task][algorithm]
+    assert preset.algorithm == algorithm and preset.discount == domains.find(domain).discount
 
 
-def test_only_what_was_chosen_reaches_the_task():
-    assert make_config().task_kwargs == {"difficulty": 3.3}
-    assert make_config(difficulty=None, control_timestep=0.05).task_kwargs == {"control_timestep": 0.05}
+def test_no_preset_is_of_a_task_that_there_is_not():
+    for name, domain in domains.DOMAINS.items():
+        assert domain.name == name and set(domain.presets) == set(domain.labels) == set(suite.TASKS_BY_DOMAIN[name])
+
+
+def test_without_a_preset_an_agent_has_its_defaults_at_the_domain_s_discount():
+    assert config_lib.preset("towers", "feet") == a3c.A3CConfig(discount=0.98)
+    assert config_lib.preset("unheard of", "features") == a3c.A3CConfig()
+
+
+def test_a_condition_has_the_paper_s_name_or_else_those_of_domain_and_task():
+    assert make_config(task_kwargs={"difficulty": 10.0}).label == "10-F"
+    assert make_config(domain="towers", task="fist_pixels", task_kwargs={}).label == "F-P"
+    assert make_config(domain="threshold", task_kwargs={}).label == "threshold features"
+    assert make_config(task_kwargs={}).label == "which_is_heavier features"  # The task's own difficulty is not said.
+
+
+def test_domains_are_light_since_the_command_line_is_made_from_them():
+    script = "import sys; from physexp.analysis import domains; print({'scipy', 'torch', 'mujoco'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout == "set()\n"
 
 
 def test_a_run_keeps_its_configuration_and_the_versions(tmp_path):

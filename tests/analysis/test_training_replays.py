@@ -15,7 +15,7 @@ from physexp.analysis.training import trainer
 SMALL = config_lib.TrainConfig(
     domain="which_is_heavier",
     task="features",
-    difficulty=10.0,
+    task_kwargs={"difficulty": 10.0},
     agent=ppo.PPOConfig(num_threads=1, num_environments=32, frames=6000, checkpoint_seconds=0.05),
 )
 

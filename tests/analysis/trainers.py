@@ -34,7 +34,10 @@ SMALL = {
 def create(path, algorithm="a3c", **agent):
     """A new run of Which is Heavier, small unless told otherwise."""
     config = config_lib.TrainConfig(
-        domain="which_is_heavier", task="features", difficulty=10.0, agent=SMALL[algorithm].replace(**agent)
+        domain="which_is_heavier",
+        task="features",
+        task_kwargs={"difficulty": 10.0},
+        agent=SMALL[algorithm].replace(**agent),
     )
     run = run_lib.Run(path)
     run.create(config)

@@ -21,7 +21,7 @@ SMALL = ppo.PPOConfig(
 
 def config(**agent) -> config_lib.TrainConfig:
     return config_lib.TrainConfig(
-        domain="which_is_heavier", task="features", difficulty=10.0, agent=SMALL.replace(**agent)
+        domain="which_is_heavier", task="features", task_kwargs={"difficulty": 10.0}, agent=SMALL.replace(**agent)
     )
 
 

@@ -97,7 +97,7 @@ def _measure(num_workers: int) -> tuple[float, distributed.Traffic, float]:
 
 def _final_return(on_cluster: bool) -> float:
     """Mean discounted return of an agent that two workers have trained."""
-    agent = config_lib.A3C[_TASK].replace(num_workers=2, frames=_FRAMES)
+    agent = config_lib.preset(*_TASK).replace(num_workers=2, frames=_FRAMES)
     with tempfile.TemporaryDirectory() as folder:
         run = run_lib.Run(Path(folder) / "run")
         run.create(config_lib.TrainConfig(domain=_TASK[0], task=_TASK[1], replay_every=0, agent=agent))
@@ -121,7 +121,7 @@ def _recovery() -> float:
 
 
 def _agent(num_workers: int, tell: Callable[[str], None] = lambda line: None) -> distributed.DistributedA3C:
-    preset = config_lib.A3C[_TASK].replace(num_workers=num_workers, frames=10**12)
+    preset = config_lib.preset(*_TASK).replace(num_workers=num_workers, frames=10**12)
     config = config_lib.TrainConfig(domain=_TASK[0], task=_TASK[1], agent=preset)
     agent = trainer.make_agent(config, on_cluster=True, tell=tell)
     assert isinstance(agent, distributed.DistributedA3C)

@@ -54,12 +54,13 @@ def _reached(results: base.Results, condition) -> Iterator[dict]:
     if condition.domain == "towers":
         yield measuring.row(f"right answers: {name}", reached(success), "", SUCCESS[condition.task], **absolute)
         return
-    best = ideal.solve(condition.difficulty, condition.agent.discount).value
-    yield measuring.row(f"return: {name}", reached(returns), "", RETURN[condition.difficulty], **absolute)
+    difficulty = condition.task_kwargs["difficulty"]
+    best = ideal.solve(difficulty, condition.agent.discount).value
+    yield measuring.row(f"return: {name}", reached(returns), "", RETURN[difficulty], **absolute)
     yield measuring.row(
         f"return / ideal experimenter's: {name}",
         reached(returns) / best,
         "x",
-        ideal_gap.LEAST[condition.difficulty],
+        ideal_gap.LEAST[difficulty],
         ideal=best,
     )

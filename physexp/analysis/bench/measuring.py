@@ -211,10 +211,12 @@ def _training() -> Iterator[dict]:
 
 def training_rate(task: tuple[str, str], seconds: float) -> float:
     """Frames per second of the default agent on two workers, from scratch, once all workers are under way."""
+    from physexp.agents.a3c import config as a3c
     from physexp.analysis.training import config as config_lib
     from physexp.analysis.training import trainer
 
-    preset = config_lib.A3C[task]
+    preset = config_lib.preset(*task)
+    assert isinstance(preset, a3c.A3CConfig)
     agent = trainer.make_agent(config_lib.TrainConfig(domain=task[0], task=task[1], agent=preset))
     heard: set[int] = set()
     start, frames, at_start = None, 0, 0

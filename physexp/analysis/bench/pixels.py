@@ -148,10 +148,12 @@ def _bare_network_rate(task: tuple[str, str]) -> float:
 
     from physexp.agents import agent as agent_lib
     from physexp.agents import losses
+    from physexp.agents.a3c import config as a3c
     from physexp.analysis.training import config as config_lib
 
     torch.set_num_threads(1)
-    config = config_lib.A3C[task]
+    config = config_lib.preset(*task)
+    assert isinstance(config, a3c.A3CConfig)
     environment = suite.load_batch(*task, 1)
     network = agent_lib.make_network(environment, config)
     shape = (_ROUND_STEPS, config.envs_per_worker, rendering.SIZE, rendering.SIZE, 3)

@@ -51,7 +51,7 @@ def table(
     columns: dict[str, Any] = {
         "domain": [config.domain] * count,
         "task": [config.task] * count,
-        "difficulty": [config.difficulty] * count,
+        "difficulty": [config.task_kwargs.get("difficulty")] * count,
         "discount": [config.agent.discount] * count,
         "training_seed": [config.agent.seed] * count,
         "interaction": [interaction] * count,

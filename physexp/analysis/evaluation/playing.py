@@ -1,6 +1,6 @@
 """Evaluation: plays episodes with a trained agent and measures how well it answers."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import dataclasses
 import functools
 from pathlib import Path
@@ -108,42 +108,59 @@ def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
 
 
 def find_agent(
-    target: str, difficulty: float | None = None
+    target: str, task_kwargs: Mapping[str, Any] | None = None
 ) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
-    """A trained agent's network, and what it plays.
+    """Returns a trained agent's network, and what it plays.
 
     Args:
       target: the folder of a run, or an agent that comes with the package: `domain/task`, or the name of its files.
-      difficulty: what the agent is to be trained at; by default that of the folder or name, or else the task's.
+      task_kwargs: options that the agent is to be trained with; the others are those of the folder or name, or else
+        the task's.
 
     Raises:
-      ValueError: if there is no such agent, or none of that difficulty; it lists those that come with the package.
+      ValueError: if there is no such agent, or none with these options; it lists those that come with the package.
     """
-    if not Path(target).exists():
-        domain, _, task = target.partition("/")
-        if (domain, task) in suite.ALL_TASKS:
-            return _with_config(pretrained.load(domain, task, difficulty))
-        if target in pretrained.names():
-            agent = pretrained.load_named(target)
-            _check_difficulty(target, config_of(agent), difficulty)
-            return _with_config(agent)
-        raise ValueError(
-            f"{target} holds no run (no config.json); give the folder of a run or a trained agent: "
-            f"{', '.join(pretrained.names())}"
-        )
-    run = run_lib.Run(Path(target))
-    _check_difficulty(target, run.config, difficulty)
-    return load_network(run), run.config
+    wanted = task_kwargs or {}
+    if Path(target).exists():
+        run = run_lib.Run(Path(target))
+        _check_options(target, run.config, wanted)
+        return load_network(run), run.config
+    domain, _, task = target.partition("/")
+    if (domain, task) in suite.ALL_TASKS:
+        return shipped_agent(domain, task, wanted)
+    if target in pretrained.names():
+        agent = pretrained.load_named(target)
+        _check_options(target, config_of(agent), wanted)
+        return _with_config(agent)
+    raise ValueError(
+        f"{target} holds no run (no config.json); give the folder of a run or a trained agent: "
+        f"{', '.join(pretrained.names())}"
+    )
 
 
-def _check_difficulty(target: str, config: config_lib.TrainConfig, wanted: float | None) -> None:
-    if wanted is None:
+def shipped_agent(
+    domain: str, task: str, task_kwargs: Mapping[str, Any]
+) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
+    """Returns the network of the agent that comes with the package for a task with these options, and what it plays.
+
+    Raises:
+      ValueError: if there is none; it lists those that there are.
+    """
+    agent = pretrained.load(domain, task, task_kwargs.get("difficulty"))  # Which names the files.
+    _check_options(f"{domain}/{task}", config_of(agent), task_kwargs)
+    return _with_config(agent)
+
+
+def _check_options(target: str, config: config_lib.TrainConfig, wanted: Mapping[str, Any]) -> None:
+    """Refuses an agent that was trained with other options than are wanted."""
+    if not wanted:
         return
     options = suite.load_task(config.domain, config.task, config.task_kwargs).options
-    trained_at = getattr(options, "difficulty", None)  # None in the configuration is the task's own.
-    if wanted != trained_at:
-        what = "has no difficulty" if trained_at is None else f"was trained at difficulty {trained_at:g}"
-        raise ValueError(f"{target} {what}, and difficulty is {wanted}; leave that out, or name another agent")
+    for name, value in wanted.items():
+        trained_at = getattr(options, name, None)  # The task's own, where the configuration has none.
+        if value != trained_at:
+            what = f"has no {name}" if trained_at is None else f"was trained at {name} {config_lib.shown(trained_at)}"
+            raise ValueError(f"{target} {what}, and {name} is {value}; leave that out, or name another agent")
 
 
 def _with_config(agent: pretrained.Pretrained) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
@@ -177,9 +194,8 @@ def config_of(agent: pretrained.Pretrained) -> config_lib.TrainConfig:
       ValueError: if its card does not say so.
     """
     try:
-        return config_lib.TrainConfig.from_json(
-            {name: agent.card[name] for name in ("domain", "task", "difficulty", "agent")}
-        )
+        facts = {name: agent.card[name] for name in ("domain", "task", "difficulty", "agent")}
+        return config_lib.TrainConfig.from_json({**facts, "task_kwargs": agent.card.get("task_kwargs", {})})
     except (KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"an agent's card is not what was written: {error!r}; publish the agent again") from None
 

@@ -33,7 +33,8 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int) -> Path:
     card = {
         "domain": config.domain,
         "task": config.task,
-        "difficulty": config.difficulty,
+        "difficulty": config.task_kwargs.get("difficulty"),  # Names the agent's files.
+        "task_kwargs": dict(config.task_kwargs),
         "command": command(config),
         "commit": created.get("commit", "not recorded"),
         "versions": created.get("versions", "not recorded"),
@@ -64,12 +65,12 @@ def _progress(run: run_lib.Run) -> tuple[int, int]:
 
 
 def command(config: config_lib.TrainConfig) -> str:
-    """The command that trains such a run: what differs from the task's preset is spelled out."""
+    """Returns the command that trains such a run: what differs from the task's preset is spelled out."""
     words = ["physexp", "train", config.domain, config.task]
     for name, value in config.task_kwargs.items():
-        words += [f"--{name.replace('_', '-')}", f"{value:g}"]
+        words += [f"--{name.replace('_', '-')}", config_lib.shown(value)]
     preset = dataclasses.asdict(config_lib.preset(config.domain, config.task, algorithm=config.agent.algorithm))
-    if config.agent.algorithm != config_lib.preset().algorithm:
+    if config.agent.algorithm != config_lib.DEFAULT_ALGORITHM:
         words += ["--agent", config.agent.algorithm]
     for name, value in dataclasses.asdict(config.agent).items():
         if value != preset[name]:

@@ -1,33 +1,36 @@
 """The experiments: every one of the paper, and those that it could not make."""
 
-from physexp.analysis.experiments import (
-    ideal_gap,
-    individual,
-    learners,
-    learning_heavier,
-    learning_towers,
-    mass_gap,
-    population,
-    random_heavier,
-    random_towers,
-    waiting,
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from physexp.analysis.experiments.base import Experiment
+
+    EXPERIMENTS: dict[str, Experiment]
+
+__all__ = ["EXPERIMENTS", "NAMES", "Experiment"]
+
+NAMES = (
+    "mass_gap",
+    "learning_heavier",
+    "population",
+    "individual",
+    "random_heavier",
+    "learning_towers",
+    "waiting",
+    "random_towers",
+    "ideal_gap",
+    "learners",
 )
-from physexp.analysis.experiments.base import Experiment
+"""The experiments in the paper's order; each is the `EXPERIMENT` of the module of its name."""
 
-__all__ = ["EXPERIMENTS", "Experiment"]
 
-_MODULES = (
-    mass_gap,
-    learning_heavier,
-    population,
-    individual,
-    random_heavier,
-    learning_towers,
-    waiting,
-    random_towers,
-    ideal_gap,
-    learners,
-)
-
-EXPERIMENTS = {module.EXPERIMENT.name: module.EXPERIMENT for module in _MODULES}
-"""All experiments by name, in the paper's order."""
+def __getattr__(name: str) -> Any:
+    """Imports what is asked for: the command line's help has only the names, and the rest takes seconds."""
+    if name == "Experiment":
+        return importlib.import_module(f"{__name__}.base").Experiment
+    if name != "EXPERIMENTS":
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    found = {name: importlib.import_module(f"{__name__}.{name}").EXPERIMENT for name in NAMES}
+    globals()["EXPERIMENTS"] = found
+    return found

@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Sequence
 import dataclasses
+import functools
+import math
 from pathlib import Path
 from typing import Any
 
@@ -92,7 +94,7 @@ class Results:
                         pandas.DataFrame(run.metrics()).assign(
                             domain=config.domain,
                             task=config.task,
-                            difficulty=config.difficulty,
+                            difficulty=config.task_kwargs.get("difficulty"),
                             discount=config.agent.discount,
                             training_seed=run.config.agent.seed,
                             algorithm=config.agent.algorithm,
@@ -116,8 +118,14 @@ def _without_seed(config: config_lib.TrainConfig) -> str:
 
 
 def _labels(frame) -> list[str]:
-    """The paper's names of the conditions of rows."""
-    return [conditions.label(*key) for key in zip(frame.domain, frame.task, frame.difficulty, strict=True)]
+    """Returns the names of the conditions of rows, of which many have the same."""
+    keys = zip(frame.domain, frame.task, frame.difficulty, strict=True)
+    return [_label(domain, task, None if value is None or math.isnan(value) else value) for domain, task, value in keys]
+
+
+@functools.cache
+def _label(domain: str, task: str, difficulty: float | None) -> str:
+    return conditions.label(domain, task, **({} if difficulty is None else {"difficulty": difficulty}))
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

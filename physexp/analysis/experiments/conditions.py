@@ -1,7 +1,11 @@
 """What agents are trained on: every condition of the paper, each with a budget that flattens its curve."""
 
 import re
+from typing import Any
 
+from physexp import suite
+from physexp.analysis import domains
+from physexp.analysis.domains import which_is_heavier
 from physexp.analysis.training import config as config_lib
 
 DIFFICULTIES = (3.0, 5.0, 10.0)
@@ -23,20 +27,20 @@ _FRAMES = {
 
 
 def heavier(
-    difficulty: float, observations: str, frames: int, discount: float = config_lib.DISCOUNT["which_is_heavier"]
+    difficulty: float, observations: str, frames: int, discount: float = which_is_heavier.DOMAIN.discount
 ) -> config_lib.TrainConfig:
-    """Which is Heavier at a difficulty, for so many environment steps, the agent's gamma being `discount`."""
+    """Returns Which is Heavier at a difficulty, for so many environment steps, the agent's gamma being `discount`."""
     agent = config_lib.preset("which_is_heavier", observations)
     return config_lib.TrainConfig(
         domain="which_is_heavier",
         task=observations,
-        difficulty=difficulty,
+        task_kwargs={"difficulty": difficulty},
         agent=agent.replace(discount=discount, frames=frames, num_workers=1),
     )
 
 
 def towers(actuator: str, observations: str = "features") -> config_lib.TrainConfig:
-    """Towers with an actuator."""
+    """Returns Towers with an actuator."""
     task = f"{actuator}_{observations}"
     agent = config_lib.preset("towers", task).replace(num_workers=1)
     return config_lib.TrainConfig(domain="towers", task=task, agent=agent)
@@ -52,14 +56,22 @@ TOWERS = tuple(towers(actuator, kind) for actuator in ACTUATORS for kind in OBSE
 
 
 def observations(config: config_lib.TrainConfig) -> str:
-    """`features` or `pixels`."""
-    return config.task.rsplit("_", 1)[-1]
+    """Returns what agents of a condition observe, `features` or `pixels`."""
+    (kind,) = suite.tags(config.domain, config.task) & set(OBSERVATIONS)
+    return kind
 
 
-def label(domain: str, task: str, difficulty: float | None) -> str:
-    """The paper's name of a condition: 10-F is difficulty 10 from features, D-P is direct actuation from pixels."""
-    kind = task.rsplit("_", 1)[-1][0].upper()
-    return f"{difficulty:g}-{kind}" if domain == "which_is_heavier" else f"{task[0].upper()}-{kind}"
+def label(domain: str, task: str, **task_kwargs: Any) -> str:
+    """Returns the paper's name of a condition: 10-F is difficulty 10 from features, D-P direct actuation from pixels.
+
+    Where a domain has no such names, it is domain and task.
+    """
+    return domains.find(domain).label(task, task_kwargs)
+
+
+def chance(domain: str, task: str) -> float:
+    """Returns the share of right answers of one who answers at random."""
+    return 1 / suite.load_task(domain, task).num_labels
 
 
 _WORDS = {"F": "features", "P": "pixels"}

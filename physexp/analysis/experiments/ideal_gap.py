@@ -30,7 +30,7 @@ def load(results: base.Results):
                 {
                     "condition": episodes.condition.iloc[0],
                     "domain": condition.domain,
-                    "difficulty": condition.difficulty,
+                    "difficulty": condition.task_kwargs.get("difficulty"),
                     "training_seed": seed,
                     "agent_return": returns.mean(),
                     "return_error": returns.std(ddof=1) / np.sqrt(len(returns)),
@@ -51,7 +51,7 @@ def load(results: base.Results):
 
 
 def _of_heavier(condition, episodes) -> dict[str, float]:
-    solution = ideal.solve(condition.difficulty, condition.agent.discount)
+    solution = ideal.solve(condition.task_kwargs["difficulty"], condition.agent.discount)
     summary = solution.summary()
     masses = np.stack(episodes.masses.to_numpy()).astype(float)
     costs = regret.regrets(solution, masses, list(episodes.actions), (episodes.label < 0).to_numpy())

@@ -69,7 +69,7 @@ def lengths_and_accuracies(results: base.Results) -> dict[str, tuple[float, floa
     found = {}
     for task, rows in read(results).items():
         summary = best(rows)
-        found[conditions.label("towers", task, None)] = (summary["mean_interactions"], summary["accuracy"])
+        found[conditions.label("towers", task)] = (summary["mean_interactions"], summary["accuracy"])
     return found
 
 

@@ -1,5 +1,7 @@
 """Two learners on the same network: A3C, the paper's, and PPO. Ours: the paper has one."""
 
+import dataclasses
+
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions, learning
@@ -18,16 +20,16 @@ _REASON = (
 
 
 def _with_ppo(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
-    agent = config_lib.PPO[config.domain, config.task].replace(discount=config.agent.discount, num_threads=1)
-    return config_lib.TrainConfig(domain=config.domain, task=config.task, difficulty=config.difficulty, agent=agent)
+    preset = config_lib.preset(config.domain, config.task, algorithm="ppo")
+    return dataclasses.replace(config, agent=preset.replace(discount=config.agent.discount, num_threads=1))
 
 
 _PAPERS = (
-    next(config for config in conditions.HEAVIER if config.difficulty == 5.0 and config.task == "features"),
+    next(config for config in conditions.HEAVIER if config.label == "5-F"),
     conditions.towers("fist"),
 )
 CONDITIONS = tuple(config for papers in _PAPERS for config in (papers, _with_ppo(papers)))
-_TASKS = [conditions.label(papers.domain, papers.task, papers.difficulty) for papers in _PAPERS]
+_TASKS = {papers.label: papers for papers in _PAPERS}
 
 
 def load(results: base.Results):
@@ -68,7 +70,7 @@ def draw(frame):
     curves = {along: learning.smoothed(frame, along) for along in learning.AXES}
     figure, panels = figures.new(rows=len(tasks), columns=2, height=2.2, sharey=True, squeeze=False)
     for row, task in zip(panels, tasks, strict=True):
-        chance = 1 / (4 if task[0].isdigit() else 5)
+        chance = conditions.chance(_TASKS[task].domain, _TASKS[task].task)
         for axes, along in zip(row, learning.AXES, strict=True):
             learning.draw_panel(axes, curves[along], _curve_names(task), list(_NAMES.values()), chance, along)
         row[0].set(title=conditions.spelled_out(task), ylabel="share of right answers")

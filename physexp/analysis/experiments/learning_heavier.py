@@ -5,8 +5,6 @@ from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions, learning
 from physexp.analysis.ideal import which_is_heavier as ideal
 
-_CHANCE = 0.25
-
 
 def find_claims(frame) -> list[claims.Claim]:
     """Every condition is learned, and the easier the better."""
@@ -21,11 +19,11 @@ def find_claims(frame) -> list[claims.Claim]:
                 condition=name,
                 statistic="share of right answers at the end of training, mean of agents; twice chance is 0.5",
                 estimate=estimates.mean_share(rates),
-                above=2 * _CHANCE,
+                above=2 * conditions.chance("which_is_heavier", "features"),
             )
         )
     for kind in conditions.OBSERVATIONS:
-        names = [conditions.label("which_is_heavier", kind, beta) for beta in conditions.DIFFICULTIES]
+        names = [conditions.label("which_is_heavier", kind, difficulty=beta) for beta in conditions.DIFFICULTIES]
         for harder, easier in zip(names, names[1:], strict=False):
             rates = {name: final.success_rate[final.condition == name].to_numpy() for name in (harder, easier)}
             if min(map(len, rates.values())) > 0:
@@ -49,8 +47,9 @@ def draw(frame):
     kinds = [kind for kind in conditions.OBSERVATIONS if (frame.task == kind).any()]
     figure, panels = figures.new(columns=len(kinds), sharey=True, squeeze=False)
     for axes, kind in zip(panels[0], kinds, strict=True):
-        names = [conditions.label("which_is_heavier", kind, beta) for beta in conditions.DIFFICULTIES]
-        learning.draw_panel(axes, curves, names, [rf"$\beta$ = {beta:g}" for beta in conditions.DIFFICULTIES], _CHANCE)
+        names = [conditions.label("which_is_heavier", kind, difficulty=beta) for beta in conditions.DIFFICULTIES]
+        chance = conditions.chance("which_is_heavier", kind)
+        learning.draw_panel(axes, curves, names, [rf"$\beta$ = {beta:g}" for beta in conditions.DIFFICULTIES], chance)
         low, high = min(accuracies), max(accuracies)
         figures.reference(axes, high, f"ideal: {low:.3f} to {high:.3f}")
         axes.set(ylim=(0, 1.08), yticks=[0, 0.2, 0.4, 0.6, 0.8, 1])

@@ -4,7 +4,6 @@ from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions, learning
 
-_CHANCE = 0.2
 _NEARLY_PERFECT = 0.95
 _LEARNED = 0.9  # The success whose first frame is compared between actuators.
 
@@ -26,7 +25,7 @@ def find_claims(frame) -> list[claims.Claim]:
             )
         )
     for kind in conditions.OBSERVATIONS:
-        names = [conditions.label("towers", f"{actuator}_{kind}", None) for actuator in ("fist", "direct")]
+        names = [conditions.label("towers", f"{actuator}_{kind}") for actuator in ("fist", "direct")]
         fist, direct = learning.compare_first_reached(frame, names, _LEARNED)
         if len(fist) and len(direct):
             found.append(
@@ -51,8 +50,8 @@ def draw(frame):
     tasks = [condition.task for condition in conditions.TOWERS if (frame.task == condition.task).any()]
     figure, panels = figures.new(columns=len(tasks), width=2.0, height=2.2, sharey=True, squeeze=False)
     for axes, task in zip(panels[0], tasks, strict=True):
-        name = conditions.label("towers", task, None)
-        learning.draw_panel(axes, curves, [name], ["median"], _CHANCE)
+        name = conditions.label("towers", task)
+        learning.draw_panel(axes, curves, [name], ["median"], conditions.chance("towers", task))
         axes.set_title(task.replace("_", ", "))
     panels[0, 0].set_ylabel("share of right answers")
     return figure

@@ -6,7 +6,7 @@ from physexp.analysis.experiments import base, claims, conditions, randomized
 from physexp.analysis.ideal import which_is_heavier as ideal
 
 _NAMES = [
-    conditions.label("which_is_heavier", kind, beta)
+    conditions.label("which_is_heavier", kind, difficulty=beta)
     for kind in conditions.OBSERVATIONS
     for beta in conditions.DIFFICULTIES
 ]
@@ -38,7 +38,7 @@ def _ideal() -> dict[str, tuple[float, float]]:
     for beta in conditions.DIFFICULTIES:
         summary = ideal.solve(beta).summary()
         for kind in conditions.OBSERVATIONS:
-            found[conditions.label("which_is_heavier", kind, beta)] = (
+            found[conditions.label("which_is_heavier", kind, difficulty=beta)] = (
                 summary["mean_interactions"],
                 summary["accuracy"],
             )
@@ -55,5 +55,5 @@ EXPERIMENT = base.Experiment(
     trials=(base.LEARNED, base.RANDOM),
     load=lambda results: results.episodes([base.LEARNED, base.RANDOM], conditions.HEAVIER, randomized.COLUMNS),
     claims=find_claims,
-    draw=lambda frame: randomized.draw(frame, _NAMES, 0.25, _ideal()),
+    draw=lambda frame: randomized.draw(frame, _NAMES, conditions.chance("which_is_heavier", "features"), _ideal()),
 )

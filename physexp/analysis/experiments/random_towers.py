@@ -2,7 +2,7 @@
 
 from physexp.analysis.experiments import base, claims, conditions, ideal_towers, randomized
 
-_NAMES = [conditions.label(condition.domain, condition.task, None) for condition in conditions.TOWERS]
+_NAMES = [condition.label for condition in conditions.TOWERS]
 
 
 def load(results: base.Results):
@@ -41,5 +41,7 @@ EXPERIMENT = base.Experiment(
     prepare=ideal_towers.prepare,
     load=load,
     claims=find_claims,
-    draw=lambda frame: randomized.draw(frame, _NAMES, 0.2, frame.attrs["ideal"]),
+    draw=lambda frame: randomized.draw(
+        frame, _NAMES, conditions.chance("towers", "fist_features"), frame.attrs["ideal"]
+    ),
 )

@@ -7,12 +7,11 @@ from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions
 
 CONTROL_TIMESTEPS = tuple(round(0.01 * number, 2) for number in range(1, 11))  # s; the last is that of training
-CONDITIONS = tuple(condition for condition in conditions.TOWERS if condition.task.startswith("fist"))
+CONDITIONS = tuple(conditions.towers("fist", kind) for kind in conditions.OBSERVATIONS)
 TRIALS = tuple(
     base.Trial(name=f"timestep{timestep:g}", num_steps=10_000, control_timestep=timestep)
     for timestep in CONTROL_TIMESTEPS
 )
-_CHANCE = 0.2
 _FINEST, _TRAINED = CONTROL_TIMESTEPS[0], CONTROL_TIMESTEPS[-1]
 
 
@@ -75,7 +74,7 @@ def draw(frame):
         above.fill_between(
             accuracy.median().index, accuracy.min(), accuracy.max(), color=figures.COLORS[1], alpha=0.15, linewidth=0
         )
-        figures.reference(above, _CHANCE, "chance")
+        figures.reference(above, conditions.chance("towers", CONDITIONS[0].task), "chance")
         above.set(title=conditions.spelled_out(name), ylim=(0, 1.05))
         _draw_times(below, frame[frame.condition == name])
         below.set_xlabel("control step, s")

@@ -1,8 +1,9 @@
 """Replays: episodes recorded with all that was seen, believed and done, and written for the rerun viewer."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import functools
 from pathlib import Path
+from typing import Any
 
 from physexp.analysis.evaluation import playing
 from physexp.analysis.replay import recording, selection, writing
@@ -20,7 +21,7 @@ def replay(
     select: selection.Selection = "any",
     seed: int = playing.SEED,
     report: Callable[[str], None] = lambda line: None,
-    difficulty: float | None = None,
+    task_kwargs: Mapping[str, Any] | None = None,
 ) -> Path:
     """Plays episodes with trained agents and writes them for the viewer.
 
@@ -30,7 +31,7 @@ def replay(
       output: the file.
       interaction, select, seed: see `selection.select`.
       report: called with lines that tell how it goes.
-      difficulty: of the agents that come with the package, see `playing.find_agent`.
+      task_kwargs: options that the agents are to be trained with, see `playing.find_agent`.
 
     Returns:
       The path of the file.
@@ -41,7 +42,7 @@ def replay(
         else than a regular file at `output`.
     """
     writing.check_output(output)
-    agents = [playing.find_agent(target, difficulty) for target in targets]
+    agents = [playing.find_agent(target, task_kwargs) for target in targets]
     network, config = agents[0]
     for _, other in agents[1:]:
         if _what(other) != _what(config):

@@ -177,16 +177,18 @@ def _play(this: run_lib.Run, trial: base.Trial):
     from physexp.analysis.evaluation import playing
 
     config = this.config
-    timestep = trial.control_timestep or config.control_timestep
+    chosen = {} if trial.control_timestep is None else {"control_timestep": trial.control_timestep}
+    played_as = dataclasses.replace(config, task_kwargs={**config.task_kwargs, **chosen})
     played = playing.play(
         playing.load_network(this),
-        dataclasses.replace(config, control_timestep=timestep),
+        played_as,
         trial.num_episodes,
         trial.interaction,
         num_threads=1,
         num_steps=trial.num_steps,
     )
-    return records.table(played, config, trial.interaction, timestep or suite.Options.control_timestep)
+    timestep = played_as.task_kwargs.get("control_timestep", suite.Options.control_timestep)
+    return records.table(played, config, trial.interaction, timestep)
 
 
 class Meter:

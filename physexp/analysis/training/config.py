@@ -1,14 +1,16 @@
-"""What a training run is: the task, the agent's configuration, and the presets that were found to work.
+"""What a training run is: the task, its options, and the agent's configuration.
 
 Imports nothing heavy, since the command line is made from it.
 """
 
 from collections.abc import Mapping
 import dataclasses
+from typing import Any
 
 from physexp.agents import config as agent_config
 from physexp.agents.a3c import config as a3c
 from physexp.agents.ppo import config as ppo
+from physexp.analysis import domains
 
 REPLAY_EVERY = 1_000_000
 """Environment steps between the replays that `physexp train` writes."""
@@ -16,111 +18,19 @@ REPLAY_EVERY = 1_000_000
 ALGORITHMS: dict[str, type[agent_config.AgentConfig]] = {
     config.algorithm: config for config in (a3c.A3CConfig, ppo.PPOConfig)
 }
-"""The configurations of the agents that there are, by name."""
+"""The configurations of all agents, by name."""
 
-DISCOUNT = {"which_is_heavier": 0.95, "towers": 0.98}
-"""The agents' gamma in each domain."""
+DEFAULT_ALGORITHM = a3c.A3CConfig.algorithm
+"""The paper's."""
 
-_HEAVIER = a3c.A3CConfig(discount=DISCOUNT["which_is_heavier"], envs_per_worker=128, trace=0.98, observation_scale=80.0)
-# Simulation is what a tower costs, not learning: smaller updates and more of them. Blocks move by their own size.
-_TOWERS = a3c.A3CConfig(
-    discount=DISCOUNT["towers"],
-    envs_per_worker=32,
-    learning_rate=3e-3,
-    trace=0.5,
-    entropy_cost=0.01,
-    final_entropy_cost=0.001,
-    observation_scale=10.0,
-)
-# Every frame passes the convolutions, which is what pixels cost: small updates, and no frame more than is needed.
-_HEAVIER_PIXELS = a3c.A3CConfig(
-    discount=DISCOUNT["which_is_heavier"],
-    frames=500_000,
-    envs_per_worker=64,
-    learning_rate=1e-3,
-    trace=0.9,
-    observation_scale=8.0,
-)
-_TOWERS_PIXELS = a3c.A3CConfig(
-    discount=DISCOUNT["towers"],
-    envs_per_worker=32,
-    learning_rate=1e-3,
-    trace=0.5,
-    entropy_cost=0.01,
-    final_entropy_cost=0.001,
-    observation_scale=16.0,
-)
+_OF_FORMAT_1 = ("difficulty", "control_timestep")  # Fields that now are in `task_kwargs`; null for the task's default.
 
 
-def _prior(num_interactions: int, label: float) -> tuple[float, ...]:
-    """Interactions first: an episode that ends before the tower is touched teaches nothing but luck."""
-    return (0.0,) * num_interactions + (label,) * 5
-
-
-# Only hits teach labels. A fist that moves at random hits the tower ten times in a thousand frames; one that prefers
-# +x, where the tower is, forty times. Until labels are known, what moves seem worth is noise, which carries the fist
-# off unless entropy relative to this preference holds it.
-_FIST = (1.0, *_prior(3, -2.0))
-
-A3C = {
-    ("which_is_heavier", "features"): _HEAVIER,
-    ("which_is_heavier", "pixels"): _HEAVIER_PIXELS,
-    ("towers", "direct_features"): _TOWERS.replace(frames=1_000_000, action_prior=_prior(20, -1.0)),
-    ("towers", "fist_features"): _TOWERS.replace(
-        frames=400_000, action_prior=_FIST, entropy_cost=0.05, relative_entropy=True
-    ),
-    ("towers", "direct_pixels"): _TOWERS_PIXELS.replace(frames=400_000, action_prior=_prior(20, -1.0)),
-    # Small steps, of the values' loss hardly any, keep 3136 inputs from saturating the LSTM before labels are known. A
-    # trace of 0 keeps the luck of answers out of what moves seem worth.
-    ("towers", "fist_pixels"): _TOWERS_PIXELS.replace(
-        frames=600_000,
-        action_prior=_FIST,
-        learning_rate=3e-4,
-        trace=0.0,
-        baseline_cost=0.05,
-        entropy_cost=0.1,
-        relative_entropy=True,
-    ),
-}
-"""The default configuration of each task's A3C; `docs/performance.md` says how they were found."""
-
-
-def _ppo(preset: a3c.A3CConfig, **changes) -> ppo.PPOConfig:
-    """Returns PPO's preset: the hyperparameters of the task's A3C that both have, with changes."""
-    shared = {field.name: getattr(preset, field.name) for field in dataclasses.fields(agent_config.AgentConfig)}
-    return ppo.PPOConfig(**{**shared, **changes})
-
-
-# Never to answer a tower is worth as much as to answer at random. Several steps on one round get there before anything
-# has been learned, unless the entropy holds them back: more of it for the fist, whose hits are rare at first. It counts
-# beside advantages that are standardized, which A3C's are not. From pixels, steps of 3e-4 taught nothing.
-PPO = {
-    ("which_is_heavier", "features"): _ppo(_HEAVIER, frames=1_500_000, learning_rate=3e-3),
-    ("which_is_heavier", "pixels"): _ppo(_HEAVIER_PIXELS, learning_rate=5e-4, num_environments=64),
-    **{
-        ("towers", task): _ppo(
-            A3C["towers", task],
-            learning_rate=learning_rate,
-            entropy_cost=entropy_cost,
-            num_environments=32,
-            num_minibatches=2,
-        )
-        for task, learning_rate, entropy_cost in (
-            ("direct_features", 1e-3, 0.05),
-            ("direct_pixels", 1e-4, 0.05),
-            ("fist_features", 1e-3, 0.1),
-            ("fist_pixels", 5e-5, 1.0),
-        )
-    },
-}
-"""The default configuration of each task's PPO."""
-
-_PRESETS: Mapping[str, Mapping[tuple[str, str], agent_config.AgentConfig]] = {"a3c": A3C, "ppo": PPO}
-
-
-def preset(domain: str = "", task: str = "", *, algorithm: str = "a3c") -> agent_config.AgentConfig:
-    """The default configuration of a task's agent; the algorithm's own for a task without a preset."""
-    return _PRESETS[algorithm].get((domain, task)) or ALGORITHMS[algorithm]()
+def preset(domain: str = "", task: str = "", *, algorithm: str = DEFAULT_ALGORITHM) -> agent_config.AgentConfig:
+    """Returns the configuration to train a task's agent with; without a preset, the algorithm's defaults."""
+    known = domains.find(domain)
+    found = known.presets.get(task, {}).get(algorithm)
+    return found or ALGORITHMS[algorithm](discount=known.discount)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -130,31 +40,29 @@ class TrainConfig:
     Attributes:
       domain: the domain's name.
       task: the task's name.
-      difficulty: the paper's beta, for Which is Heavier only; None for the task's default.
-      control_timestep: time between actions, s; None for the task's default.
+      task_kwargs: the `task_kwargs` of `suite.load` that were chosen, without the seed: numbers, texts or flags.
       replay_every: environment steps between replays that training writes; 0 for none.
       agent: the agent's configuration.
 
     Raises:
-      ValueError: if `replay_every` is no integer >= 0.
+      ValueError: if `task_kwargs` holds anything else, or `replay_every` is no integer >= 0.
     """
 
     domain: str
     task: str
-    difficulty: float | None = None
-    control_timestep: float | None = None
+    task_kwargs: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)  # A dictionary has no hash.
     replay_every: int = 0
     agent: agent_config.AgentConfig
 
     def __post_init__(self):
         if not isinstance(self.replay_every, int) or isinstance(self.replay_every, bool) or self.replay_every < 0:
             raise ValueError(f"replay_every is {self.replay_every!r}; give an integer >= 0")
-
-    @property
-    def task_kwargs(self) -> dict:
-        """The `task_kwargs` of `suite.load` that were chosen, without the seed."""
-        chosen = {"difficulty": self.difficulty, "control_timestep": self.control_timestep}
-        return {name: value for name, value in chosen.items() if value is not None}
+        if not isinstance(self.task_kwargs, Mapping):
+            raise ValueError(f"task_kwargs is {self.task_kwargs!r}; give a dictionary")
+        for name, value in self.task_kwargs.items():
+            if not isinstance(name, str) or not isinstance(value, (int, float, str)):
+                raise ValueError(f"task_kwargs has {name!r}: {value!r}; give numbers, texts or flags by name")
+        object.__setattr__(self, "task_kwargs", dict(self.task_kwargs))  # One's own: nobody else changes it.
 
     @property
     def task_name(self) -> str:
@@ -162,19 +70,34 @@ class TrainConfig:
         return f"{self.domain}/{self.task}"
 
     @property
+    def label(self) -> str:
+        """The short name of what is trained, as in `10-F`."""
+        return domains.find(self.domain).label(self.task, self.task_kwargs)
+
+    @property
     def name(self) -> str:
         """A name for the run's folder."""
-        difficulty = "" if self.difficulty is None else f"-difficulty{self.difficulty:g}"
-        algorithm = "" if isinstance(self.agent, a3c.A3CConfig) else f"-{self.agent.algorithm}"
+        options = "".join(f"-{name}{shown(value)}" for name, value in sorted(self.task_kwargs.items()))
+        algorithm = "" if self.agent.algorithm == DEFAULT_ALGORITHM else f"-{self.agent.algorithm}"
         discount = f"-discount{self.agent.discount:g}"
-        return f"{self.domain}-{self.task}{difficulty}{algorithm}{discount}-seed{self.agent.seed}"
+        return f"{self.domain}-{self.task}{options}{algorithm}{discount}-seed{self.agent.seed}"
 
     def to_json(self) -> dict:
+        """Returns the fields as JSON has them; `from_json` makes an equal configuration of them."""
         fields = dataclasses.asdict(self)
         return {**fields, "agent": {"algorithm": self.agent.algorithm, **fields["agent"]}}
 
     @classmethod
     def from_json(cls, fields: dict) -> "TrainConfig":
+        """Returns the configuration that `to_json`, of this version or an earlier one, has written."""
         agent = {**fields["agent"], "action_prior": tuple(fields["agent"].get("action_prior", ()))}  # JSON has lists.
-        algorithm = ALGORITHMS[agent.pop("algorithm", "a3c")]
-        return cls(**{**fields, "agent": algorithm(**agent)})
+        algorithm = ALGORITHMS[agent.pop("algorithm", DEFAULT_ALGORITHM)]
+        chosen = {name: fields[name] for name in _OF_FORMAT_1 if fields.get(name) is not None}
+        others = {name: value for name, value in fields.items() if name not in _OF_FORMAT_1}
+        task_kwargs = {**chosen, **fields.get("task_kwargs", {})}
+        return cls(**{**others, "task_kwargs": task_kwargs, "agent": algorithm(**agent)})
+
+
+def shown(value: Any) -> str:
+    """Returns an option's value as it is in names and on the command line."""
+    return f"{value:g}" if isinstance(value, (int, float)) and not isinstance(value, bool) else str(value)

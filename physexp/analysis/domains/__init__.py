@@ -1,0 +1,15 @@
+"""The domains, as the analysis sees them; one that is not here has the defaults of `base.Domain`."""
+
+from physexp.analysis.domains import base, towers, which_is_heavier
+
+__all__ = ["DOMAINS", "find"]
+
+_MODULES = (which_is_heavier, towers)
+
+DOMAINS = {module.DOMAIN.name: module.DOMAIN for module in _MODULES}
+"""All domains that have more than defaults, by name."""
+
+
+def find(domain_name: str) -> base.Domain:
+    """Returns what the analysis knows of a domain: the defaults, for one that it was not told of."""
+    return DOMAINS.get(domain_name) or base.Domain(name=domain_name)

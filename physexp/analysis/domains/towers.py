@@ -1,0 +1,77 @@
+"""Towers, as the analysis sees it: presets of its agents, and the paper's names of its conditions."""
+
+from physexp.agents.a3c import config as a3c
+from physexp.agents.ppo import config as ppo
+from physexp.analysis.domains import base
+
+_DISCOUNT = 0.98
+_NUM_LABELS = 5
+
+# Simulation is what a tower costs, not learning: small updates and many of them. Blocks move by their own size.
+_FEATURES = a3c.A3CConfig(
+    discount=_DISCOUNT,
+    envs_per_worker=32,
+    learning_rate=3e-3,
+    trace=0.5,
+    entropy_cost=0.01,
+    final_entropy_cost=0.001,
+    observation_scale=10.0,
+)
+_PIXELS = _FEATURES.replace(learning_rate=1e-3, observation_scale=16.0)
+
+
+def _prior(num_interactions: int, label: float) -> tuple[float, ...]:
+    """Interactions first: an episode that ends before the tower is touched teaches nothing but luck."""
+    return (0.0,) * num_interactions + (label,) * _NUM_LABELS
+
+
+_DIRECT = _prior(20, -1.0)
+# Only hits teach labels. A fist that moves at random hits the tower ten times in a thousand frames; one that prefers
+# +x, where the tower is, forty times. Until labels are known, what moves seem worth is noise, which carries the fist
+# off unless entropy relative to this preference holds it.
+_FIST = (1.0, *_prior(3, -2.0))
+
+_A3C = {
+    "direct_features": _FEATURES.replace(frames=1_000_000, action_prior=_DIRECT),
+    "fist_features": _FEATURES.replace(frames=400_000, action_prior=_FIST, entropy_cost=0.05, relative_entropy=True),
+    "direct_pixels": _PIXELS.replace(frames=400_000, action_prior=_DIRECT),
+    # Small steps, of the values' loss hardly any, keep 3136 inputs from saturating the LSTM before labels are known. A
+    # trace of 0 keeps the luck of answers out of what moves seem worth.
+    "fist_pixels": _PIXELS.replace(
+        frames=600_000,
+        action_prior=_FIST,
+        learning_rate=3e-4,
+        trace=0.0,
+        baseline_cost=0.05,
+        entropy_cost=0.1,
+        relative_entropy=True,
+    ),
+}
+
+
+def _ppo(task: str, learning_rate: float, entropy_cost: float) -> ppo.PPOConfig:
+    return base.ppo_like(
+        _A3C[task],
+        learning_rate=learning_rate,
+        entropy_cost=entropy_cost,
+        num_environments=32,
+        num_minibatches=2,
+    )
+
+
+# Never to answer a tower is worth as much as to answer at random. Several steps on one round get there before anything
+# has been learned, unless the entropy holds them back: more of it for the fist, whose hits are rare at first. It counts
+# beside advantages that are standardized, which A3C's are not. From pixels only small steps learn.
+_PPO = {
+    "direct_features": _ppo("direct_features", 1e-3, 0.05),
+    "direct_pixels": _ppo("direct_pixels", 1e-4, 0.05),
+    "fist_features": _ppo("fist_features", 1e-3, 0.1),
+    "fist_pixels": _ppo("fist_pixels", 5e-5, 1.0),
+}
+
+DOMAIN = base.Domain(
+    name="towers",
+    discount=_DISCOUNT,
+    presets={task: {"a3c": _A3C[task], "ppo": _PPO[task]} for task in _A3C},
+    labels={"direct_features": "D-F", "direct_pixels": "D-P", "fist_features": "F-F", "fist_pixels": "F-P"},
+)

@@ -1,0 +1,18 @@
+"""The commands by name, in the order in which help lists them."""
+
+from physexp.cli import experiments, ideal, playing, tasks, train
+
+COMMANDS = {
+    "tasks": tasks.Tasks,
+    "train": train.Train,
+    "evaluate": playing.Evaluate,
+    "replay": playing.Replay,
+    "play": playing.Play,
+    "publish": playing.Publish,
+    "ideal": ideal.Ideal,
+    "reproduce": experiments.Reproduce,
+    "report": experiments.Report,
+    "bench": experiments.Bench,
+    "doctor": tasks.Doctor,
+    "demo": train.Demo,
+}

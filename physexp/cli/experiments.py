@@ -1,0 +1,113 @@
+"""Commands about the experiments of the paper and about speed."""
+
+import contextlib
+import dataclasses
+import json
+from pathlib import Path
+from typing import Annotated, Literal
+
+import tyro
+from tyro.conf import Positional
+
+from physexp import extras
+from physexp.analysis import bench, experiments
+from physexp.cli import printing
+from physexp.cli.arguments import OptionalAddress, OptionalInt, Switch
+
+
+@dataclasses.dataclass
+class Reproduce:
+    """Reproduce an experiment of the paper: train its agents, let them play, draw its figure, test its claims.
+
+    What is done already is not done again; what was interrupted continues where it was.
+
+    Attributes:
+      seeds: agents in each condition; by default 10 from features and 3 from pixels.
+      observations: train the agents that observe features, pixels, or all of them.
+      results_dir: the folder of all results.
+      jobs: agents trained at a time; by default one for each processor core.
+      frames: environment steps of training, for a quick trial; by default each condition's own number.
+      cluster: train on a cluster of Ray: HOST:PORT of its head; auto for the one that runs here, or else a local one.
+    """
+
+    experiment: Annotated[
+        Positional[str], tyro.conf.arg(metavar="EXPERIMENT", help=f"{', '.join(experiments.NAMES)}, or all.")
+    ]
+    seeds: OptionalInt = None
+    observations: Literal["features", "pixels", "all"] = "all"
+    results_dir: Path = Path("results")
+    jobs: OptionalInt = None
+    frames: OptionalInt = None
+    cluster: OptionalAddress = None
+
+    def run(self) -> None:
+        extras.require("matplotlib", "pandas", *(["ray"] if self.cluster is not None else []))
+        from physexp.analysis.experiments import base, conditions
+        from physexp.analysis.reproduction import reproduce
+
+        chosen = reproduce.choose(self.experiment)
+        with contextlib.ExitStack() as stack:
+            submit = None
+            if self.cluster is not None:
+                from physexp.analysis.reproduction import cluster
+
+                stack.enter_context(cluster.joined(self.cluster))
+                submit = cluster.submit
+            reproduce.run(
+                chosen,
+                base.Results(self.results_dir),
+                observations=conditions.OBSERVATIONS if self.observations == "all" else (self.observations,),
+                num_seeds=self.seeds,
+                num_processes=self.jobs,
+                frames=self.frames,
+                submit=submit,
+                report=printing.tell,
+            )
+
+
+@dataclasses.dataclass
+class Report:
+    """Write report.md and report.html of the stored results: every figure, and every claim with its verdict.
+
+    Attributes:
+      results_dir: where the results are.
+    """
+
+    results_dir: Path = Path("results")
+
+    def run(self) -> None:
+        extras.require("matplotlib", "pandas")
+        from physexp.analysis.experiments import base
+        from physexp.analysis.reproduction import report
+
+        print(report.write(base.Results(self.results_dir), printing.tell))
+
+
+@dataclasses.dataclass
+class Bench:
+    """Measure speed and the trained agents, each figure beside what it is compared with.
+
+    Attributes:
+      sections: what to measure; all but learning by default, since learning takes hours.
+      results_dir: where the results of the experiments are, or go, for the learning figures.
+      json: print JSON.
+    """
+
+    sections: Annotated[
+        Positional[tuple[Literal[tuple(bench.SECTIONS)], ...]],  # type: ignore[valid-type]
+        tyro.conf.arg(metavar="[SECTION ...]"),
+    ] = bench.DEFAULT
+    results_dir: Path = Path("results")
+    json: Switch = False
+
+    def run(self) -> None:
+        extras.require(*dict.fromkeys(module for section in self.sections for module in bench.SECTIONS[section]))
+        from physexp.analysis.bench import measuring
+
+        rows = []
+        for row in measuring.run(self.sections, self.results_dir):
+            rows.append(row)
+            if not self.json:
+                print(measuring.line(row), flush=True)
+        if self.json:
+            print(json.dumps(rows, indent=1))

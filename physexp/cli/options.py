@@ -1,0 +1,107 @@
+"""The options of a domain on the command line, made from its `Options` class as an agent's are from its configuration.
+
+The domain, and with it the suite, is imported only where the arguments name one.
+"""
+
+from collections.abc import Sequence
+import dataclasses
+import inspect
+import re
+from typing import Annotated, Any, TypeVar, get_type_hints
+
+import tyro
+
+from physexp.analysis.training import config as config_lib
+
+_NOT_OFFERED = ("random", "visualize_reward")  # The seed is an option of commands; a terminal shows no floor.
+_METAVARS = {float: "FLOAT", int: "INT", str: "TEXT"}
+
+
+@dataclasses.dataclass
+class NoOptions:
+    """What is chosen where no domain is named."""
+
+
+Options = TypeVar("Options")
+
+
+def of_domain(words: Sequence[str]) -> list[str]:
+    """Returns the domains whose options go with a command's words, of which the first is a domain."""
+    return list(words[:1])
+
+
+def of_agent(words: Sequence[str]) -> list[str]:
+    """Returns the domains whose options go with a command's words, of which the first is a trained agent.
+
+    A run's folder does not say what it holds before it is read: any domain's options go with it, and are compared with
+    its own when it is.
+    """
+    from physexp import suite
+
+    domain = words[0].partition("/")[0] if words else None
+    known = list(suite.TASKS_BY_DOMAIN) if words else []
+    return [domain] if domain in known else known
+
+
+def offered(domain_names: Sequence[str]) -> dict[str, list[dataclasses.Field]]:
+    """Returns the options that the command line has of some domains, by name: the fields in each of them.
+
+    Raises:
+      ValueError: for an unknown domain; it lists those that there are.
+    """
+    if not domain_names:
+        return {}
+    from physexp import suite
+
+    found: dict[str, list[dataclasses.Field]] = {}
+    for domain_name in domain_names:
+        for field in dataclasses.fields(suite.options(domain_name)):
+            if field.name not in _NOT_OFFERED:
+                found.setdefault(field.name, []).append(field)
+    return found
+
+
+def make(domain_names: Sequence[str], default: str | None = None) -> type:
+    """Returns a dataclass of the options of some domains, each None until it is chosen.
+
+    Args:
+      domain_names: the domains.
+      default: what holds where nothing is chosen, in words; None for the domain's own.
+
+    Raises:
+      ValueError: as `offered`.
+    """
+    names = offered(domain_names)
+    if not names:
+        return NoOptions
+    from physexp import suite
+
+    kinds: dict[str, Any] = {}
+    texts: dict[str, str] = {}
+    for domain_name in domain_names:
+        options = suite.options(domain_name)
+        kinds |= get_type_hints(options)
+        texts |= _descriptions(options)
+    fields = []
+    for name, (field, *_) in names.items():
+        shown = config_lib.shown(field.default) if default is None else default
+        argument = tyro.conf.arg(
+            metavar=_METAVARS.get(kinds[name]), help=texts.get(name, ""), help_behavior_hint=f"(default: {shown})"
+        )
+        fields.append((name, Annotated[kinds[name] | None, argument], dataclasses.field(default=None)))
+    return dataclasses.make_dataclass("DomainOptions", fields)
+
+
+def chosen(options: Any) -> dict[str, Any]:
+    """Returns the `task_kwargs` that were chosen on the command line."""
+    return {name: value for name, value in dataclasses.asdict(options).items() if value is not None}
+
+
+def _descriptions(kind: type) -> dict[str, str]:
+    """Returns what the docstrings of a dataclass and of its bases say of their attributes."""
+    found = {}
+    for base in reversed(kind.__mro__):
+        _, _, section = inspect.cleandoc(base.__doc__ or "").partition("Attributes:\n")
+        for name, text in re.findall(r"^  (\w+): (.*(?:\n    .*)*)", section, re.MULTILINE):
+            found[name] = " ".join(text.split())
+    return found

@@ -1,0 +1,143 @@
+"""Commands that play episodes."""
+
+import dataclasses
+from pathlib import Path
+from typing import Annotated, ClassVar, Generic, Literal
+
+import tyro
+from tyro.conf import OmitArgPrefixes, Positional
+
+from physexp.agents import config as agent_config
+from physexp.cli import options as options_lib
+from physexp.cli import printing
+from physexp.cli.arguments import Agent, Domain, OptionalAgent, OptionalInt, OptionalPath, Switch, Task
+
+
+@dataclasses.dataclass
+class Evaluate(Generic[options_lib.Options]):
+    """Play episodes with a trained agent and measure how well it answers.
+
+    Attributes:
+      options: what the agent is to have been trained with.
+      episodes: how many to play.
+      interaction: learned, or random: interaction actions are replaced by uniformly drawn ones (paper, Section 5.3).
+      greedy: take the likeliest action instead of drawing one.
+      device: where convolutions are computed: cpu, cuda, or auto for the GPU where there is one.
+      seed: of the environments and the actions; by default one that training never uses.
+      json: print JSON.
+    """
+
+    domains_of: ClassVar = staticmethod(options_lib.of_agent)
+
+    target: Agent
+    options: OmitArgPrefixes[options_lib.Options]
+    episodes: int = 1000
+    interaction: Literal["learned", "random"] = "learned"
+    greedy: Switch = False
+    device: agent_config.Device = "auto"
+    seed: OptionalInt = None
+    json: Switch = False
+
+    def run(self) -> None:
+        from physexp.analysis.evaluation import playing
+        from physexp.analysis.training import progress
+
+        network, config = playing.find_agent(self.target, options_lib.chosen(self.options))
+        seed = playing.SEED if self.seed is None else self.seed
+        with progress.bar("episodes", self.episodes) as show:
+            played = playing.play(
+                network, config, self.episodes, self.interaction, self.greedy, seed, device=self.device, report=show
+            )
+        printing.show(played.summary(config.agent.discount), self.json)
+
+
+@dataclasses.dataclass
+class Replay(Generic[options_lib.Options]):
+    """Write episodes of a trained agent for the rerun viewer: the scene, what the agent saw, believed and did.
+
+    Attributes:
+      compare: another one, to be shown side by side on the same instances.
+      options: what the agent is to have been trained with.
+      episodes: how many.
+      output: the file; by default replay.rrd.
+      interaction: learned, or random: interaction actions are replaced by uniformly drawn ones (paper, Section 5.3).
+      select: any, or those that are wrong or right, the longest, or the hardest.
+      seed: of the environments and the actions; by default one that training never uses.
+      view: open the viewer afterwards.
+      web: open the viewer in a browser afterwards.
+    """
+
+    domains_of: ClassVar = staticmethod(options_lib.of_agent)
+
+    target: Agent
+    options: OmitArgPrefixes[options_lib.Options]
+    compare: OptionalAgent = None
+    episodes: int = 4
+    output: Path = Path("replay.rrd")
+    interaction: Literal["learned", "random"] = "learned"
+    select: Literal["any", "wrong", "right", "longest", "hardest"] = "any"
+    seed: OptionalInt = None
+    view: Switch = False
+    web: Switch = False
+
+    def run(self) -> None:
+        from physexp.analysis import replay
+        from physexp.analysis.evaluation import playing
+
+        if self.view:
+            replay.check_display()
+        seed = playing.SEED if self.seed is None else self.seed
+        targets = [self.target] if self.compare is None else [self.target, self.compare]
+        chosen = options_lib.chosen(self.options)
+        path = replay.replay(
+            targets, self.episodes, self.output, self.interaction, self.select, seed, printing.tell, chosen
+        )
+        print(path)
+        if self.view or self.web:
+            replay.view(path, self.web, printing.tell)
+
+
+@dataclasses.dataclass
+class Play(Generic[options_lib.Options]):
+    """Play yourself, in the terminal (features need no OpenGL), beside the ideal experimenter and a trained agent.
+
+    Attributes:
+      options: what the domain lets choose.
+      seed: of the environment; by default one from the operating system.
+      view: show the scene in rerun's viewer as well, where there is a display.
+    """
+
+    domains_of: ClassVar = staticmethod(options_lib.of_domain)
+
+    domain: Domain
+    task: Task
+    options: OmitArgPrefixes[options_lib.Options]
+    seed: OptionalInt = None
+    view: Switch = False
+
+    def run(self) -> None:
+        from physexp.analysis import play
+
+        play.play(self.domain, self.task, options_lib.chosen(self.options), self.seed, self.view)
+
+
+@dataclasses.dataclass
+class Publish:
+    """Save a run's agent, in half precision with a model card, as one that `physexp.agents.load_pretrained` returns.
+
+    Attributes:
+      run_dir: the folder of a run.
+      output_dir: where the agent and its model card go; by default into the package.
+      episodes: how many to play for the evaluation on the card.
+    """
+
+    run_dir: Annotated[Positional[Path], tyro.conf.arg(metavar="RUN")]
+    output_dir: OptionalPath = None
+    episodes: int = 10_000
+
+    def run(self) -> None:
+        from physexp.agents import pretrained
+        from physexp.analysis.evaluation import publishing
+        from physexp.analysis.training import run as run_lib
+
+        print(publishing.publish(run_lib.Run(self.run_dir), self.output_dir or pretrained.FOLDER, self.episodes))

@@ -1,0 +1,60 @@
+"""What commands print: figures, tables and lines, for people or as JSON."""
+
+import io
+import json
+import sys
+
+
+def warn(line: str) -> None:
+    """Prints a line to standard error."""
+    print(line, file=sys.stderr, flush=True)
+
+
+def tell(line: str) -> None:
+    """Prints a line to standard output at once."""
+    print(line, flush=True)
+
+
+def show(figures: dict, as_json: bool) -> None:
+    """Prints figures by name, a line each."""
+    if as_json:
+        print(json.dumps(figures, indent=1))
+    else:
+        _print_table([{"": name, " ": value} for name, value in figures.items()], show_header=False)
+
+
+def show_rows(rows: list[dict], as_json: bool) -> None:
+    """Prints rows with the same columns."""
+    if as_json:
+        print(json.dumps(rows, indent=1))
+    else:
+        _print_table(rows, show_header=True)
+
+
+def _print_table(rows: list[dict], show_header: bool) -> None:
+    """Prints rows as a table; elsewhere than on a terminal, a row is a line however long it is."""
+    from rich import console, table
+
+    grid = table.Table(box=None, show_header=show_header, header_style="bold", pad_edge=False, padding=(0, 2, 0, 0))
+    for name in rows[0]:
+        grid.add_column(name, overflow="fold")
+    for row in rows:
+        grid.add_row(*map(_text, row.values()))
+    terminal = console.Console(markup=False, highlight=False)
+    if terminal.is_terminal:
+        terminal.print(grid)
+        return
+    endless = console.Console(markup=False, highlight=False, width=1_000_000, file=io.StringIO())
+    with endless.capture() as captured:
+        endless.print(grid)
+    print("\n".join(line.rstrip() for line in captured.get().splitlines()))
+
+
+def _text(value) -> str:
+    if isinstance(value, float):
+        return f"{value:.4f}"
+    if isinstance(value, dict):
+        return "  ".join(f"{key}: {_text(item)}" for key, item in value.items())
+    if isinstance(value, (list, tuple)):
+        return " to ".join(_text(item) for item in value)
+    return str(value)

@@ -1,0 +1,123 @@
+"""Commands that train an agent."""
+
+from collections.abc import Callable
+import contextlib
+import dataclasses
+from pathlib import Path
+import shlex
+from typing import ClassVar, Generic, Literal, TypeVar
+
+from tyro.conf import OmitArgPrefixes
+
+from physexp import extras
+from physexp.agents import config as agent_config
+from physexp.analysis.training import config as config_lib
+from physexp.cli import options as options_lib
+from physexp.cli import printing
+from physexp.cli.arguments import Domain, OptionalAddress, OptionalPath, Switch, Task
+
+Config = TypeVar("Config", bound=agent_config.AgentConfig)
+
+
+@dataclasses.dataclass
+class Train(Generic[Config, options_lib.Options]):
+    """Train an agent; `--agent AGENT --help` shows the options of another one.
+
+    Attributes:
+      options: what the domain lets choose.
+      replay_every: environment steps between replays, which go into the run's folder; 0 for none.
+      agent: the learner; a3c is the paper's.
+      config: the agent's hyperparameters.
+      run_dir: the run's folder; by default one named after the run, under runs/.
+      tensorboard: write the metrics for TensorBoard too.
+      resume: continue the run in that folder, with its own configuration.
+      cluster: train on a cluster of Ray: HOST:PORT of its head; auto for the one that runs here, or else a local one.
+    """
+
+    domains_of: ClassVar = staticmethod(options_lib.of_domain)
+
+    domain: Domain
+    task: Task
+    options: OmitArgPrefixes[options_lib.Options]
+    config: OmitArgPrefixes[Config]
+    agent: Literal[tuple(config_lib.ALGORITHMS)] = config_lib.DEFAULT_ALGORITHM  # type: ignore[valid-type]
+    replay_every: int = config_lib.REPLAY_EVERY
+    run_dir: OptionalPath = None
+    tensorboard: Switch = False
+    resume: Switch = False
+    cluster: OptionalAddress = None
+
+    def run(self) -> None:
+        needed = {"ray": self.cluster is not None, "tensorboard": self.tensorboard}
+        extras.require(*(module for module, is_needed in needed.items() if is_needed))
+        from physexp.analysis.training import progress, trainer, verdict
+        from physexp.analysis.training import run as run_lib
+
+        config = config_lib.TrainConfig(
+            domain=self.domain,
+            task=self.task,
+            task_kwargs=options_lib.chosen(self.options),
+            replay_every=self.replay_every,
+            agent=self.config,
+        )
+        run = run_lib.Run(self.run_dir or Path("runs") / config.name)
+        if self.resume:
+            config = run.config
+            if (config.domain, config.task) != (self.domain, self.task):
+                raise ValueError(f"{run.path} holds a run of {config.domain}/{config.task}; name that task")
+        trainer.check(config, self.cluster is not None)
+        try:
+            with contextlib.ExitStack() as stack:
+                stack.enter_context(run.locked())
+                run.check_resumable() if self.resume else run.check_new()
+                if self.cluster is not None:
+                    from physexp.analysis.reproduction import cluster
+
+                    stack.enter_context(cluster.joined(self.cluster))
+                logs: list[Callable[[dict], None]] = [stack.enter_context(progress.Progress(config))]
+                if self.tensorboard:
+                    from physexp.analysis.training import tensorboard
+
+                    logs.append(stack.enter_context(tensorboard.TensorBoard(run)))
+
+                def report(row: dict) -> None:
+                    for log in logs:
+                        log(row)
+
+                trainer.train(run, report, self.cluster is not None, printing.warn, None if self.resume else config)
+        except KeyboardInterrupt:
+            self._tell_how_to_go_on(run)
+            raise
+        if problem := verdict.of_run(run):
+            printing.warn(f"{problem}\n{verdict.advice(config)}")
+        print(run.path)
+
+    def _tell_how_to_go_on(self, run) -> None:
+        """Names the last checkpoint of a run that was interrupted, and the command that goes on from it."""
+        paths = run.checkpointer.paths()
+        if not paths:
+            printing.warn(f"there is no checkpoint in {run.path} yet: the same command starts anew")
+            return
+        words = ["physexp", "train", self.domain, self.task, "--run-dir", str(run.path), "--resume"]
+        words += ["--cluster", self.cluster] if self.cluster is not None else []
+        words += ["--tensorboard"] if self.tensorboard else []
+        printing.warn(
+            f"the checkpoint after {int(paths[-1].stem):,} frames: {paths[-1]}\nto go on: {shlex.join(words)}"
+        )
+
+
+@dataclasses.dataclass
+class Demo:
+    """Train an agent for a minute or two, and compare it with randomized interaction.
+
+    Attributes:
+      run_dir: the folder of the run; what it held before is replaced.
+    """
+
+    run_dir: Path = Path("runs/demo")
+
+    def run(self) -> None:
+        extras.require("matplotlib")
+        from physexp.analysis import demo
+
+        demo.run(self.run_dir)
