@@ -9,10 +9,14 @@ from unittest import mock
 from docutils import nodes
 from sphinx.util.docutils import SphinxDirective
 
-from physexp import cli
+from physexp import cli, suite
+from physexp.analysis.training import config
 
 WIDTH = 88  # Columns; more would not fit on a page.
-_VARIANTS = {"train": [[], ["--agent", "ppo"]]}
+_VARIANTS = {
+    "train": [["--agent", algorithm] for algorithm in config.ALGORITHMS],
+    "play": [[], *([domain] for domain in suite.TASKS_BY_DOMAIN)],
+}
 """Commands whose options depend on their arguments."""
 
 

@@ -36,15 +36,16 @@ def of_agent(words: Sequence[str]) -> list[str]:
     A run's folder does not say what it holds before it is read: any domain's options go with it, and are compared with
     its own when it is.
     """
+    if not words:
+        return []
     from physexp import suite
 
-    domain = words[0].partition("/")[0] if words else None
-    known = list(suite.TASKS_BY_DOMAIN) if words else []
-    return [domain] if domain in known else known
+    domain = words[0].partition("/")[0]
+    return [domain] if domain in suite.TASKS_BY_DOMAIN else list(suite.TASKS_BY_DOMAIN)
 
 
-def offered(domain_names: Sequence[str]) -> dict[str, list[dataclasses.Field]]:
-    """Returns the options that the command line has of some domains, by name: the fields in each of them.
+def offered(domain_names: Sequence[str]) -> dict[str, dataclasses.Field]:
+    """Returns the options that the command line has of some domains, by name: the field in the first that has it.
 
     Raises:
       ValueError: for an unknown domain; it lists those that there are.
@@ -53,11 +54,11 @@ def offered(domain_names: Sequence[str]) -> dict[str, list[dataclasses.Field]]:
         return {}
     from physexp import suite
 
-    found: dict[str, list[dataclasses.Field]] = {}
+    found: dict[str, dataclasses.Field] = {}
     for domain_name in domain_names:
         for field in dataclasses.fields(suite.options(domain_name)):
             if field.name not in _NOT_OFFERED:
-                found.setdefault(field.name, []).append(field)
+                found.setdefault(field.name, field)
     return found
 
 
@@ -83,7 +84,7 @@ def make(domain_names: Sequence[str], default: str | None = None) -> type:
         kinds |= get_type_hints(options)
         texts |= _descriptions(options)
     fields = []
-    for name, (field, *_) in names.items():
+    for name, field in names.items():
         shown = config_lib.shown(field.default) if default is None else default
         argument = tyro.conf.arg(
             metavar=_METAVARS.get(kinds[name]), help=texts.get(name, ""), help_behavior_hint=f"(default: {shown})"
