@@ -2,6 +2,7 @@
 
 import signal
 
+import commands
 import pytest
 
 from physexp.agents.a3c import config as a3c
@@ -14,6 +15,31 @@ from physexp.analysis.training import trainer
 for _number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
     if signal.getsignal(_number) is signal.SIG_IGN:
         signal.signal(_number, signal.default_int_handler if _number == signal.SIGINT else signal.SIG_DFL)
+
+
+# Imports of torch and MuJoCo take seconds of each process that is spawned. What a real `physexp` spawns imports them
+# as ever, in the tests that start one.
+commands.spawn_quickly()
+
+
+LONGEST = {
+    "test_cluster",
+    "test_determinism",
+    "test_docs",
+    "test_faults",
+    "test_kills",
+    "test_learning_beats_chance",
+    "test_readme",
+    "test_replay",
+    "test_reproduce",
+    "test_soak",
+}
+"""Files with tests that take long."""
+
+
+def pytest_collection_modifyitems(items):
+    """Has these begin first: what two processes take from each other in the end is short."""
+    items.sort(key=lambda item: item.path.stem not in LONGEST)
 
 
 @pytest.fixture

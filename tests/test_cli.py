@@ -26,7 +26,7 @@ PHYSEXP = Path(sys.executable).with_name("physexp")
 
 def physexp(*arguments):
     """Runs the command in a process of its own; returns it, finished."""
-    return subprocess.run([PHYSEXP, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    return subprocess.run([PHYSEXP, *map(str, arguments)], capture_output=True, text=True, check=False)
 
 
 @dataclasses.dataclass
@@ -96,7 +96,7 @@ def test_help_imports_nothing_heavy():
         "except SystemExit: pass\n"
         "print([name for name in ('torch', 'mujoco', 'dm_control', 'scipy', 'pyarrow') if name in sys.modules])"
     )
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=True)
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "[]"
 
 
@@ -481,5 +481,5 @@ def test_a_reader_that_has_seen_enough_is_no_error_of_ours(arguments):
     with subprocess.Popen([PHYSEXP, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         process.stdout.close()  # As `head` does.
         process.stdout = None
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate()
     assert errors == "" and process.returncode == 1

@@ -1,11 +1,64 @@
-"""Waiting for states, in tests; imports nothing that takes time."""
+"""Waiting for states, in tests, for as long as there is progress, however slow the machine; imports little."""
 
+import os
 import time
 
+import psutil
 
-def wait_until(condition, seconds, what):
-    """Waits for something to come true, or fails."""
-    deadline = time.monotonic() + seconds
+IDLE_SECONDS = 60.0
+"""How long processes may do nothing at all before what is waited for does not come any more."""
+
+BUSY_SECONDS = 600.0
+"""How much processor time they may use: a limit that no other process on the machine brings nearer."""
+
+
+class Patience:
+    """Watches a process and its descendants; over when they have done nothing for long, or very much in vain."""
+
+    def __init__(self, pid: int | None = None, idle_seconds: float = IDLE_SECONDS, busy_seconds: float = BUSY_SECONDS):
+        """Watches `pid` and its descendants; by default all descendants of this process."""
+        self._pid, self._idle_seconds, self._busy_seconds = pid, idle_seconds, busy_seconds
+        self._used: dict[int, float] = {}
+        self._look()
+        self._first, self._last_progress = self._total(), time.monotonic()
+        self._next_look = self._last_progress + 1.0
+
+    def is_over(self) -> bool:
+        """Whether there is no hope left; looks at the processes once a second."""
+        now = time.monotonic()
+        if now < self._next_look:
+            return False
+        before = self._total()
+        self._look()
+        if self._total() > before + 0.03 * (now - self._next_look + 1.0):  # Less is but waking up to look around.
+            self._last_progress = now
+        self._next_look = now + 1.0
+        return now - self._last_progress > self._idle_seconds or self._total() - self._first > self._busy_seconds
+
+    def __str__(self):
+        idle = time.monotonic() - self._last_progress
+        return f"{self._total() - self._first:.0f} s of processor time used, the last {idle:.0f} s ago"
+
+    def _look(self) -> None:
+        try:
+            root = psutil.Process(self._pid or os.getpid())
+            watched = root.children(recursive=True) + ([root] if self._pid else [])
+        except psutil.NoSuchProcess:
+            return
+        for process in watched:
+            try:
+                times = process.cpu_times()
+            except psutil.NoSuchProcess:
+                continue
+            self._used[process.pid] = times.user + times.system
+
+    def _total(self) -> float:
+        return sum(self._used.values())
+
+
+def wait_until(condition, what, **limits):
+    """Waits for something to come true, or fails when what this process has started does not get on (`Patience`)."""
+    patience = Patience(**limits)
     while not condition():
-        assert time.monotonic() < deadline, f"not within {seconds} s: {what}"
+        assert not patience.is_over(), f"waited in vain for {what}: {patience}"
         time.sleep(0.02)

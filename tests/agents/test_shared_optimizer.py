@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import torch
 from torch import multiprocessing
+from waiting import wait_until
 
 from physexp import suite
 from physexp.agents import acting, learning, networks
@@ -77,9 +78,16 @@ def test_two_learners_at_once_share_weights_statistics_and_counters(context):
     processes = [context.Process(target=learn_once, args=(memory, worker, results)) for worker in range(2)]
     for process in processes:
         process.start()
-    reported = [results.get(timeout=90) for _ in processes]
+    reported = []
+
+    def have_both_reported():
+        while not results.empty():
+            reported.append(results.get())
+        return len(reported) == 2
+
+    wait_until(have_both_reported, "the reports of two learners")
     for process in processes:
-        process.join(30)
+        process.join()
         assert process.exitcode == 0
     results.close()
     results.join_thread()

@@ -1,7 +1,8 @@
 """One worker, or process, is deterministic, and a killed and resumed run ends as if nothing had happened."""
 
-import time
+import signal
 
+import commands
 import numpy as np
 import pandas as pd
 import pytest
@@ -12,13 +13,15 @@ from physexp import suite
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
 
-FRAMES = 24_000  # Some seconds, with several checkpoints in each.
+CHECKPOINT_SECONDS = 0.1
+FRAMES = 8_000  # Some seconds, with several checkpoints in each.
 
 
 @pytest.fixture(scope="module", params=trainers.SMALL)
 def uninterrupted(request, tmp_path_factory):
     path = tmp_path_factory.mktemp("uninterrupted") / "run"
-    run = trainers.create(path, request.param, frames=FRAMES, seed=trainers.fresh_seed())
+    seed = trainers.fresh_seed()
+    run = trainers.create(path, request.param, frames=FRAMES, seed=seed, checkpoint_seconds=CHECKPOINT_SECONDS)
     trainer.train(run)
     return run
 
@@ -83,20 +86,37 @@ def test_the_same_seed_gives_the_same_weights_to_the_last_bit(uninterrupted, tmp
     assert_same_weights(again, uninterrupted)
 
 
+def train_until_killed(path, beyond, seconds):
+    """Trains on, and is killed some time after the first row beyond some frames, wherever it is then."""
+    run = run_lib.Run(path)
+
+    def report(row):
+        if row["frames"] > beyond and run.checkpointer.paths() and not signal.getitimer(signal.ITIMER_REAL)[0]:
+            signal.setitimer(signal.ITIMER_REAL, seconds)
+
+    signal.signal(signal.SIGALRM, signal.SIG_DFL)  # As good as SIGKILL: nobody in the process hears of it.
+    trainer.train(run, report)
+
+
 def test_a_run_killed_at_any_moment_resumes_to_the_same_weights(uninterrupted, tmp_path):
     agent = uninterrupted.config.agent
-    run = trainers.create(tmp_path / "run", agent.algorithm, frames=FRAMES, seed=agent.seed)
-    with trainers.trainer(run) as process:
-        generator = np.random.default_rng(trainers.fresh_seed())
-        beyond, delay = generator.integers(FRAMES // 3), generator.uniform(0, agent.checkpoint_seconds)
-        trainers.wait_for_checkpoint(process, run, beyond)
-        print("killed", delay, "s after the first checkpoint beyond frame", beyond)
-        time.sleep(delay)
-        assert process.poll() is None, "it has to be killed before it is done; give it more frames"
+    run = trainers.create(
+        tmp_path / "run",
+        agent.algorithm,
+        frames=FRAMES,
+        seed=agent.seed,
+        checkpoint_seconds=CHECKPOINT_SECONDS,
+    )
+    generator = np.random.default_rng(trainers.fresh_seed())
+    beyond, seconds = int(generator.integers(FRAMES // 3)), generator.uniform(1e-6, CHECKPOINT_SECONDS)
+    print("killed", seconds, "s after the first row beyond frame", beyond)
+    with commands.Process(train_until_killed, run.path, beyond, seconds) as process:
+        _, errors = process.communicate()
+    assert process.returncode == -signal.SIGALRM, errors
     reached = int(run.checkpointer.latest()[0]["frames"])
     assert 0 < reached < FRAMES
     with trainers.trainer(run) as process:
-        _, errors = process.communicate(timeout=90)
+        _, errors = process.communicate()
     assert process.returncode == 0, errors
     assert_same_weights(run, uninterrupted)
     assert_whole_records(run)

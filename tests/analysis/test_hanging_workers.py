@@ -14,6 +14,7 @@ import types
 
 import pytest
 import trainers
+from waiting import wait_until
 
 from physexp.agents.a3c import agent as a3c
 from physexp.analysis.training import trainer
@@ -44,7 +45,7 @@ def state(pid):
 def stop(pid):
     """Stops a process, and returns when it is."""
     os.kill(pid, signal.SIGSTOP)
-    trainers.wait_until(lambda: state(pid) == "T", 60, "a stopped process")
+    wait_until(lambda: state(pid) == "T", "a stopped process")
 
 
 def iterate_until(updates, condition):

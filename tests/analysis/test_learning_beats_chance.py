@@ -13,7 +13,7 @@ SHORT = {
 }
 
 
-@pytest.mark.parametrize("algorithm", SHORT)
+@pytest.mark.parametrize("algorithm", [pytest.param("a3c", marks=pytest.mark.long), "ppo"])
 def test_a_short_run_finds_the_heaviest_block_far_more_often_than_chance(algorithm, tmp_path):
     run = trainers.create(
         tmp_path / "run",

@@ -10,15 +10,16 @@ import shutil
 import signal
 import socket
 import subprocess
-import sys
 import urllib.request
 
+import commands
 import numpy as np
 from PIL import Image
 import pytest
 from rerun.chunk import RrdReader
 from scipy.spatial import transform
-from trainers import PHYSEXP, fresh_seed, wait_until
+from trainers import PHYSEXP, fresh_seed
+from waiting import wait_until
 
 from physexp import suite
 from physexp.agents import core, environment_loop
@@ -334,27 +335,24 @@ def test_an_episode_known_by_its_numbers_is_enacted_as_it_was(domain, task):
         assert (chosen > 1e-6).all()  # The beliefs are those that led to the actions.
 
 
+def write_two_of_four(path):
+    """Writes two episodes, and never comes to an end with the third."""
+
+    def group(number):
+        if number == 2:
+            signal.pause()
+        return [record("towers", "fist_features", seed=number)[0]]
+
+    groups = [functools.partial(group, number) for number in range(4)]
+    writing.write(path, groups, lambda line: print(line, flush=True))
+
+
 def test_a_process_killed_while_writing_leaves_the_earlier_episodes_readable(tmp_path):
     path = tmp_path / "replay.rrd"
-    program = f"""
-import sys, time
-sys.path[:0] = {[str(Path(__file__).parent), str(Path(__file__).parents[1])]!r}
-from pathlib import Path
-import test_replay
-from physexp.analysis.replay import writing
-
-def group(number):
-    if number == 2:
-        time.sleep(1000)
-    return [test_replay.record("towers", "fist_features", seed=number)[0]]
-
-groups = [lambda number=number: group(number) for number in range(4)]
-writing.write(Path({str(path)!r}), groups, lambda line: print(line, flush=True))
-"""
-    with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as process:
-        lines = []
-        wait_until(lambda: lines.append(process.stdout.readline()) or "2 of 4" in lines[-1], 60, "two episodes written")
-        process.send_signal(signal.SIGKILL)
+    with commands.Process(write_two_of_four, path) as process:
+        wait_until(lambda: "2 of 4" in process.stdout.so_far(), "two episodes written")
+        process.kill()
+        process.wait()
     subprocess.run([writing.PROGRAM, "rrd", "verify", path], check=True, capture_output=True)
     assert [entry.kind for entry in RrdReader(str(path)).recordings()] == ["recording"] * 2
     assert [entry.name for entry in tmp_path.iterdir()] == ["replay.rrd"]
@@ -362,21 +360,13 @@ writing.write(Path({str(path)!r}), groups, lambda line: print(line, flush=True))
 
 def test_a_full_disk_while_writing_leaves_the_earlier_episodes_and_is_one_readable_line(tmp_path):
     def write(name, count, **kwargs):
-        command = [
-            PHYSEXP,
-            "replay",
-            "which_is_heavier/features",
-            "--episodes",
-            str(count),
-            "--output",
-            tmp_path / name,
-        ]
-        return subprocess.run(command, capture_output=True, text=True, check=False, timeout=120, **kwargs)
+        options = ["--episodes", count, "--output", tmp_path / name]
+        return commands.run("replay", "which_is_heavier/features", *options, **kwargs)
 
     write("one.rrd", 1)
     # Each episode of a few pokes is about as large as the next; the kernel refuses files of two and a half.
     limit = int(2.5 * (tmp_path / "one.rrd").stat().st_size)
-    done = write("four.rrd", 4, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+    done = write("four.rrd", 4, first=functools.partial(resource.setrlimit, resource.RLIMIT_FSIZE, (limit, limit)))
     assert done.returncode == 2
     (line,) = done.stderr.splitlines()
     assert "File too large" in line
@@ -435,7 +425,7 @@ def test_the_viewer_opens_a_file_and_shows_it(tmp_path):
     command = [*screen, writing.PROGRAM, path, "--screenshot-to", picture, "--window-size", "1280x800"]
     environment = {"HOME": str(tmp_path), "PATH": "/usr/bin:/bin"}
     subprocess.run([writing.PROGRAM, "analytics", "disable"], env=environment, check=True, capture_output=True)
-    subprocess.run(command, env=environment, check=True, capture_output=True, timeout=400)
+    subprocess.run(command, env=environment, check=True, capture_output=True)
     pixels = np.asarray(Image.open(picture).convert("RGB"))
     colors, counts = np.unique(pixels.reshape(-1, 3), axis=0, return_counts=True)
     assert len(colors) > 200  # Text, curves, shaded cubes: much more than a background.
@@ -514,35 +504,26 @@ def listening(pids):
     return found
 
 
+URL = r"http://127\.0\.0\.1:\d+/\S+"
+
+
 @pytest.mark.skipif(not Path("/proc/net/tcp").exists(), reason="needs /proc")
 def test_the_viewer_in_a_browser_is_served_to_this_machine_alone_and_its_address_is_told(tmp_path):
     environment = {**os.environ, "HOME": str(tmp_path), "BROWSER": "true"}
-    output = tmp_path / "output"
-    command = [
-        PHYSEXP,
-        "replay",
-        "which_is_heavier/features",
-        "--episodes",
-        "1",
-        "--web",
-        "--output",
-        tmp_path / "one.rrd",
-    ]
-    with open(output, "w") as file:
-        process = subprocess.Popen(command, env=environment, stdout=file, stderr=file, start_new_session=True)
-    try:
-        wait_until(lambda: len(listening(viewers(tmp_path))) >= 2, 120, "two listening sockets")
+    options = ["--episodes", 1, "--web", "--output", tmp_path / "one.rrd"]
+    with commands.start(
+        "replay", "which_is_heavier/features", *options, env=environment, stderr=subprocess.STDOUT
+    ) as process:
+        wait_until(lambda: len(listening(viewers(tmp_path))) >= 2, "two listening sockets")
         assert {address for address, _ in listening(viewers(tmp_path))} == {"127.0.0.1"}
-        (url,) = re.findall(r"http://127\.0\.0\.1:\d+/\S+", output.read_text())
-        with urllib.request.urlopen(url, timeout=60) as page:
+        wait_until(lambda: re.search(URL, process.stdout.so_far()), "its address")
+        (url,) = re.findall(URL, process.stdout.so_far())
+        with urllib.request.urlopen(url, timeout=600) as page:
             assert page.status == 200
         process.send_signal(signal.SIGINT)
-        assert process.wait(60) == 0 and "Traceback" not in output.read_text()
-        wait_until(lambda: not viewers(tmp_path), 60, "the viewer to be gone")
-    finally:
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
+        assert process.wait() == 0
+        wait_until(lambda: not viewers(tmp_path), "the viewer to be gone")
+        assert "Traceback" not in process.stdout.read()
 
 
 @pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="needs xvfb-run: apt-get install xvfb mesa-vulkan-drivers")
@@ -564,10 +545,10 @@ def test_a_person_plays_beside_the_viewer_which_others_cannot_reach_and_may_be_c
         asked = output.read_text().count("action: ")
         process.stdin.write(text + "\n")
         process.stdin.flush()
-        wait_until(lambda: output.read_text().count("action: ") > asked, 120, f"the question after {text}")
+        wait_until(lambda: output.read_text().count("action: ") > asked, f"the question after {text}")
 
     try:
-        wait_until(lambda: "action: " in output.read_text(), 120, "the first question")
+        wait_until(lambda: "action: " in output.read_text(), "the first question")
         (first,) = viewers(tmp_path)
         sockets = listening([first])
         assert sockets and {address for address, _ in sockets} == {"127.0.0.1"}
@@ -575,10 +556,11 @@ def test_a_person_plays_beside_the_viewer_which_others_cannot_reach_and_may_be_c
         os.kill(first, signal.SIGKILL)  # The player closes the window.
         type_in("0")
         type_in("4")  # The next episode opens another one.
-        wait_until(lambda: set(viewers(tmp_path)) - {first}, 60, "another viewer")
+        wait_until(lambda: set(viewers(tmp_path)) - {first}, "another viewer")
         process.stdin.write("q\n")
         process.stdin.close()
-        assert process.wait(60) == 0
+        wait_until(lambda: process.poll() is not None, "the end of the game")
+        assert process.returncode == 0
         assert output.read_text().count("The answer: block") == 1 and "Traceback" not in output.read_text()
     finally:
         for pid in viewers(tmp_path):
@@ -592,27 +574,14 @@ def test_a_person_plays_beside_the_viewer_which_others_cannot_reach_and_may_be_c
 @pytest.mark.parametrize("command", [["play", "which_is_heavier", "features"], ["replay", "which_is_heavier/features"]])
 def test_without_a_display_the_viewer_is_refused_in_one_line_before_anything_is_played(command, tmp_path):
     environment = {"HOME": str(tmp_path), "PYTHONPATH": os.environ.get("PYTHONPATH", "")}
-    done = subprocess.run(
-        [PHYSEXP, *command, "--view"],
-        cwd=tmp_path,
-        env=environment,
-        input="q\n",
-        text=True,
-        capture_output=True,
-        check=False,
-    )
+    done = commands.run(*command, "--view", cwd=tmp_path, env=environment)
     assert not list(tmp_path.glob("*.rrd"))
     assert done.returncode == 2 and done.stderr.count("\n") == 1 and "no display" in done.stderr
 
 
 def test_the_command_writes_a_file_and_names_it(tmp_path):
     path = tmp_path / "some" / "file.rrd"
-    done = subprocess.run(
-        [PHYSEXP, "replay", "which_is_heavier/features", "--episodes", "2", "--output", path],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    done = commands.run("replay", "which_is_heavier/features", "--episodes", 2, "--output", path, check=True)
     assert done.stdout.splitlines()[-1] == str(path)
     assert len(RrdReader(str(path)).recordings()) == 2
 
@@ -654,6 +623,6 @@ def test_a_program_of_reruns_that_fails_or_does_not_answer_is_one_line(tmp_path,
     ],
 )
 def test_what_makes_no_sense_is_one_readable_line(arguments, message, tmp_path):
-    done = subprocess.run([PHYSEXP, "replay", *arguments], cwd=tmp_path, capture_output=True, text=True, check=False)
+    done = commands.run("replay", *arguments, cwd=tmp_path)
     assert done.returncode == 2 and message in done.stderr and done.stderr.count("\n") == 1
     assert not list(tmp_path.iterdir())

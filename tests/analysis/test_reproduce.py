@@ -1,16 +1,15 @@
 """Reproducing experiments, as a user does it: resumable, complete, and readable at the end."""
 
 import json
-import os
 import re
 import shutil
-import signal
-import subprocess
 
+import commands
 import numpy as np
 from pyarrow import parquet
 import pytest
-from trainers import PHYSEXP, group, wait_until
+from trainers import group
+from waiting import wait_until
 
 from physexp.analysis.data import records
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions
@@ -21,32 +20,15 @@ NAMES = [f"which_is_heavier-features-difficulty{beta}-discount0.95-seed0" for be
 
 
 def command(folder, frames, *more):
-    return list(
-        map(
-            str,
-            [
-                PHYSEXP,
-                "reproduce",
-                "population",
-                "--seeds",
-                1,
-                "--observations",
-                "features",
-                "--frames",
-                frames,
-                "--results-dir",
-                folder,
-                *more,
-            ],
-        )
-    )
+    options = ["--seeds", 1, "--observations", "features", "--frames", frames, "--results-dir", folder]
+    return ["reproduce", "population", *options, *more]
 
 
 @pytest.fixture(scope="module")
 def rehearsed(tmp_path_factory):
     """Results of a rehearsal of one experiment."""
     folder = tmp_path_factory.mktemp("results")
-    done = subprocess.run(command(folder, 5000), capture_output=True, text=True, check=True)
+    done = commands.run(*command(folder, 5000), check=True)
     return base.Results(folder), done.stdout
 
 
@@ -88,14 +70,14 @@ def test_what_is_done_is_not_done_again(rehearsed):
     results, _ = rehearsed
     files = [path for path in results.path.rglob("*") if path.is_file() and "figures" not in path.parts]
     before = {path: path.stat().st_mtime_ns for path in files}
-    done = subprocess.run(command(results.path, 5000), capture_output=True, text=True, check=True)
+    done = commands.run(*command(results.path, 5000), check=True)
     assert "3 of 3 agents are done" in done.stdout
     assert {path: path.stat().st_mtime_ns for path in files} == before
 
 
 def test_runs_with_another_configuration_are_not_mixed_in(rehearsed):
     results, _ = rehearsed
-    done = subprocess.run(command(results.path, 6000), capture_output=True, text=True, check=False)
+    done = commands.run(*command(results.path, 6000))
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
     assert "was made with another configuration; move it away or choose another --results-dir" in done.stderr
@@ -106,7 +88,7 @@ def test_episodes_of_a_run_that_is_gone_are_not_taken_for_those_of_the_next(rehe
     folder = tmp_path / "results"
     shutil.copytree(results.path, folder)
     shutil.rmtree(folder / "runs" / NAMES[0])
-    refused = subprocess.run(command(folder, 5000), capture_output=True, text=True, check=False)
+    refused = commands.run(*command(folder, 5000))
     assert refused.returncode == 2
     assert refused.stderr.count("\n") == 1
     played = folder / "episodes" / "learned" / f"{NAMES[0]}.parquet"
@@ -150,26 +132,16 @@ def test_a_report_of_nothing_says_what_to_do(tmp_path):
 @pytest.mark.long
 def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
     frames = 150_000
-    with subprocess.Popen(
-        command(tmp_path, frames, "--jobs", 1),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        start_new_session=True,
-    ) as process:
-        try:
-            first, second = (tmp_path / "runs" / name for name in NAMES[:2])
-            part = tmp_path / "episodes" / "learned" / f"{NAMES[0]}.parquet"
-            wait_until(lambda: part.exists() and (second / "config.json").exists(), 120, "one run done, one begun")
-            os.kill(process.pid, signal.SIGKILL)
-            process.wait()
-            # Nobody is left to want the rest: what the sweep has started ends by itself.
-            wait_until(lambda: not group(process.pid), 60, "the sweep's processes end")
-        finally:
-            for member in group(process.pid):
-                member.kill()
+    with commands.start(*command(tmp_path, frames, "--jobs", 1)) as process:
+        first, second = (tmp_path / "runs" / name for name in NAMES[:2])
+        part = tmp_path / "episodes" / "learned" / f"{NAMES[0]}.parquet"
+        wait_until(lambda: part.exists() and (second / "config.json").exists(), "one run done, one begun")
+        process.kill()
+        process.wait()
+        # Nobody is left to want the rest: what the sweep has started ends by itself.
+        wait_until(lambda: not group(process.pid), "the sweep's processes end")
     kept = {path: path.stat().st_mtime_ns for path in (first / "agent.safetensors", first / "metrics.csv", part)}
-    done = subprocess.run(command(tmp_path, frames), capture_output=True, text=True, check=True)
+    done = commands.run(*command(tmp_path, frames), check=True)
     assert "1 of 3 agents are done" in done.stdout
     assert {path: path.stat().st_mtime_ns for path in kept} == kept
     for name in NAMES:
@@ -223,12 +195,7 @@ def test_experiments_that_need_the_same_agent_train_it_once():
     ],
 )
 def test_what_makes_no_sense_is_one_readable_line(arguments, message, tmp_path):
-    done = subprocess.run(
-        [PHYSEXP, "reproduce", *arguments, "--results-dir", tmp_path / "results"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = commands.run("reproduce", *arguments, "--results-dir", tmp_path / "results")
     assert done.returncode == 2
     assert message in done.stderr and done.stderr.count("\n") == 1
     assert not (tmp_path / "results").exists()
@@ -242,12 +209,7 @@ def test_an_experiment_without_agents_takes_no_training(tmp_path):
 
 
 def test_the_command_for_the_ideal_prints_its_figures():
-    done = subprocess.run(
-        [PHYSEXP, "ideal", "which_is_heavier", "--difficulty", "3", "--discount", "0.95", "--json"],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    done = commands.run("ideal", "which_is_heavier", "--difficulty", 3, "--discount", 0.95, "--json", check=True)
     figures = json.loads(done.stdout)
     assert list(figures) == ["value", "accuracy", "mean_interactions", "histogram"]
     assert figures["value"] == pytest.approx(0.8385, abs=1e-3)

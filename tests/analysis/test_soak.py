@@ -18,8 +18,8 @@ from physexp.agents import acting, pretrained
 
 FULL = "PHYSEXP_SOAK" in os.environ
 FULL_STEPS = {"features": 5_000_000, "pixels": 300_000}
-SHORT_STEPS = {"which_is_heavier/features": 200_000, "features": 30_000, "pixels": 1_500}
-SIZES = {"features": 128, "pixels": 32}
+SHORT_STEPS = {"which_is_heavier/features": 50_000, "features": 15_000, "pixels": 1_500}
+SIZES = {"features": 128 if FULL else 64, "pixels": 32}
 LABELS = 0.02  # How often random play gives an answer: episodes of all lengths are played.
 WARM_UP = 60  # Batched steps: all sixteen towers are compiled, every buffer is there.
 SLOWER = 1.05 if FULL else 2.0  # So short a part measures seconds, in which much else may happen.

@@ -3,14 +3,14 @@
 import os
 import shutil
 import signal
-import subprocess
 import sys
 
+import commands
 import pandas as pd
 import pytest
 import torch
 import trainers
-from trainers import PHYSEXP
+from waiting import wait_until
 
 from physexp.analysis import demo
 from physexp.analysis.training import config as config_lib
@@ -90,33 +90,16 @@ def test_a_disk_without_room_for_checkpoints_is_told_before_training(tmp_path, m
 @pytest.fixture
 def starting(tmp_path):
     """`physexp train` in a new folder, as soon as its worker's process is there: seconds before it learns anything."""
-    command = [
-        PHYSEXP,
-        "train",
-        *TASK,
-        "--num-workers",
-        "1",
-        "--frames",
-        "1000000000",
-        "--run-dir",
-        tmp_path / "a" / "run",
-    ]
-    process = subprocess.Popen(
-        list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
-    )
-    try:
-        trainers.wait_until(lambda: trainers.workers(process), 300, "a worker")
+    options = ["--num-workers", 1, "--frames", 10**9, "--run-dir", tmp_path / "a" / "run"]
+    with commands.start("train", *TASK, *options) as process:
+        wait_until(lambda: trainers.workers(process), "a worker")
         yield process
-    finally:
-        for member in trainers.group(process.pid):
-            member.kill()
-        process.communicate()
 
 
 def test_a_worker_that_dies_before_it_has_learned_anything_leaves_no_folder(starting, tmp_path):
     (worker,) = trainers.workers(starting)
     worker.kill()
-    _, errors = starting.communicate(timeout=300)
+    _, errors = starting.communicate()
     assert starting.returncode == 1 and errors.count("\n") == 1, errors
     assert "worker 0 died" in errors and "there is no checkpoint yet" in errors and "whole" not in errors
     assert os.listdir(tmp_path) == []
@@ -124,7 +107,7 @@ def test_a_worker_that_dies_before_it_has_learned_anything_leaves_no_folder(star
 
 def test_ctrl_c_before_anything_was_learned_leaves_no_folder(starting, tmp_path):
     os.killpg(starting.pid, signal.SIGINT)
-    _, errors = starting.communicate(timeout=300)
+    _, errors = starting.communicate()
     assert starting.returncode == 130 and "Traceback" not in errors, errors
     assert "no checkpoint" in errors and "the same command starts anew" in errors
     assert os.listdir(tmp_path) == []

@@ -1,14 +1,12 @@
 """Metrics for TensorBoard are those of the CSV."""
 
-import subprocess
-
+import commands
 from tensorboard.backend.event_processing import event_accumulator
-from trainers import PHYSEXP
 
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import tensorboard
 
-COMMAND = [PHYSEXP, "train", "which_is_heavier", "features", "--num-workers", "1", "--envs-per-worker", "32"]
+COMMAND = ["train", "which_is_heavier", "features", "--agent", "ppo", "--num-threads", 1, "--num-environments", 32]
 
 
 def logged(run):
@@ -19,7 +17,7 @@ def logged(run):
 
 def test_every_metric_is_logged_at_its_steps(tmp_path):
     run = run_lib.Run(tmp_path / "run")
-    subprocess.run([*COMMAND, "--frames", "3000", "--run-dir", run.path, "--tensorboard"], check=True)
+    commands.run(*COMMAND, "--frames", 3000, "--run-dir", run.path, "--tensorboard", check=True)
     scalars, rows = logged(run), run.metrics()
     assert set(scalars) == set(run_lib.METRICS) - {"frames"}
     for name, points in scalars.items():
@@ -30,7 +28,7 @@ def test_every_metric_is_logged_at_its_steps(tmp_path):
 
 def test_without_the_option_there_is_no_log(tmp_path):
     run = run_lib.Run(tmp_path / "run")
-    subprocess.run([*COMMAND, "--frames", "1000", "--run-dir", run.path], check=True)
+    commands.run(*COMMAND, "--frames", 1000, "--run-dir", run.path, check=True)
     assert not (run.path / "tensorboard").exists() and run.metrics()
 
 

@@ -1,46 +1,27 @@
 """Tools of the attacks: children that are killed at a chosen call, byte or moment, or confined, and what came of them.
 
-A server process imports everything once (`multiprocessing`'s forkserver) and is forked for each child, which takes
-hundredths of a second. To add an attack: write a function at the top level of a module, hand it to `run` with a way to
-die or a confinement, and look at the folder that it leaves.
+To add an attack: write a function at the top level of a module, hand it to `run` with a way to die or a confinement,
+and look at the folder that it leaves.
 """
 
 import collections
-import contextlib
 import ctypes
 import dataclasses
-import faulthandler
 import itertools
 import json
-import multiprocessing
 import os
 from pathlib import Path
 import random
 import resource
 import shutil
 import signal
-import struct
+import subprocess
 import sys
 import tempfile
-import threading
 import time
 
+import commands
 import numpy as np
-import torch
-
-_context = multiprocessing.get_context("forkserver")
-_context.set_forkserver_preload(
-    [
-        "pytest",
-        "pandas",
-        "torch._dynamo",
-        "physexp.cli",
-        "physexp.analysis.evaluation.publishing",
-        "physexp.analysis.replay",
-        "physexp.analysis.reproduction.reproduce",
-        "physexp.suite.engine.rendering",
-    ]
-)
 
 _FILE_CALLS = {
     "open",
@@ -233,21 +214,6 @@ class SmallDisk:
         os._exit(os.waitstatus_to_exitcode(status))
 
 
-class Bound:
-    """Permissions bind root as they bind others."""
-
-    def __call__(self):
-        header = struct.pack("Ii", 0x20080522, 0)  # The version of the structure; this process.
-        data = ctypes.create_string_buffer(24)
-        libc = ctypes.CDLL(None, use_errno=True)
-        if libc.capget(header, data):
-            raise OSError(ctypes.get_errno(), "cannot read capabilities")
-        words = list(struct.unpack("6I", data.raw))
-        words[0] &= ~0b110  # CAP_DAC_OVERRIDE and CAP_DAC_READ_SEARCH, of the effective ones.
-        if libc.capset(header, struct.pack("6I", *words)):
-            raise OSError(ctypes.get_errno(), "cannot give up capabilities")
-
-
 def in_own_mounts() -> None:
     """Gives this process mounts of its own, that end with it.
 
@@ -287,7 +253,7 @@ def unmount(folder: Path) -> None:
 
 def barrier(parties: int):
     """Something that children wait at for each other."""
-    return _context.Barrier(parties)
+    return commands.context.Barrier(parties)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -316,63 +282,22 @@ class End:
         assert len(errors) == 1 and words in errors[0], self.said
 
 
-class Child:
-    """A child of the server, in a session of its own."""
+class Child(commands.Process):
+    """A child of the server, whose output and errors are one."""
 
     def __init__(self, function, *args, first=None):
-        """Starts `function(*args)`, after `first()`."""
-        self._started = time.monotonic()
-        reader, writer = _context.Pipe(duplex=False)
-        self.process = _context.Process(target=_run_child, args=(writer, first, function, args))
-        self.process.start()
-        writer.close()
-        self._said: list[bytes] = []
-        self._listener = threading.Thread(target=self._listen, args=(reader,))
-        self._listener.start()
+        super().__init__(function, *args, first=first, stderr=subprocess.STDOUT)
 
-    def _listen(self, reader) -> None:
-        with open(reader.fileno(), "rb", closefd=False) as file:
-            self._said.extend(file)
-        reader.close()
-
-    def end(self, seconds: float = 300.0) -> End:
-        """Waits for its end; one that hangs is killed, and an error."""
-        self.process.join(seconds)
-        hangs = self.process.exitcode is None
-        if hangs:
-            self.process.kill()
-            self.process.join()
-        with contextlib.suppress(ProcessLookupError):  # What it has started goes with it.
-            os.killpg(self.process.pid, signal.SIGKILL)
-        self._listener.join()
-        said = b"".join(self._said).decode(errors="replace")
-        assert not hangs, f"no end within {seconds} s: {said}"
-        return End(self.process.exitcode, said, time.monotonic() - self._started)
+    def end(self) -> End:
+        """Waits for its end; what it has started goes with it."""
+        self.wait()
+        self.kill_all()
+        return End(self.returncode, self.stdout.read(), self.seconds)
 
 
-def run(function, *args, first=None, seconds: float = 300.0) -> End:
+def run(function, *args, first=None) -> End:
     """Runs `function(*args)` in a child, after `first()`, to its end."""
-    return Child(function, *args, first=first).end(seconds)
-
-
-def _run_child(said, first, function, args):
-    os.setsid()
-    for number in (1, 2):
-        os.dup2(said.fileno(), number)
-    said.close()
-    faulthandler.enable()
-    torch.set_num_threads(1)
-    if first is not None:
-        first()
-    function(*args)
-
-
-def command(*words) -> None:
-    """`physexp` with these arguments, to be run in a child."""
-    from physexp import cli
-
-    sys.argv = ["physexp", *map(str, words)]
-    cli.main()
+    return Child(function, *args, first=first).end()
 
 
 def litter(folder: Path) -> list[str]:

@@ -7,6 +7,7 @@ import shutil
 import time
 
 import attacks
+import commands
 import pytest
 import reading
 import subjects
@@ -38,7 +39,7 @@ def train_disturbed(path, number, act):
             act(path)
 
     run_lib.Run.append_metrics = append_and_act
-    attacks.command(*subjects.words(run_lib.Run(path)))
+    commands.physexp(*subjects.words(run_lib.Run(path)))
 
 
 def new_run(path):
@@ -76,9 +77,9 @@ def test_two_trainers_never_write_by_turns_when_the_lock_is_removed(expected, tm
             number = generator.randint(2, len(expected[0]) - 1)  # There is a checkpoint for the other to go on from.
             first = attacks.Child(train_disturbed, run.path, number, let_another_train)
             while not (folder / "removed").exists():
-                assert first.process.is_alive(), first.end().said
+                assert first.poll() is None, first.end().said
                 time.sleep(0.01)
-            second = attacks.run(attacks.command, *subjects.words(run))
+            second = attacks.run(commands.physexp, *subjects.words(run))
             (folder / "had its turn").touch()
             end = first.end()
             ended = [end, second]
@@ -142,7 +143,7 @@ def test_a_folder_that_turns_read_only_stops_training_and_goes_on_once_it_is_not
             run = new_run(tmp_path / str(attack) / "run")
             number = generator.randint(1, len(expected[0]) - 1)
             end = attacks.run(
-                train_disturbed, run.path, number, functools.partial(set_mode, mode=0o555), first=attacks.Bound()
+                train_disturbed, run.path, number, functools.partial(set_mode, mode=0o555), first=commands.bound
             )
             set_mode(run.path, 0o755)
             end.assert_refused(str(run.path))
@@ -194,13 +195,13 @@ def test_a_full_disk_costs_no_agent_and_no_replay(command, kind, expected, tmp_p
         "publish": ["publish", run.path, "--output-dir", there, "--episodes", 2],
         "replay": ["replay", run.path, "--output", there / "replay.rrd", "--episodes", 2],
     }[command]
-    assert attacks.run(attacks.command, *words).code == 0
+    assert attacks.run(commands.physexp, *words).code == 0
     names = sorted(os.listdir(there))
     sizes = [path.stat().st_size for path in there.rglob("*") if path.is_file()]
     before = {path.name: path.read_bytes() for path in there.iterdir()}
     with attacks.Tally(f"full disk, {command}, {kind}") as tally:
         for attack in range(attacks.repetitions(2, share=0.1)):
-            end = attacks.run(attacks.command, *words, first=full(kind, generator, there, attack, sizes))
+            end = attacks.run(commands.physexp, *words, first=full(kind, generator, there, attack, sizes))
             skip_without_mounts(end)
             if end.code:
                 end.assert_refused(str(there))

@@ -5,6 +5,7 @@ import functools
 import subprocess
 
 import attacks
+import commands
 import pytest
 import reading
 import subjects
@@ -231,7 +232,7 @@ def test_reproducing_that_was_killed_goes_on_to_the_same_figure_of_the_same_agen
 
     def reproduce(folder, **kwargs):
         words = ["reproduce", "learners", "--observations", "features", "--seeds", 1, "--frames", 60, "--jobs", 2]
-        return attacks.run(attacks.command, *words, "--results-dir", folder, seconds=900.0, **kwargs)
+        return attacks.run(commands.physexp, *words, "--results-dir", folder, **kwargs)
 
     attacks.run(print)  # The server has its imports behind it.
     whole = reproduce(tmp_path / "whole")

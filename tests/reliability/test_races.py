@@ -3,6 +3,7 @@
 import time
 
 import attacks
+import commands
 import pytest
 import subjects
 
@@ -15,13 +16,13 @@ def start(go, delay, *words):
     """A command, as soon as both are ready, or a moment after that."""
     go.wait()
     time.sleep(delay)
-    attacks.command(*words)
+    commands.physexp(*words)
 
 
-def race(generator, *commands):
-    go = attacks.barrier(len(commands))
+def race(generator, *starts):
+    go = attacks.barrier(len(starts))
     children = [
-        attacks.Child(start, go, generator.choice([0.0, generator.uniform(0, 0.5)]), *words) for words in commands
+        attacks.Child(start, go, generator.choice([0.0, generator.uniform(0, 0.5)]), *words) for words in starts
     ]
     return [child.end() for child in children]
 
@@ -36,7 +37,7 @@ def undisturbed(tmp_path_factory):
     found = []
     for seed in (1, 2):
         path = tmp_path_factory.mktemp("undisturbed") / "run"
-        end = attacks.run(attacks.command, *new(path, seed))
+        end = attacks.run(commands.physexp, *new(path, seed))
         assert end.code == 0, end.said
         found.append(subjects.contents(run_lib.Run(path)))
     return found

@@ -12,7 +12,7 @@ from physexp.suite.parts import arena, block, flag
 
 SUITE = containers.TaggedTasks()
 
-PHYSICS_TIMESTEP = 0.005  # s
+PHYSICS_TIMESTEP = 0.01  # s
 
 # A block on a rail between two stops. A push goes away from the stop that the block leans on, and a force above its
 # friction takes it to the other one within a control step. All that can be read is on which stop it leans: how far it
@@ -26,13 +26,14 @@ TRAVEL = 0.02  # m, between the stops
 MARGIN = 0.2
 
 # MuJoCo's friction is soft: with its defaults a block creeps by 18 mm under nine tenths of the force that moves it.
-# With these settings it creeps by 0.03 mm in a push of 0.1 s, and by less than a millimetre in a whole episode.
+# With these settings it creeps by 0.1 mm in a push of 0.1 s, and by 2 mm in an episode of 3 s.
 _FRICTION = dict(solimpfriction=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreffriction=[2 * PHYSICS_TIMESTEP, 1.0])
 # Underdamped by 0.6, a stop loses most of what a block has gone into it with each physics step, and none bounces.
 _STOP = dict(solimplimit=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreflimit=[2 * PHYSICS_TIMESTEP, 0.6])
 
-_SHORTEST_STEP = 0.04  # s
-_LONGEST_EPISODE = 20.0  # s
+# s: the smallest surplus of force, MARGIN * LEVEL_SPACING, takes 0.05 s from one stop to the other.
+_SHORTEST_STEP = 0.06
+_LONGEST_EPISODE = 10.0  # s
 
 _ROOM = dict(mat_size=[0.36, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.1], fovy=14.5)
 _COVER_HALF_SIZE = (0.13, 0.08, 0.07)  # m
@@ -64,8 +65,8 @@ class Options(options_lib.Options):
             )
         if self.time_limit > _LONGEST_EPISODE:
             raise ValueError(
-                f"time_limit is {self.time_limit} s; give at most {_LONGEST_EPISODE:g} s, in which a block that is held "
-                "creeps too little to be read"
+                f"time_limit is {self.time_limit} s; give at most {_LONGEST_EPISODE:g} s, in which a block that is "
+                "held creeps too little to be read"
             )
         object.__setattr__(
             self, "difficulty", checks.number("difficulty", self.difficulty, 1, "the skew of the prior over levels")
@@ -129,12 +130,12 @@ class Threshold(task.QuestionTask):
         self._rails = (rail.full_identifier,)
         self._position = room.mjcf_model.sensor.add("jointpos", name="position", joint=rail)
         self._flags = []
-        for name, x, low in (
-            ("left_flag", -_FLAG_DISTANCE, _FLAG_LOW + _FLAG_RISE),
+        for name, x, height in (
+            ("left_flag", -_FLAG_DISTANCE, _FLAG_LOW + _FLAG_RISE),  # Up: the block leans on the left stop at first.
             ("right_flag", _FLAG_DISTANCE, _FLAG_LOW),
         ):
             built = flag.Flag(rgba=block.COLORS[1], name=name)
-            room.attach(built).pos = [x, 0, low]
+            room.attach(built).pos = [x, 0, height]
             self._flags.append(built)
         super().__init__(room, options, sense)
 

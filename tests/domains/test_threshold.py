@@ -1,0 +1,100 @@
+"""Threshold: a push slides the block if and only if it is stronger than friction, and nothing else can be read."""
+
+import numpy as np
+import pytest
+
+from physexp import suite
+from physexp.suite.domains import threshold
+
+TASKS = [("threshold", "features"), ("threshold", "pixels")]
+LEVELS = threshold.LEVEL_SPACING * np.arange(1, threshold.NUM_LEVELS + 1)  # N
+
+
+@pytest.fixture
+def seed():
+    value = int(np.random.SeedSequence().generate_state(1)[0])
+    print("seed", value)
+    return value
+
+
+def _edges_of_intervals() -> np.ndarray:
+    """The least and the greatest friction of each label, N [2 * NUM_LEVELS]: the hardest cases."""
+    below = LEVELS - threshold.LEVEL_SPACING
+    margins = threshold.LEVEL_SPACING * np.array([threshold.MARGIN, 1 - threshold.MARGIN])
+    return (below[:, None] + margins).ravel()
+
+
+@pytest.mark.parametrize("control_timestep, time_limit", [(0.1, 3.0), (0.06, 3.0), (0.2, 3.0), (0.1, 10.0)])
+def test_a_push_moves_the_block_if_and_only_if_its_force_is_above_friction(seed, control_timestep, time_limit):
+    rng = np.random.default_rng(seed)
+    frictions = np.concatenate(
+        [_edges_of_intervals(), threshold.draw_frictions(*rng.integers(2**31, size=(2, 48)), 1.0)]
+    )
+    kwargs = {"random": seed, "control_timestep": control_timestep, "time_limit": time_limit}
+    batch = suite.load_batch("threshold", "features", len(frictions), kwargs)
+    side = batch.reset(hidden=frictions).observation["side"][:, 0]
+    assert (side == 0).all()
+    for _ in range(batch.task.rules.step_limit - 1):
+        pushes = rng.integers(threshold.NUM_LEVELS, size=len(frictions))
+        after = batch.step(pushes).observation["side"][:, 0]
+        np.testing.assert_array_equal(after != side, LEVELS[pushes] > frictions)
+        side = after
+
+
+def test_a_block_pushed_in_vain_for_a_whole_episode_stays_on_its_stop():
+    """The strongest push that does not slide it, all the time: MuJoCo's friction creeps, and must not creep across."""
+    labels = np.arange(1, threshold.NUM_LEVELS)
+    frictions = LEVELS[labels] - (1 - threshold.MARGIN) * threshold.LEVEL_SPACING
+    batch = suite.load_batch("threshold", "features", len(labels), {"random": 0, "time_limit": 10.0})
+    batch.reset(hidden=frictions)
+    for _ in range(batch.task.rules.step_limit - 1):
+        assert (batch.step(labels - 1).observation["side"] == 0).all()
+    for environment in range(len(labels)):
+        assert abs(float(batch.view("qpos", environment)[0])) < 0.4 * threshold.TRAVEL
+
+
+@pytest.mark.parametrize("domain_name, task_name", TASKS)
+def test_observations_tell_nothing_but_the_side(seed, domain_name, task_name):
+    """Blocks of all frictions, pushed at random, show one of two observations, whatever happened before."""
+    rng = np.random.default_rng(seed)
+    frictions = _edges_of_intervals()
+    batch = suite.load_batch(domain_name, task_name, len(frictions), {"random": seed})
+    (first,) = batch.reset(hidden=frictions).observation.values()
+    side, shown = np.zeros(len(frictions), bool), {False: first[0].tobytes()}
+    assert {value.tobytes() for value in first} == set(shown.values())
+    for _ in range(20):
+        pushes = rng.integers(threshold.NUM_LEVELS, size=len(frictions))
+        (seen,) = batch.step(pushes).observation.values()
+        side ^= LEVELS[pushes] > frictions
+        for is_right, value in zip(side.tolist(), seen, strict=True):
+            assert shown.setdefault(is_right, value.tobytes()) == value.tobytes()
+    assert shown[False] != shown[True]
+
+
+def test_labels_follow_the_prior_and_frictions_keep_away_from_the_levels(seed):
+    """Each label's share of 100 000 episodes is within five standard errors of its probability."""
+    count = 100_000
+    for difficulty in (1.0, 2.0, 5.0):
+        frictions = threshold.draw_frictions(np.full(count, seed), np.arange(count), difficulty)
+        labels = suite.load_task("threshold", "features").answers(frictions)
+        # Beta(1, d) has the distribution function 1 - (1 - x)^d.
+        edges = 1 - (1 - np.arange(threshold.NUM_LEVELS + 1) / threshold.NUM_LEVELS) ** difficulty
+        expected = np.diff(edges)
+        shares = np.bincount(labels, minlength=threshold.NUM_LEVELS) / count
+        assert (np.abs(shares - expected) < 5 * np.sqrt(expected * (1 - expected) / count) + 1e-12).all()
+        distances = np.abs(frictions[:, None] - np.concatenate([[0.0], LEVELS])).min(axis=1)
+        assert distances.min() >= threshold.MARGIN * threshold.LEVEL_SPACING - 1e-9
+        assert (LEVELS[labels] > frictions).all() and (LEVELS[labels] - threshold.LEVEL_SPACING < frictions).all()
+
+
+@pytest.mark.parametrize(
+    "kwargs, words",
+    [
+        ({"difficulty": 0.5}, "difficulty is 0.5; give a finite number >= 1"),
+        ({"control_timestep": 0.05}, "control_timestep is 0.05 s; give at least 0.06 s"),
+        ({"time_limit": 20.0}, "time_limit is 20.0 s; give at most 10 s"),
+    ],
+)
+def test_options_that_make_no_question_are_refused(kwargs, words):
+    with pytest.raises(ValueError, match=words):
+        suite.load("threshold", "features", kwargs)

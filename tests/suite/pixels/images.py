@@ -1,0 +1,154 @@
+"""What the tests of images share: environments that are built once, and where things are in an image."""
+
+import functools
+import itertools
+import re
+
+import dm_env
+from episodes import SEED, episode_with
+import numpy as np
+import pytest
+
+from physexp import suite
+from physexp.suite.parts import block
+
+import mujoco  # isort: skip  # The suite chooses the GL backend, which mujoco looks at once.
+
+HEAVIER, DIRECT, FIST = ("which_is_heavier", "pixels"), ("towers", "direct_pixels"), ("towers", "fist_pixels")
+PIXEL_TASKS = [HEAVIER, DIRECT, FIST]
+every_pixel_task = pytest.mark.parametrize("domain_name, task_name", PIXEL_TASKS)
+MARKS = [
+    pytest.mark.usefixtures("seed"),
+    pytest.mark.filterwarnings("ignore:PIXELS ARE DRAWN BY THE PROCESSOR"),  # What draws is not what is tested here.
+]
+
+EDGE = 84  # pixels, of an image
+SHAPE = (EDGE, EDGE, 3)
+CORNERS = np.array(list(itertools.product((-0.05, 0.05), repeat=3)))  # m, of a cube, from its centre
+SEPARATE, WHOLE = 0, 15
+
+
+@functools.cache
+def load_shared(domain_name, task_name, random, size=None, control_timestep=0.1):
+    """An environment, or a batch, that tests use in turn: building sixteen towers takes a second."""
+    task_kwargs = {"random": random, "control_timestep": control_timestep}
+    if size is None:
+        opened.append(suite.load(domain_name, task_name, task_kwargs))
+    else:
+        opened.append(suite.load_batch(domain_name, task_name, size, task_kwargs))
+    return opened[-1]
+
+
+opened: list = []
+
+
+def load_single(domain_name, task_name, number=0):
+    """The environment that is one of the batch's, about to start its first episode."""
+    single = load_shared(domain_name, task_name, suite.environment_seed(SEED, number))
+    single.task.next_episode = 0
+    return single
+
+
+def start_both(domain_name, task_name, size):
+    """A batch and its single environments, in their first episodes."""
+    batch = load_shared(domain_name, task_name, SEED, size)
+    singles = [load_single(domain_name, task_name, i) for i in range(size)]
+    assert_same(batch.reset(episode=0), [single.reset() for single in singles])
+    return batch, singles
+
+
+def assert_same(steps: dm_env.TimeStep, singles: list[dm_env.TimeStep]) -> None:
+    for i, single in enumerate(singles):
+        assert steps.step_type[i] == single.step_type
+        image, expected = steps.observation["pixels"][i], single.observation["pixels"]
+        assert (image.dtype, image.shape) == (expected.dtype, expected.shape)
+        different = (image != expected).any(axis=-1)
+        assert not different.any(), f"environment {i}: {different.sum()} pixels differ"
+
+
+def play_episode(environment, actions) -> np.ndarray:
+    """The images of the first episode, [T + 1, 84, 84, 3]."""
+    environment.task.next_episode = 0
+    steps = [environment.reset(), *(environment.step(action) for action in actions)]
+    return np.stack([step.observation["pixels"] for step in steps])
+
+
+def image_of(step) -> np.ndarray:
+    return step.observation["pixels"]
+
+
+# Patterns of glue.
+
+
+def batch_of_patterns(task_name, patterns, control_timestep=0.1):
+    """A batch whose first environments start with `patterns`, their indices, and their first images."""
+    batch, first = load_shared("towers", task_name, SEED, 80, control_timestep), []
+    chosen = np.arange(len(patterns))
+    for i, pattern in zip(chosen, patterns, strict=True):
+        episode = episode_with(pattern, suite.environment_seed(SEED, i))
+        first.append(image_of(batch.reset(np.array([i]), episode)))
+    np.testing.assert_array_equal(batch.hidden[chosen], patterns)
+    return batch, chosen, np.concatenate(first)
+
+
+# Where things are, and where that is in an image.
+
+
+def model_of(domain_name, task_name):
+    """The compiled model of a task: of the separate cubes, for towers."""
+    return suite.load_task(domain_name, task_name).build_apparatus(0).model
+
+
+def block_geoms(model) -> list[int]:
+    """Geoms of the blocks, in order."""
+    found = [(re.search(r"block_(\d)", model.geom(i).name), i) for i in range(model.ngeom)]
+    return [i for _, i in sorted((match[1], i) for match, i in found if match)]
+
+
+def poses_at_rest(model):
+    """Positions [1, G, 3] and rotation matrices [1, G, 3, 3] of all geoms in the initial state."""
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return data.geom_xpos[None].copy(), data.geom_xmat.reshape(1, -1, 3, 3).copy()
+
+
+def poses_of(batch, chosen):
+    """Positions [N, G, 3] and rotation matrices [N, G, 3, 3] of all geoms of some environments after a step."""
+    poses = {"geom_xpos": [], "geom_xmat": []}
+    for i in chosen:
+        structure = batch._structures[i]
+        for field, values in poses.items():
+            values.append(batch._groups[int(structure)]._batch.bind(field)[i].copy())
+    positions = np.stack(poses["geom_xpos"])
+    return positions, np.stack(poses["geom_xmat"]).reshape(*positions.shape[:2], 3, 3)
+
+
+def corners_of_blocks(model, positions, rotations) -> np.ndarray:
+    """Corners of the blocks, [B, number of blocks, 8, 3], m, from the poses of all geoms."""
+    geoms = block_geoms(model)
+    return positions[:, geoms, None] + np.einsum("bkij,cj->bkci", rotations[:, geoms], CORNERS)
+
+
+def project(model, points) -> np.ndarray:
+    """Column and row [..., 2] at which the camera sees points [..., 3]: 0, 0 is the image's upper left corner."""
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    camera = model.camera("observer").id
+    # In the camera's frame x is to the right and y up, and it looks along -z.
+    seen = (np.asarray(points) - data.cam_xpos[camera]) @ data.cam_xmat[camera].reshape(3, 3)
+    half_height = -seen[..., 2:] * np.tan(np.radians(model.cam_fovy[camera]) / 2)
+    return EDGE / 2 * (1 + seen[..., :2] / half_height * [1, -1])
+
+
+def mask_of_block(image, number: int) -> np.ndarray:
+    """Pixels of a block, bool [84, 84]: light that is white changes how bright a colour is, not the colour."""
+    colors = np.array([*(color[:3] for color in block.COLORS), (1, 1, 1)])  # White is all that is grey.
+    directions = colors / np.linalg.norm(colors, axis=1, keepdims=True)
+    return (image.astype(float) @ directions.T).argmax(axis=-1) == number
+
+
+def box_of(mask) -> np.ndarray:
+    """The first column and row, and those after the last, of a mask."""
+    assert mask.any(), "not to be seen"
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    return np.array([columns[0], rows[0], columns[-1] + 1, rows[-1] + 1])

@@ -1,0 +1,126 @@
+"""A pixel task observes one image: the state as MuJoCo draws it, with every block where it is."""
+
+import itertools
+
+from episodes import SEED, episode_with
+from images import (
+    CORNERS,
+    EDGE,
+    HEAVIER,
+    MARKS,
+    PIXEL_TASKS,
+    SEPARATE,
+    SHAPE,
+    WHOLE,
+    box_of,
+    corners_of_blocks,
+    every_pixel_task,
+    image_of,
+    load_shared,
+    load_single,
+    mask_of_block,
+    model_of,
+    play_episode,
+    poses_at_rest,
+    poses_of,
+    project,
+)
+import numpy as np
+import pytest
+from scipy import spatial
+
+from physexp import suite
+from physexp.suite.parts import tower
+
+import mujoco  # isort: skip  # The suite chooses the GL backend, which mujoco looks at once.
+
+pytestmark = MARKS
+
+
+@every_pixel_task
+def test_a_pixel_task_observes_one_image_and_nothing_else(domain_name, task_name):
+    single, batch = load_single(domain_name, task_name), load_shared(domain_name, task_name, SEED, 3)
+    for spec in (single.observation_spec(), batch.observation_spec()):
+        assert {name: (array.shape, array.dtype) for name, array in spec.items()} == {"pixels": (SHAPE, np.uint8)}
+    for step in (single.reset(), single.step(0), single.step(single.task.num_interactions)):
+        assert {name: (v.shape, v.dtype) for name, v in step.observation.items()} == {"pixels": (SHAPE, np.uint8)}
+    for step in (batch.reset(), batch.step([0, 1, batch.task.num_interactions])):
+        assert {name: (v.shape, v.dtype) for name, v in step.observation.items()} == {"pixels": ((3, *SHAPE), np.uint8)}
+
+
+def test_every_task_of_features_has_one_of_pixels():
+    other = {"features": "pixels", "direct_features": "direct_pixels", "fist_features": "fist_pixels"}
+    features = {(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")}
+    assert {(domain, other[task]) for domain, task in features} == set(suite.ALL_TASKS) - features == set(PIXEL_TASKS)
+
+
+@pytest.mark.parametrize("task_name, patterns", [("direct_pixels", [SEPARATE, 6, WHOLE]), ("fist_pixels", range(16))])
+def test_an_image_of_a_touched_tower_is_what_mujoco_draws_of_the_state(task_name, patterns):
+    """Pattern by pattern, though one renderer draws them all, with a renderer of mujoco's own for the pattern."""
+    env = load_shared("towers", task_name, SEED)
+    for pattern in patterns:
+        env.task.next_episode = episode_with(pattern, SEED)
+        first = image_of(env.reset())
+        for _ in range(7):  # The fist has hit the tower, 0.17 m away, after two; the lowest block is pushed.
+            image = image_of(env.step(0))
+        assert (image != first).any()
+        renderer = mujoco.Renderer(env.physics.model.ptr, EDGE, EDGE)
+        renderer.update_scene(env.physics.data.ptr, camera="observer")
+        for effect in ("SHADOW", "REFLECTION", "SKYBOX", "HAZE"):
+            renderer.scene.flags[getattr(mujoco.mjtRndFlag, f"mjRND_{effect}")] = False
+        expected = renderer.render()
+        renderer.close()
+        np.testing.assert_array_equal(image, expected, err_msg=str(tower.PATTERNS[pattern]))
+
+
+def test_blocks_are_drawn_where_they_are(load, seed):
+    """From the camera's pose and field of view alone; nothing hides a block on its rail."""
+    rng = np.random.default_rng(seed)
+    model = model_of(*HEAVIER)
+    batch = load(*HEAVIER, seed, 8)
+    images, poses = image_of(batch.reset()), [np.repeat(value, 8, axis=0) for value in poses_at_rest(model)]
+    for t in range(12):
+        projected = project(model, corners_of_blocks(model, *poses))
+        for i, number in itertools.product(range(8), range(4)):
+            expected = np.concatenate([projected[i, number].min(axis=0), projected[i, number].max(axis=0)])
+            # A pixel is drawn where its centre is covered, which is half a pixel from its edges.
+            np.testing.assert_allclose(
+                box_of(mask_of_block(images[i], number)), expected, rtol=0, atol=0.6, err_msg=f"step {t}"
+            )
+        images, poses = image_of(batch.step(rng.integers(4, size=8))), poses_of(batch, range(8))
+
+
+@every_pixel_task
+def test_the_front_of_every_block_is_seen_at_first(domain_name, task_name):
+    model = model_of(domain_name, task_name)
+    image = image_of(load_single(domain_name, task_name).reset())
+    front = CORNERS[:, 1] < 0
+    for number, corners in enumerate(corners_of_blocks(model, *poses_at_rest(model))[0]):
+        area = spatial.ConvexHull(project(model, corners[front])).volume  # In the plane that is the area.
+        assert area > 20, "a block of fewer pixels can hardly be told from its neighbour"
+        mask = mask_of_block(image, number)
+        # The outline's pixels may go either way: one in ten of the whole for the largest front, more for smaller ones.
+        assert mask.sum() > area - 2 * np.sqrt(area)
+        columns, rows = np.moveaxis(project(model, corners), -1, 0)
+        left, top, right, bottom = box_of(mask)
+        assert left > columns.min() - 0.6 and right < columns.max() + 0.6
+        assert top > rows.min() - 0.6 and bottom < rows.max() + 0.6
+
+
+def test_a_poke_lifts_the_lightest_and_the_heaviest_block_by_clearly_different_numbers_of_rows(load, seed):
+    # At difficulty 1e300 one block has a mass of 1 kg and the others of 0.2 kg. Spring, damper and poke lift them by
+    # 0.0989 m and 0.2580 m in a control step (derived in the tests of the task).
+    model = model_of(*HEAVIER)
+    env = load(*HEAVIER, seed, difficulty=1e300)
+    images = play_episode(env, [])
+    heaviest = env.task.correct_answer
+    lightest = (heaviest + 1) % 4
+    lifts = {}
+    for number, height in ((heaviest, 0.0989), (lightest, 0.2580)):
+        images = play_episode(env, [number])
+        tops = [box_of(mask_of_block(image, number))[1] for image in images]
+        lifts[number] = tops[0] - tops[1]
+        top = np.array([(number - 1.5) * 0.16, 0.05, 0.1])  # m: the upper edge at the back is the highest in the image.
+        expected = project(model, top)[1] - project(model, top + [0, 0, height])[1]
+        assert lifts[number] == pytest.approx(expected, abs=1.01)  # Either row is found up to half a pixel.
+    assert lifts[lightest] >= 2 * lifts[heaviest] >= 10

@@ -1,0 +1,117 @@
+"""An image is drawn when something may have moved, and never for a label or a divergence."""
+
+import dm_env
+from episodes import SEED
+from images import MARKS, assert_same, every_pixel_task, image_of, load_shared, start_both
+import numpy as np
+import pytest
+
+pytestmark = MARKS
+
+
+@every_pixel_task
+def test_an_environment_draws_once_at_a_reset_and_in_each_step_and_never_for_a_label(
+    load, drawn, domain_name, task_name
+):
+    env = load(domain_name, task_name, 0)
+    assert drawn == []
+    expected = 0
+    for _ in range(2):
+        env.reset()
+        expected += 1
+        assert drawn == [1] * expected
+        for t in range(3):
+            env.step(t)
+            expected += 1
+            assert drawn == [1] * expected
+        assert env.step(env.task.num_interactions).last()
+        assert drawn == [1] * expected
+        assert env.step(0).first()  # Whatever the action.
+        expected += 1
+        assert drawn == [1] * expected
+
+
+@every_pixel_task
+def test_a_batch_draws_one_image_for_each_environment_that_interacts_and_one_first_image_for_each_structure(
+    load, drawn, domain_name, task_name
+):
+    size = 6
+    batch = load(domain_name, task_name, 3, size)
+    batch.reset(episode=0)
+    num_structures = len(np.unique(batch.task.structures(batch.hidden)))
+    assert drawn == [1] * num_structures
+    drawn.clear()
+    label = batch.task.num_interactions
+    for labeling in ([], [1], [0, 2, 3, 4, 5]):
+        actions = np.zeros(size, int)
+        actions[labeling] = label
+        steps = batch.step(actions)
+        assert sum(drawn) == size - len(labeling) - (steps.step_type == dm_env.StepType.FIRST).sum()
+        assert len(drawn) <= num_structures
+        drawn.clear()
+        batch.reset(np.array(labeling, int), episode=0)
+        assert drawn == []  # Their first images have been drawn.
+    batch.step(np.full(size, label))
+    batch.reset(episode=0)
+    nobody = np.array([], int)
+    batch.step(nobody, nobody)
+    assert drawn == []
+
+
+@every_pixel_task
+def test_the_image_of_a_label_is_the_one_before(domain_name, task_name):
+    batch, (env, *_) = start_both(domain_name, task_name, 3)
+    for label in range(env.task.num_labels):
+        first = image_of(env.reset())
+        for t in range(3):
+            before = image_of(env.step(t))
+        assert (before != first).any()
+        answer = env.step(env.task.num_interactions + label)
+        assert answer.last()
+        np.testing.assert_array_equal(image_of(answer), before)
+        batch.reset(episode=0)
+        for t in range(2):
+            before = image_of(batch.step([t, 0, 1]))
+        answer = batch.step([batch.task.num_interactions + label, 0, 1])
+        np.testing.assert_array_equal(
+            answer.step_type, [dm_env.StepType.LAST, dm_env.StepType.MID, dm_env.StepType.MID]
+        )
+        np.testing.assert_array_equal(image_of(answer)[0], before[0])
+        assert (image_of(answer)[1:] != before[1:]).any(axis=(1, 2, 3)).all()
+
+
+@every_pixel_task
+@pytest.mark.parametrize("field", ["qvel", "qpos"])
+def test_the_image_of_an_episode_that_diverges_is_the_one_before(domain_name, task_name, field):
+    batch, singles = start_both(domain_name, task_name, 3)
+    for _ in range(5):
+        before = batch.step([0, 0, 0])
+        assert_same(before, [single.step(0) for single in singles])
+    _overwrite(batch, 1, field)
+    getattr(singles[1].physics.data, field)[0] = np.nan
+    last = batch.step([1, 1, 1])
+    assert last.step_type.tolist() == [1, 2, 1]
+    assert_same(last, [single.step(1) for single in singles])
+    changed = (image_of(last) != image_of(before)).any(axis=(1, 2, 3))
+    np.testing.assert_array_equal(changed, [True, False, True])
+    assert_same(batch.step([0, 0, 0]), [single.step(0) for single in singles])
+
+
+@every_pixel_task
+def test_when_all_environments_of_a_batch_diverge_their_images_are_the_ones_before(domain_name, task_name):
+    batch = load_shared(domain_name, task_name, SEED, 3)
+    batch.reset(episode=0)
+    first = image_of(batch.step([0, 0, 0]))
+    before = image_of(batch.step([1, 1, 1]))
+    assert (before != first).any()
+    for i in range(3):
+        _overwrite(batch, i, "qvel")
+    last = batch.step([0, 0, 0])
+    assert last.step_type.tolist() == [2, 2, 2]
+    np.testing.assert_array_equal(image_of(last), before)
+    assert batch.step([0, 0, 0]).step_type.tolist() == [0, 0, 0]
+
+
+def _overwrite(batch, environment: int, field: str) -> None:
+    """With something that MuJoCo cannot go on from."""
+    batch._groups[int(batch._structures[environment])]._batch.bind(field)[environment, 0] = np.nan

@@ -1,0 +1,122 @@
+"""Images tell nothing of what is hidden before it is touched."""
+
+import dm_env
+from episodes import AWAY, EVERY_PATTERN, SEED, episode_with, plans_that_miss
+from images import (
+    FIST,
+    HEAVIER,
+    MARKS,
+    SEPARATE,
+    SHAPE,
+    WHOLE,
+    batch_of_patterns,
+    block_geoms,
+    corners_of_blocks,
+    image_of,
+    load_shared,
+    load_single,
+    model_of,
+    poses_at_rest,
+    poses_of,
+    project,
+)
+import numpy as np
+import pytest
+
+from physexp.suite.parts import tower
+
+pytestmark = MARKS
+
+
+@pytest.mark.parametrize("task_name", ["direct_pixels", "fist_pixels"])
+def test_every_tower_looks_the_same_at_first(task_name):
+    _, _, first = batch_of_patterns(task_name, EVERY_PATTERN)
+    env = load_shared("towers", task_name, SEED)
+    for pattern in EVERY_PATTERN:
+        env.task.next_episode = episode_with(pattern, SEED)
+        image = image_of(env.reset())
+        assert env.task.hidden == pattern
+        assert image.tobytes() == first[pattern].tobytes() == first[0].tobytes(), tower.PATTERNS[pattern]
+
+
+def test_all_masses_look_the_same_at_first(load, seed):
+    images = image_of(load(*HEAVIER, seed, 64, difficulty=1).reset())
+    env = load(*HEAVIER, seed, difficulty=1)
+    for image in (*images, *(image_of(env.reset()) for _ in range(20))):
+        assert image.tobytes() == images[0].tobytes()
+
+
+@pytest.mark.parametrize(
+    "control_timestep, step_limit, patterns, num_random",
+    [(0.1, 26, EVERY_PATTERN, 2), (0.01, 260, np.array([0, 6, 15]), 0)],
+    ids=["0.1 s", "0.01 s"],
+)
+def test_the_images_of_an_episode_that_leaves_the_tower_alone_are_the_same_whatever_the_glue(
+    seed, control_timestep, step_limit, patterns, num_random
+):
+    plans = plans_that_miss(np.random.default_rng(seed), step_limit, control_timestep, num_random)
+    size = len(patterns)
+    batch, chosen, first = batch_of_patterns("fist_pixels", np.tile(patterns, len(plans)), control_timestep)
+    model = model_of(*FIST)
+    fist = model.geom("fist/geom").id
+    columns = project(model, corners_of_blocks(model, *poses_at_rest(model))[0])[..., 0]
+    tower_columns = slice(int(columns.min()), int(columns.max()) + 1)
+    leaks = []
+    for t in range(step_limit):
+        steps = batch.step(np.repeat(plans[:, t], size), chosen)
+        assert poses_of(batch, chosen)[0][:, fist, 0].max() < -0.3, "the fist must keep away from the tower"
+        images = image_of(steps).reshape(len(plans), size, *SHAPE)
+        if images.tobytes() != np.repeat(images[:, :1], size, axis=1).tobytes():
+            leaks.append((t, "glue"))
+        if (images[..., tower_columns, :] != first[0, :, tower_columns]).any():
+            leaks.append((t, "moved"))
+    assert (steps.step_type == dm_env.StepType.LAST).all(), "the episodes were not played to their end"
+    assert len({image.tobytes() for image in images[:3, 0]} | {first[0].tobytes()}) == 4, "the fist is not to be seen"
+    assert not leaks, f"{len(leaks)} leaks (control step, what), the first: {leaks[:4]}"
+
+
+@pytest.mark.parametrize("control_timestep", [0.1, 0.005])
+def test_an_untouched_tower_is_drawn_to_the_last_bit_as_it_stood_at_first(poses_drawn, control_timestep):
+    """It settles by less than a micrometre, which pixels show only where an edge happens to be next to one's centre."""
+    model = model_of(*FIST)
+    rest, blocks = poses_at_rest(model)[0][0].astype(np.float32), block_geoms(model)
+    batch, chosen, _ = batch_of_patterns("fist_pixels", EVERY_PATTERN, control_timestep)
+    single = load_shared(*FIST, SEED, control_timestep=control_timestep)
+    for _ in range(5):
+        batch.step(np.full(16, AWAY), chosen)
+    for pattern in (SEPARATE, 6, WHOLE):
+        single.task.next_episode = episode_with(pattern, SEED)
+        single.reset()
+        for _ in range(5):
+            single.step(AWAY)
+    positions, rotations = (np.concatenate(values) for values in zip(*poses_drawn, strict=True))
+    assert len(positions) >= 16 * 5 + 3 * (1 + 5)
+    assert (positions[:, model.geom("fist/geom").id] != rest[model.geom("fist/geom").id]).any(), "nothing moved"
+    for shown, expected in ((positions, rest), (rotations, np.tile(np.eye(3).ravel(), (model.ngeom, 1)))):
+        assert (shown[:, blocks] == expected[blocks]).all()
+
+
+def test_a_poked_block_tells_nothing_of_the_others_which_stay_as_they_were():
+    """Masses are given to the blocks in turn: 0.5 kg or 1 kg to the poked one, 0.2 kg or 1 kg to the others."""
+    model = model_of(*HEAVIER)
+    env = load_single(*HEAVIER)
+    first = image_of(env.reset())
+    columns = project(model, corners_of_blocks(model, *poses_at_rest(model))[0])[..., 0]
+
+    def play(poked, mass, others):
+        env.task.next_episode = 0
+        env.reset()
+        kit = env.task.apparatus
+        kilograms = np.full((1, 4), others)
+        kilograms[0, poked] = mass
+        for field, (addresses, values) in kit.mass_fields(kilograms).items():
+            getattr(env.physics.model, field)[addresses] = values[0]
+        return np.stack([image_of(env.step(poked)) for _ in range(10)])
+
+    for poked in range(4):
+        light, heavy = play(poked, 0.5, 0.2), play(poked, 0.5, 1.0)
+        assert light.tobytes() == heavy.tobytes()
+        assert (light[0] != first).any() and (light[0] != play(poked, 1.0, 0.2)[0]).any()
+        for other in {0, 1, 2, 3} - {poked}:
+            seen = slice(int(columns[other].min()), int(columns[other].max()) + 1)
+            assert (light[:, :, seen] == first[:, seen]).all()

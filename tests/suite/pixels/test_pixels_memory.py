@@ -1,0 +1,74 @@
+"""Drawing, and opening and closing what draws, leaves memory and open files as they are."""
+
+import os
+
+from images import EDGE, HEAVIER, MARKS, image_of, load_shared
+import memory
+import numpy as np
+import pytest
+
+from physexp import suite
+
+pytestmark = MARKS
+
+
+def test_ten_thousand_resets_leave_memory_as_it_is(seed, drawn):
+    """Of one environment, where each of them draws, and of a batch, where each is followed by a step that does."""
+    env, batch = load_shared(*HEAVIER, seed), load_shared(*HEAVIER, seed, 16)
+
+    def play():
+        for _ in range(4):
+            env.reset()
+        env.step(0)
+        batch.reset()
+        batch.step(np.zeros(16, int))
+
+    grown = memory.growth(play, 500, num_warm_up=20)
+    assert sum(drawn) >= 520 * (4 + 1 + 16)
+    assert grown < 2_000_000, f"{grown} bytes; an image has {EDGE * EDGE * 3}"
+
+
+@pytest.mark.parametrize("end", ["closed", "dropped"])
+def test_environments_that_are_gone_give_their_memory_back(end):
+    """A context and its buffers take 7 MB, and not one of those of six environments may be lost."""
+
+    def play():
+        for env in (suite.load(*HEAVIER), suite.load_batch(*HEAVIER, 1)):
+            env.reset()
+            if end == "closed":
+                env.close()
+
+    grown = memory.growth(play, 3, num_warm_up=3)
+    assert grown < 7_000_000, f"{grown} bytes"
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("size", [None, 2], ids=["environment", "batch"])
+def test_two_thousand_environments_opened_and_closed_leave_nothing(size):
+    """Neither memory nor open files; 2 kB of each would be 4 MB in all."""
+
+    def play():
+        environment = suite.load(*HEAVIER) if size is None else suite.load_batch(*HEAVIER, size)
+        environment.reset()
+        environment.step(0 if size is None else np.zeros(size, int))
+        environment.close()
+
+    play()
+    files = len(os.listdir("/proc/self/fd"))
+    grown = memory.growth(play, 2000, num_warm_up=20)
+    assert grown < 4_000_000, f"{grown} bytes"
+    assert len(os.listdir("/proc/self/fd")) == files
+
+
+def test_a_dozen_environments_draw_in_turn_while_all_are_open_and_leave_no_file(load):
+    """Each has a context of its own."""
+    files = len(os.listdir("/proc/self/fd"))
+    environments = [load(*HEAVIER, number) for number in range(12)]
+    first = [image_of(environment.reset()) for environment in environments]
+    poked = [image_of(environment.step(0)) for environment in environments]
+    for number in (0, 6, 11):
+        np.testing.assert_array_equal(first[number], first[0])
+        assert (poked[number] != first[number]).any()
+    for environment in environments:
+        environment.close()
+    assert len(os.listdir("/proc/self/fd")) <= files + 1
