@@ -21,7 +21,8 @@ from physexp.suite.engine import checks, priors
 _LARGEST_NODES, _RATIO_NODES = 400, 33
 _QUADRATURE_NODES = 48  # Per half of each density; many more where there is only one state to integrate from.
 _EPISODES = 2**17  # Of the histogram; drawn evenly (Sobol), so that its error is far below 0.001.
-_MOST_THINGS, _EASIEST = 20, 1e6
+MOST_THINGS = 20
+_EASIEST = 1e6
 
 Read = Callable[[Mapping[str, np.ndarray], int], float]
 """Reads the value of the thing that an interaction has touched from the observation after it."""
@@ -211,7 +212,7 @@ def solve(prior: priors.OddOneOut, discount: float, find_read: Callable[[], Read
     difficulty = prior.difficulty
     if not (isinstance(difficulty, (int, float)) and 1 <= difficulty <= _EASIEST):
         raise ValueError(f"difficulty is {difficulty!r}; give a number in [1, {_EASIEST:g}] (the paper's beta)")
-    checks.integer("num_things", prior.num_things, 2, _MOST_THINGS)
+    checks.integer("num_things", prior.num_things, 2, MOST_THINGS)
     return Solution(prior, base.check_discount(discount), find_read)
 
 

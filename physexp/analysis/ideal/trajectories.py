@@ -109,9 +109,7 @@ class Trajectories:
             yield timestep.observation
 
 
-def distances(
-    observation: Mapping[str, np.ndarray], readings: Mapping[str, declarations.Reading] | None = None
-) -> np.ndarray:
+def distances(observation: Mapping[str, np.ndarray], readings: Mapping[str, declarations.Reading]) -> np.ndarray:
     """Returns how far apart observations are, pairwise: [N, N] for arrays with a leading axis N.
 
     Features: the largest distance between what was read of the same thing, in the reading's unit. Images: how many
@@ -123,7 +121,7 @@ def distances(
     """
     found = []
     for name, values in observation.items():
-        if name in (readings or {}):
+        if name in readings:
             points = values.reshape(len(values), -1, max(1, len(readings[name].components))).astype(float)
             found.append(np.linalg.norm(points[:, None] - points, axis=-1).max(axis=-1))
         else:

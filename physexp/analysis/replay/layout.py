@@ -98,7 +98,9 @@ def _seen(episode: recording.Episode, root: str) -> rrb.View | rrb.Container:
 def _thoughts(episode: recording.Episode, root: str) -> tuple[list[rrb.View], list[list[rrb.View]]]:
     """What is believed now, and plots of it over time in groups, of which the first ones are to be seen first."""
     curves, chances = functools.partial(_curves, episode, root), (-0.05, 1.05)
-    ideal = [curves("belief of an ideal experimenter", ["belief/ideal"], chances)][: episode.domain in beliefs.IDEAL]
+    ideal = [curves("belief of an ideal experimenter", ["belief/ideal"], chances)][
+        : beliefs.of_ideal(episode) is not None
+    ]
     if not len(episode.policies):
         return [], [ideal] if ideal else []
     now = rrb.TextDocumentView(origin=f"{root}/belief/now", name=titled(root, "belief and policy, now"))

@@ -233,7 +233,7 @@ class EpisodeWriter:
     def _write_belief(self) -> None:
         episode, things, labels = self._episode, self._episode.things, self._task.label_names
         names, colors = [palette.short(label, things) for label in labels], palette.of_labels(labels, things)
-        ideal = beliefs.IDEAL[episode.domain](episode) if episode.domain in beliefs.IDEAL else None
+        ideal = beliefs.of_ideal(episode)
         if ideal is not None:
             self._series("belief/ideal", ideal, names, colors, steps=True)
         if len(episode.policies):
