@@ -47,9 +47,9 @@ class Frame:
 
 def recorded(name: str) -> recording.Episode:
     """The episode that a picture shows."""
-    target, seed, number = EPISODES[name]
+    target, seed, index = EPISODES[name]
     network, config = playing.find_agent(target)
-    return recording.reenact(network, config, seed, number, None)
+    return recording.reenact(network, config, seed, index, None)
 
 
 def frames(episode: recording.Episode) -> list[Frame]:
@@ -71,7 +71,7 @@ def frames(episode: recording.Episode) -> list[Frame]:
 def scenes(episode: recording.Episode, substeps: Sequence[int]) -> Iterator[np.ndarray]:
     """Images at some physics steps, uint8 [SCENE, SCENE, 3]."""
     environment = suite.load(episode.domain, episode.task, task_kwargs={**episode.task_kwargs, "random": episode.seed})
-    environment.task.next_episode = episode.number
+    environment.task.next_episode = episode.episode
     environment.reset()
     model = environment.task.apparatus.model
     moving = [geom for geom in range(model.ngeom) if model.body_weldid[model.geom_bodyid[geom]] != 0]

@@ -6,6 +6,7 @@ import commands
 import pytest
 
 from physexp.agents.a3c import config as a3c
+from physexp.analysis.data import provenance
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
@@ -52,6 +53,6 @@ def untrained(tmp_path):
     run.create(config)
     agent = trainer.make_agent(config)
     run.checkpointer.save(
-        agent.save(), {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
+        agent.save(), {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": provenance.versions()}
     )
     return run

@@ -472,7 +472,7 @@ def test_a_bar_moves_on_a_terminal_and_nothing_is_shown_elsewhere(tmp_path, monk
 
 def test_an_evaluation_tells_how_many_episodes_are_played(untrained):
     told = []
-    playing.play(playing.load_network(untrained), untrained.config, 300, report=told.append)
+    playing.play(playing.load_network(untrained), untrained.config, 300, show=told.append)
     assert told == [256, 300]  # A round is 256 episodes.
 
 

@@ -129,7 +129,7 @@ def test_the_example_experiment_runs_from_nothing_to_a_verdict(tmp_path):
     lines = []
     results = base.Results(tmp_path)
     reproduce.run(
-        [patience.EXPERIMENT], results, observations=("features",), num_seeds=2, frames=5_000, report=lines.append
+        [patience.EXPERIMENT], results, observations=("features",), num_seeds=2, frames=5_000, tell=lines.append
     )
     assert (tmp_path / "figures" / "patience.svg").exists()
     (verdict,) = [line for line in lines if "An agent that is in a hurry" in line]

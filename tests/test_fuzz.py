@@ -19,7 +19,7 @@ from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.cli import parsing
 
-FEATURES = [names for names in suite.ALL_TASKS if names[1].endswith("features")]
+FEATURES = suite.tagged("features")
 QUICKLY = hypothesis.settings(
     max_examples=150, deadline=None, suppress_health_check=list(hypothesis.HealthCheck), print_blob=True
 )

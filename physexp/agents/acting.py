@@ -1,114 +1,19 @@
-"""Acting: one episode in any environment, or a round of whole episodes side by side in a batch."""
+"""Acting with a network: one episode in any environment, or a round of whole episodes side by side in a batch."""
 
-from collections.abc import Callable
-import dataclasses
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
 
 import dm_env
 import numpy as np
 import torch
 
-from physexp.agents import core, networks
+from physexp.agents import core, networks, rounds
 
-# Replaces actions on their way to the environment: actions int [N] and a generator to replaced actions int [N].
 ActionOverride = Callable[[np.ndarray, np.random.Generator], np.ndarray]
+"""Maps chosen actions, int [N], and a generator to the actions that the environments get, int [N]."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Round:
-    """Whole episodes, one in each environment of a batch, padded to the longest.
-
-    Steps that were played can be packed: all first steps, then all second steps, and so on, [N, ...].
-
-    Attributes:
-      actions: actions taken, int64 [T, B].
-      rewards: rewards that followed, float32 [T, B].
-      lengths: actions in each episode, int64 [B].
-      answers: the right labels, int64 [B]: for records, not for learning.
-      inputs: the network's encoding of what was seen before each action, packed, [N, F], with the graph that made it;
-        None where the round is not to be learned from with the parameters that it was played with.
-      transcript: what else it takes to learn from the round; None where that is not wanted.
-    """
-
-    actions: np.ndarray
-    rewards: np.ndarray
-    lengths: np.ndarray
-    answers: np.ndarray
-    inputs: torch.Tensor | None = None
-    transcript: "Transcript | None" = None
-
-    @property
-    def num_frames(self) -> int:
-        return int(self.lengths.sum())
-
-    @property
-    def played(self) -> np.ndarray:
-        """Which steps were played, bool [T, B]."""
-        return np.arange(len(self.actions))[:, None] < self.lengths
-
-    @property
-    def batch_sizes(self) -> torch.Tensor:
-        """How many episodes have a t-th step, int64 [T]."""
-        return torch.from_numpy(self.played.sum(axis=1))
-
-    def packed(self, array: np.ndarray) -> torch.Tensor:
-        """The steps of an array [T, B, ...] that were played, packed."""
-        return torch.from_numpy(array[self.played])
-
-    def select(self, episodes: np.ndarray | None = None) -> "Round":
-        """Some episodes, or all, from the longest to the shortest, as the network unrolls them."""
-        episodes = np.arange(len(self.lengths)) if episodes is None else episodes
-        episodes = episodes[np.argsort(-self.lengths[episodes], kind="stable")]
-        longest = self.lengths[episodes].max()
-        places = self.played.ravel().cumsum().reshape(self.played.shape) - 1
-        steps = torch.from_numpy(places[:longest, episodes][self.played[:longest, episodes]])
-        return Round(
-            self.actions[:longest, episodes],
-            self.rewards[:longest, episodes],
-            self.lengths[episodes],
-            self.answers[episodes],
-            None if self.inputs is None else self.inputs[steps.to(self.inputs.device)],
-            self.transcript and self.transcript.select(steps),
-        )
-
-    def record(self) -> "Round":
-        """The same round, to be looked at but not to be learned from."""
-        return dataclasses.replace(self, inputs=None, transcript=None)
-
-    def arrays(self) -> dict[str, np.ndarray]:
-        """All there is, as plain arrays by name: to be written, or sent by a process that ends."""
-        named: dict[str, Any] = {**vars(self), **(vars(self.transcript) if self.transcript else {})}
-        named |= named.pop("observation", {})
-        del named["transcript"]
-        return {
-            name: value.detach().cpu().numpy() if isinstance(value, torch.Tensor) else value
-            for name, value in named.items()
-            if value is not None
-        }
-
-
-@dataclasses.dataclass(frozen=True)
-class Transcript:
-    """What it takes to learn from episodes with other parameters than those they were played with; all packed.
-
-    Attributes:
-      observation: what was seen before each action, arrays [N, ...] by name.
-      log_probabilities: of the actions, by the policy that took them, float32 [N].
-      values: what that network expected of the rest of the episode, float32 [N].
-    """
-
-    observation: dict[str, torch.Tensor]
-    log_probabilities: torch.Tensor
-    values: torch.Tensor
-
-    def select(self, steps: torch.Tensor) -> "Transcript":
-        """Some steps, int64 [n]."""
-        observation = {name: array[steps] for name, array in self.observation.items()}
-        return Transcript(observation, self.log_probabilities[steps], self.values[steps])
-
-
-def as_tensors(observation) -> dict[str, torch.Tensor]:
-    """The arrays of a batched observation as tensors."""
+def as_tensors(observation: Mapping[str, np.ndarray]) -> dict[str, torch.Tensor]:
+    """Returns the arrays of a batched observation as tensors."""
     return {name: torch.from_numpy(value) for name, value in observation.items()}
 
 
@@ -122,31 +27,31 @@ def sample(logits: torch.Tensor, generator: np.random.Generator) -> np.ndarray:
 @torch.no_grad()
 def play_round(
     network: networks.RecurrentActorCritic,
-    environment,
+    environment: core.Batch,
     episode: int,
     generator: np.random.Generator,
     greedy: bool = False,
     action_override: ActionOverride | None = None,
     differentiable: bool = False,
-    transcribe: bool = False,
-) -> Round:
+    keep_behaviour: bool = False,
+) -> rounds.Round:
     """Plays one whole episode in each environment of a batch.
 
     Args:
       network: the policy.
-      environment: a `BatchEnvironment`.
+      environment: the batch.
       episode: index of the episode that every environment starts.
       generator: source of the actions.
       greedy: take the likeliest action instead of drawing one.
       action_override: changes the chosen actions on their way to the environment.
-      differentiable: keep what it takes to differentiate the inputs. A round is learned from with the parameters that
-        it is played with, so what is seen passes the torso only once.
-      transcribe: keep what it takes to learn from the round with other parameters, too.
+      differentiable: keep the inputs of the LSTM and their graph, to learn with the parameters that the round is played
+        with: what is seen then passes the torso only once.
+      keep_behaviour: keep observations, probabilities and values, to learn with other parameters, too.
     """
     timestep = environment.reset(episode=episode)
     active = np.arange(environment.num_environments)
     state = network.initial_state(len(active))
-    steps, encoded, transcripts = [], [], []
+    steps, encoded, behaviour = [], [], []
     lengths = np.zeros(len(active), np.int64)
     while len(active):
         observation = timestep.observation
@@ -160,9 +65,9 @@ def play_round(
         steps.append((active, actions, timestep.reward))
         if differentiable:
             encoded.append(inputs)
-        if transcribe:
+        if keep_behaviour:
             chosen = torch.log_softmax(logits.cpu(), dim=-1).gather(1, torch.from_numpy(actions)[:, None])[:, 0]
-            transcripts.append((as_tensors(observation), chosen, values.cpu()))
+            behaviour.append(rounds.BehaviourData(as_tensors(observation), chosen, values.cpu()))
         lengths[active] += 1
         going = timestep.step_type != dm_env.StepType.LAST
         if not going.all():
@@ -174,15 +79,17 @@ def play_round(
         actions[t, active], rewards[t, active] = taken, reward
     with torch.set_grad_enabled(differentiable):
         graph = torch.cat(encoded) if differentiable else None
-    transcript = _joined(transcripts) if transcribe else None
-    return Round(actions, rewards, lengths, environment.correct_answers, graph, transcript)
+    joined = _joined(behaviour) if keep_behaviour else None
+    return rounds.Round(actions, rewards, lengths, environment.correct_answers, graph, joined)
 
 
-def _joined(transcripts) -> Transcript:
-    """The transcript of all steps, from one for each point in time."""
-    observations, log_probabilities, values = zip(*transcripts, strict=True)
-    observation = {name: torch.cat([each[name] for each in observations]) for name in observations[0]}
-    return Transcript(observation, torch.cat(log_probabilities), torch.cat(values))
+def _joined(parts: Sequence[rounds.BehaviourData]) -> rounds.BehaviourData:
+    """Returns the data of all steps, from those of each point in time."""
+    return rounds.BehaviourData(
+        {name: torch.cat([part.observation[name] for part in parts]) for name in parts[0].observation},
+        torch.cat([part.log_probabilities for part in parts]),
+        torch.cat([part.values for part in parts]),
+    )
 
 
 class RecurrentActor(core.Actor):
@@ -215,7 +122,7 @@ class RecurrentActor(core.Actor):
         self._state = self._network.initial_state(1)
 
     def observe(self, action, next_timestep):
-        """Needs nothing: the state has moved on in `select_action`."""
+        """Does nothing: the state has moved on in `select_action`."""
 
     def update(self):
-        """Needs nothing: the network is fixed."""
+        """Does nothing: the network is fixed."""

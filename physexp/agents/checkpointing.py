@@ -15,11 +15,10 @@ from safetensors import SafetensorError
 from safetensors import torch as safetensors
 import torch
 
-from physexp.agents import files
+from physexp.agents import core, files
 
 FORMAT = 1
-"""Of checkpoints."""
-_MOST_JSON = 1_000_000  # Bytes; a card has two thousand.
+"""The format of checkpoints."""
 _MOST_HEADER = 1_000_000  # Bytes, of the names and shapes of tensors; those of a checkpoint take five thousand.
 
 
@@ -80,26 +79,8 @@ def read_agent(path: Path, like: Mapping[str, torch.Tensor], sha256: str | None 
     return tensors
 
 
-def read_json(path: Path) -> Any:
-    """What a JSON file of ours holds.
-
-    Raises:
-      OSError: if it cannot be read.
-      ValueError: if it is no JSON, has numbers that are not finite, or is larger than any of ours.
-    """
-    content = files.read_plain(path, _MOST_JSON)
-    try:
-        return json.loads(content, parse_constant=_refuse_constant)
-    except (ValueError, RecursionError) as error:
-        raise ValueError(f"{path} is no JSON: {' '.join(str(error).split())}; put back what was written") from None
-
-
-def _refuse_constant(name: str) -> float:
-    raise ValueError(f"{name} is no number")
-
-
 def num_bytes(tensors: Iterable[torch.Tensor]) -> int:
-    """The most that a file with such tensors takes."""
+    """Returns the most bytes that a file with such tensors takes."""
     return _MOST_HEADER + sum(value.numel() * value.element_size() for value in tensors)
 
 
@@ -199,7 +180,7 @@ class Checkpointer:
         return path
 
     def paths(self) -> list[Path]:
-        """The checkpoints, oldest first."""
+        """Returns the paths of the checkpoints, oldest first."""
         return sorted(path for path in self._folder.glob("*.safetensors") if _is_number(path.stem))
 
     def latest(
@@ -208,7 +189,7 @@ class Checkpointer:
         accept: Callable[[dict[str, torch.Tensor], dict[str, Any]], None] = lambda tensors, facts: None,
         most: int | None = None,
     ) -> tuple[dict[str, torch.Tensor], dict[str, Any]] | None:
-        """The tensors and facts of the newest checkpoint that is whole, or None where there is none at all.
+        """Returns the tensors and facts of the newest checkpoint that is whole, or None where there is none at all.
 
         Args:
           tell: called with a line for each one that is damaged.
@@ -225,7 +206,7 @@ class Checkpointer:
         for path in reversed(self.paths()):
             try:
                 tensors, facts = _read(path, most)
-            except _DamagedError as error:
+            except core.DamagedError as error:
                 damaged.append(f"{path.name}: {error}")
                 tell(f"{path} is damaged ({error}); the one before it is used")
                 continue
@@ -241,16 +222,12 @@ class Checkpointer:
         return None
 
 
-class _DamagedError(Exception):
-    """A checkpoint is not what was written."""
-
-
 def _is_number(text: str) -> bool:
     return text.isascii() and text.isdecimal()
 
 
 def json_digest(value: Any) -> str:
-    """SHA-256 of what JSON can hold, however it is laid out in a file."""
+    """Returns the SHA-256 of what JSON can hold, however it is laid out in a file."""
     return hashlib.sha256(json.dumps(value, sort_keys=True).encode()).hexdigest()
 
 
@@ -258,23 +235,23 @@ def _read(path: Path, most: int | None) -> tuple[dict[str, torch.Tensor], dict[s
     """Reads a checkpoint; nothing in it is run, and nothing is looked at whose checksum differs."""
     facts_path = path.with_suffix(".json")
     try:
-        card = read_json(facts_path)
+        card = files.read_json(facts_path)
         form, checksum, facts = card["format"], card["sha256"], card["facts"]
         is_whole = isinstance(facts, dict) and card.get("facts_sha256") in (None, json_digest(facts))
     except (FileNotFoundError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
-        raise _DamagedError(f"its JSON cannot be read: {ascii(str(error))[1:200]}") from None
+        raise core.DamagedError(f"its JSON cannot be read: {ascii(str(error))[1:200]}") from None
     if form != FORMAT:
         raise ValueError(f"{path} has format {ascii(form)[:80]}; this version reads format {FORMAT}")
     if not is_whole:
-        raise _DamagedError(f"the checksum of {facts_path.name} differs")
+        raise core.DamagedError(f"the checksum of {facts_path.name} differs")
     content = files.read_plain(path, os.lstat(path).st_size if most is None else most)
     if hashlib.sha256(content).hexdigest() != checksum:
-        raise _DamagedError("its checksum differs")
+        raise core.DamagedError("its checksum differs")
     try:
         tensors, _ = _parse(content)
     except ValueError as error:
-        raise _DamagedError(f"it holds no tensors: it {error}") from None
+        raise core.DamagedError(f"it holds no tensors: it {error}") from None
     frames = tensors.get("frames")
     if frames is None or (frames.dtype, frames.shape) != (torch.int64, ()) or int(frames) != int(path.stem):
-        raise _DamagedError("its frames are not those in its name")
+        raise core.DamagedError("its frames are not those in its name")
     return tensors, facts

@@ -7,7 +7,7 @@ from typing import ClassVar, Literal, Self, get_args
 
 Device = Literal["auto", "cpu", "cuda"]
 LARGEST = 2**63 - 1
-"""Of the integers that a checkpoint can hold."""
+"""The largest integer that a checkpoint can hold."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -36,6 +36,18 @@ class AgentConfig:
     """
 
     algorithm: ClassVar[str]
+    """The learner's name."""
+    metrics: ClassVar[Mapping[str, str]] = {
+        "entropy": "mean entropy of the policy, nats",
+        "policy_loss": "",
+        "baseline_loss": "",
+        "gradient_norm": "before clipping",
+        "learning_rate": "",
+        "entropy_cost": "",
+    }
+    """What the learner measures in each update: names, and what they mean where that does not say it."""
+    can_run_on_cluster: ClassVar[bool] = False
+    """Whether its workers may be spread over machines."""
 
     discount: float = 0.95
     frames: int = 8_000_000
@@ -67,18 +79,23 @@ class AgentConfig:
     )
 
     def replace(self, **changes) -> Self:
-        """A copy with some values changed."""
+        """Returns a copy with some values changed."""
         return dataclasses.replace(self, **changes)
 
     @property
     def entropy_prior(self) -> tuple[float, ...]:
-        """What the entropy bonus is relative to, logits of the actions; none for the uniform policy."""
+        """Returns what the entropy bonus is relative to, logits of the actions; none for the uniform policy."""
         return self.action_prior if self.relative_entropy else ()
 
     def at(self, progress: float) -> tuple[float, float]:
-        """Step size and weight of the entropy bonus when this share of training is done."""
+        """Returns step size and weight of the entropy bonus when this share of training is done."""
         entropy_cost = self.entropy_cost ** (1 - progress) * self.final_entropy_cost**progress
         return self.learning_rate * (1 - progress), entropy_cost
+
+    @property
+    def num_workers(self) -> int:
+        """Returns how many processes act and learn."""
+        return 1
 
     def __post_init__(self):
         for name, (least, most) in self._WHOLE.items():

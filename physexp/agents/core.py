@@ -1,10 +1,64 @@
-"""The interfaces of an agent, as in Acme: an actor chooses actions, a learner improves variables."""
+"""The nouns of agents, as in Acme: actors, learners, agents, what they act in, what they hand out, and their errors.
+
+Imports nothing heavy.
+"""
 
 import abc
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Callable, Generator, Mapping
+import dataclasses
+from typing import TYPE_CHECKING, Any, Protocol
 
 import dm_env
+from dm_env import specs
+import numpy as np
+
+if TYPE_CHECKING:  # torch takes a second to import, and here only annotations name it.
+    import torch
+
+    from physexp.agents import rounds
+
+
+class Batch(Protocol):
+    """Environments that play side by side, B of them, each its own episode."""
+
+    @property
+    def num_environments(self) -> int:
+        """Returns B."""
+
+    @property
+    def correct_answers(self) -> np.ndarray:
+        """Returns the right labels of the current episodes, int64 [B]; never observable."""
+
+    def observation_spec(self) -> Mapping[str, specs.Array]:
+        """Returns the spec of each array that one environment observes, by name."""
+
+    def action_spec(self) -> specs.DiscreteArray:
+        """Returns the spec of an action."""
+
+    def reset(self, *, episode: int | None = None) -> dm_env.TimeStep:
+        """Starts an episode in every environment: that of an index, or by default the one after the current.
+
+        Returns:
+          The first timestep, whose fields are arrays with a leading axis [B].
+        """
+
+    def step(self, actions: np.ndarray, environments: np.ndarray) -> dm_env.TimeStep:
+        """Takes an action in some of the environments.
+
+        Args:
+          actions: an action for each of them, int64 [N].
+          environments: which ones, sorted indices, int64 [N].
+
+        Returns:
+          The timestep that follows, whose fields are arrays with a leading axis [N].
+        """
+
+    def close(self) -> None:
+        """Frees what the environments hold."""
+
+
+EnvironmentFactory = Callable[[int, int, int], Batch]
+"""Makes a batch from its seed, its number of environments and its number of threads."""
 
 
 class Actor(abc.ABC):
@@ -40,13 +94,88 @@ class Learner(abc.ABC):
             self.step()
 
     @abc.abstractmethod
-    def get_variables(self) -> dict[str, Any]:
+    def get_variables(self) -> "dict[str, torch.Tensor]":
         """Returns a copy of the network's variables by name."""
 
     @abc.abstractmethod
-    def save(self) -> dict[str, Any]:
+    def save(self) -> "dict[str, torch.Tensor]":
         """Returns all that `restore` needs to continue as if nothing had happened: tensors by name."""
 
     @abc.abstractmethod
-    def restore(self, state: Mapping[str, Any]) -> None:
+    def restore(self, state: "Mapping[str, torch.Tensor]") -> None:
         """Takes up what `save` returned."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Update:
+    """What one update did.
+
+    Attributes:
+      seed: of the batch of environments that it learned from.
+      episode: index of the episode that each of those environments played.
+      metrics: figures of the learner, those that its configuration declares among them; `updates` and `frames` are
+        counted over all workers.
+      episodes: the episodes it learned from, for records.
+    """
+
+    seed: int
+    episode: int
+    metrics: dict[str, float]
+    episodes: "rounds.Round"
+
+
+class Agent(abc.ABC):
+    """Acts and learns until it has had its frames."""
+
+    @property
+    @abc.abstractmethod
+    def frames(self) -> int:
+        """Returns the environment steps trained on."""
+
+    @abc.abstractmethod
+    def updates(self, poll_seconds: float = 0.5) -> Generator[Update | None, None, None]:
+        """Trains until `frames` are reached or `stop` is called; yields each update, or None when none came in time.
+
+        Raises:
+          AgentError: if training cannot go on.
+        """
+
+    @abc.abstractmethod
+    def stop(self) -> None:
+        """Asks it to end after the update it is at; may be called by a signal's handler."""
+
+    @abc.abstractmethod
+    def save(self) -> "dict[str, torch.Tensor]":
+        """Returns a consistent copy of all variables by name, between two updates."""
+
+    @abc.abstractmethod
+    def restore(self, tensors: "Mapping[str, torch.Tensor]") -> None:
+        """Takes up what `save` returned; call it before `updates`.
+
+        Raises:
+          ValueError: if the tensors do not fit this configuration.
+        """
+
+
+class AgentError(RuntimeError):
+    """Training cannot go on; `batch` holds the arrays of the round that is to blame, where it is known."""
+
+    def __init__(self, message: str, batch: dict[str, Any] | None = None):
+        super().__init__(message)
+        self.batch = batch
+
+
+class DivergedError(AgentError):
+    """The loss or its gradient is not finite."""
+
+
+class WorkerError(AgentError):
+    """A worker has died."""
+
+
+class VariablesLostError(AgentError):
+    """What was learned since the last checkpoint is lost; restored from it, training can go on."""
+
+
+class DamagedError(Exception):
+    """A checkpoint is not what was written."""

@@ -8,7 +8,7 @@ import torch
 
 
 def choose(device: str, sees_images: bool) -> torch.device:
-    """The device to compute on.
+    """Chooses the device to compute on.
 
     Args:
       device: `cpu`, `cuda`, or `auto`: the GPU where there is one and convolutions to compute. Without them a processor
@@ -25,7 +25,7 @@ def choose(device: str, sees_images: bool) -> torch.device:
 
 
 def autocast(device: torch.device):
-    """A context in which convolutions and products are computed in bf16, where the hardware is made for it."""
+    """Returns a context in which convolutions and products are computed in bf16, where the hardware is made for it."""
     if _has_fast_bfloat16(device.type):
         return torch.autocast(device.type, torch.bfloat16)
     return contextlib.nullcontext()

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 import contextlib
 import errno
 import fcntl
+import json
 import os
 from pathlib import Path
 import re
@@ -11,6 +12,7 @@ import secrets
 import stat
 from typing import IO, Any
 
+_MOST_JSON = 1_000_000  # Bytes; an agent's card has two thousand.
 _LITTER = re.compile(r"\..+\.[0-9a-f]{16}\.tmp")  # The names of `_temporary`.
 
 
@@ -83,7 +85,7 @@ def open_plain(path: Path, mode: str = "rb", **options: Any) -> IO[Any]:
 
 
 def read_plain(path: Path, most: int) -> bytes:
-    """The content of a regular file of at most so many bytes.
+    """Returns the content of a regular file of at most so many bytes.
 
     Raises:
       OSError, ValueError: as `open_plain`; ValueError also if the file is larger.
@@ -98,9 +100,27 @@ def read_plain(path: Path, most: int) -> bytes:
     return content
 
 
+def read_json(path: Path) -> Any:
+    """Returns what a JSON file of ours holds.
+
+    Raises:
+      OSError: if it cannot be read.
+      ValueError: if it is no JSON, has numbers that are not finite, or is larger than any of ours.
+    """
+    content = read_plain(path, _MOST_JSON)
+    try:
+        return json.loads(content, parse_constant=_refuse_constant)
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"{path} is no JSON: {' '.join(str(error).split())}; put back what was written") from None
+
+
+def _refuse_constant(name: str) -> float:
+    raise ValueError(f"{name} is no number")
+
+
 @contextlib.contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """A context that one process at a time is in; the others wait."""
+    """Returns a context that one process at a time is in; the others wait."""
     opened = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         with contextlib.suppress(OSError):  # Of a file system without locks.
@@ -136,7 +156,7 @@ def _refusal(path: Path, kind: str) -> str:
 
 
 def _temporary(folder: int, name: str) -> tuple[str, int]:
-    """The name and descriptor of a new file beside `name`, which is locked as long as its writer lives."""
+    """Returns the name and descriptor of a new file beside `name`, which is locked as long as its writer lives."""
     while True:
         temporary = f".{name}.{secrets.token_hex(8)}.tmp"
         flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW

@@ -1,24 +1,11 @@
 """What learners share: the variables that training moves, the targets of whole episodes, and one careful gradient."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 import torch
 
-from physexp.agents import acting, checkpointing, losses, networks
-
-
-class AgentError(RuntimeError):
-    """Training cannot go on; `batch` holds the arrays of the round that is to blame, where it is known."""
-
-    def __init__(self, message: str, batch: dict[str, Any] | None = None):
-        super().__init__(message)
-        self.batch = batch
-
-
-class DivergedError(AgentError):
-    """The loss or its gradient is not finite."""
+from physexp.agents import checkpointing, core, losses, networks, rounds
 
 
 class Variables:
@@ -54,7 +41,7 @@ class Variables:
         return self
 
     def tensors(self) -> dict[str, torch.Tensor]:
-        """Everything, by name; not copies."""
+        """Returns everything, by name; not copies."""
         named = {f"network/{name}": value for name, value in self.network.state_dict().items()}
         for name, parameter in self.network.named_parameters():
             for statistic, value in self.optimizer.state[parameter].items():
@@ -62,7 +49,7 @@ class Variables:
         return {**named, "frames": self.frames, "updates": self.updates, "rounds": self.rounds}
 
     def save(self) -> dict[str, torch.Tensor]:
-        """Copies of everything, by name, on the processor."""
+        """Returns copies of everything, by name, on the processor."""
         return {name: value.to("cpu", copy=True) for name, value in self.tensors().items()}
 
     def restore(self, tensors: Mapping[str, torch.Tensor]) -> None:
@@ -102,19 +89,19 @@ class Variables:
 
 
 def network_variables(tensors: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:
-    """The network's variables by name, of what `Variables.save` returned."""
+    """Returns the network's variables by name, of what `Variables.save` returned."""
     prefix = "network/"
     return {name.removeprefix(prefix): value for name, value in tensors.items() if name.startswith(prefix)}
 
 
-def targets(episodes: acting.Round, values: torch.Tensor, discount: float, trace: float):
-    """Returns and advantages of a round's actions, packed, float32 [N] each.
+def targets(episodes: rounds.Round, values: torch.Tensor, discount: float, trace: float):
+    """Computes returns and advantages of a round's actions, packed, float32 [N] each.
 
     Args:
       episodes: the round.
       values: estimates of the return at each action, packed, [N].
       discount: the agent's gamma.
-      trace: see `losses.generalized_advantages`.
+      trace: lambda of generalized advantage estimation, see `losses.generalized_advantages`.
     """
     rewards, played = torch.from_numpy(episodes.rewards), torch.from_numpy(episodes.played)
     goes_on = np.arange(len(episodes.actions))[:, None] < episodes.lengths - 1
@@ -126,9 +113,9 @@ def targets(episodes: acting.Round, values: torch.Tensor, discount: float, trace
 
 
 def clipped_gradients(
-    network: networks.RecurrentActorCritic, loss: torch.Tensor, max_norm: float, episodes: acting.Round
+    network: networks.RecurrentActorCritic, loss: torch.Tensor, max_norm: float, episodes: rounds.Round
 ) -> tuple[list[torch.Tensor], float]:
-    """The gradient of a loss for each parameter, scaled down to a norm, and the norm it had.
+    """Returns the gradient of a loss for each parameter, scaled down to a norm, and the norm it had.
 
     Raises:
       DivergedError: if the loss or the norm is not finite; it holds the round.
@@ -137,6 +124,6 @@ def clipped_gradients(
     loss.backward()
     norm = torch.nn.utils.clip_grad_norm_(network.parameters(), max_norm)
     if not (torch.isfinite(loss) and torch.isfinite(norm)):
-        raise DivergedError(f"loss {loss.item()} with gradient norm {norm.item()}", episodes.arrays())
+        raise core.DivergedError(f"loss {loss.item()} with gradient norm {norm.item()}", episodes.arrays())
     gradients = [parameter.grad for parameter in network.parameters()]
     return [gradient for gradient in gradients if gradient is not None], norm.item()

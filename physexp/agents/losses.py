@@ -6,7 +6,7 @@ import torch
 
 
 def discounted_returns(rewards: torch.Tensor, discounts: torch.Tensor) -> torch.Tensor:
-    """Returns of whole episodes, G_t = r_t + d_t G_{t+1}.
+    """Computes returns of whole episodes, G_t = r_t + d_t G_{t+1}.
 
     Args:
       rewards: reward that follows action t, [T, B]; zero after an episode's end.
@@ -25,7 +25,7 @@ def discounted_returns(rewards: torch.Tensor, discounts: torch.Tensor) -> torch.
 
 
 def generalized_advantages(rewards: torch.Tensor, discounts: torch.Tensor, values: torch.Tensor, trace: float):
-    """Advantages of whole episodes (Schulman et al., 2016, equation 16).
+    """Computes advantages of whole episodes (Schulman et al., 2016, equation 16).
 
     A_t = delta_t + d_t trace A_{t+1}, where delta_t = r_t + d_t V_{t+1} - V_t. With a trace of 1 they are
     `discounted_returns` minus the values: without bias, but every action pays for the luck of the answer at the end.
@@ -33,7 +33,7 @@ def generalized_advantages(rewards: torch.Tensor, discounts: torch.Tensor, value
     Args:
       rewards, discounts: as for `discounted_returns`, [T, B].
       values: estimates of the return at each action, [T, B]; anything where an episode is over.
-      trace: lambda, in [0, 1].
+      trace: lambda of generalized advantage estimation, in [0, 1].
 
     Returns:
       Advantages, [T, B].
@@ -55,7 +55,7 @@ def actor_critic_losses(
     advantages: torch.Tensor,
     prior: Sequence[float] = (),
 ):
-    """The three losses of advantage actor-critic (Mnih et al., 2016, Section 4), averaged over all leading axes.
+    """Computes the three losses of advantage actor-critic (Mnih et al., 2016, Section 4), means over all leading axes.
 
     Args:
       logits: unnormalised log probabilities of the actions, [..., A].
@@ -84,7 +84,7 @@ def clipped_losses(
     clip: float,
     prior: Sequence[float] = (),
 ):
-    """The three losses of PPO (Schulman et al., 2017, equations 7 and 9), averaged over all leading axes.
+    """Computes the three losses of PPO (Schulman et al., 2017, equations 7 and 9), means over all leading axes.
 
     Args:
       logits, values, actions, returns, advantages, prior: as for `actor_critic_losses`.

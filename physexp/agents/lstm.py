@@ -24,7 +24,7 @@ class LSTM(nn.LSTM):
         super().__init__(num_inputs, num_units)
 
     def project(self, inputs: torch.Tensor) -> torch.Tensor:
-        """What `step` and `unroll` take: on a processor what inputs [N, F] and biases add to the gates, [N, 4 H].
+        """Returns what `step` and `unroll` take: on a processor what inputs [N, F] and biases add to gates [N, 4 H].
 
         It depends on no state, so what is known of a time step when it is acted on need not be computed again to learn.
         """
@@ -33,7 +33,7 @@ class LSTM(nn.LSTM):
         return torch.addmm(self.bias_ih_l0 + self.bias_hh_l0, inputs, self.weight_ih_l0.t())
 
     def step(self, projected: torch.Tensor, state: State) -> tuple[torch.Tensor, State]:
-        """One time step, not to be differentiated.
+        """Computes one time step, not to be differentiated.
 
         Args:
           projected: what `project` returned for N inputs.
@@ -50,7 +50,7 @@ class LSTM(nn.LSTM):
         return hidden, (hidden[None], cell[None])
 
     def unroll(self, projected: torch.Tensor, batch_sizes: torch.Tensor) -> torch.Tensor:
-        """Whole sequences from a state of zeros, with gradients.
+        """Computes whole sequences from a state of zeros, with gradients.
 
         Args:
           projected: what `project` returned for N inputs, packed: the longest sequence first, all first steps, then

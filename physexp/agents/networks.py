@@ -23,7 +23,7 @@ class FeatureTorso(nn.Module):
         self.num_outputs = sum(int(np.prod(observation_spec[name].shape)) for name in self._names)
 
     def calibrate(self, first: Observation) -> None:
-        """Needs nothing: features are what they are."""
+        """Does nothing: features are taken as they are."""
 
     def forward(self, observation: Observation) -> torch.Tensor:
         """Maps arrays [N, ...] to inputs of the LSTM, [N, num_outputs]."""
@@ -77,11 +77,22 @@ class PixelTorso(nn.Module):
 
 
 def _distinct(images: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
-    """Indices of one of each of the images that are the same bytes, and for each image its place among them."""
+    """Returns indices of one of each of the images that are the same bytes, and for each image its place among them."""
     numbers: dict[bytes, int] = {}
     places = [numbers.setdefault(image.tobytes(), len(numbers)) for image in images.numpy()]
     first = np.unique(places, return_index=True)[1]
     return torch.from_numpy(first), torch.tensor(places)
+
+
+def _sees_images(observation_spec: Mapping[str, specs.Array]) -> bool:
+    """Tells whether an image is observed, or features; raises ValueError for anything else."""
+    images = [name for name, spec in observation_spec.items() if spec.dtype == np.uint8]
+    if not observation_spec or (images and len(observation_spec) > 1):
+        raise ValueError(
+            f"the network takes features (float32) or one image (uint8), and what is observed is "
+            f"{', '.join(sorted(observation_spec)) or 'nothing'}; leave out all but features, or all but one image"
+        )
+    return bool(images)
 
 
 class RecurrentActorCritic(nn.Module):
@@ -100,31 +111,34 @@ class RecurrentActorCritic(nn.Module):
         Args:
           observation_spec: what is observed.
           num_actions: how many actions there are.
-          lstm_units, observation_scale: see `A3CConfig`.
+          lstm_units, observation_scale: see `AgentConfig`.
+
+        Raises:
+          ValueError: if what is observed is neither features nor one image.
         """
         super().__init__()
-        self.sees_images = all(spec.dtype == np.uint8 for spec in observation_spec.values())
+        self.sees_images = _sees_images(observation_spec)
         self.torso = (PixelTorso if self.sees_images else FeatureTorso)(observation_spec, observation_scale)
         self.lstm = lstm.LSTM(self.torso.num_outputs, lstm_units)
         self.policy = nn.Linear(lstm_units, num_actions)
         self.value = nn.Linear(lstm_units, 1)
 
     def initial_state(self, batch_size: int) -> lstm.State:
-        """The state at an episode's start: zeros, hidden and cell each [1, batch_size, units]."""
+        """Returns the state at an episode's start: zeros, hidden and cell each [1, batch_size, units]."""
         shape = (1, batch_size, self.lstm.hidden_size)
         return torch.zeros(shape, device=self.device), torch.zeros(shape, device=self.device)
 
     @property
     def device(self) -> torch.device:
-        """Where the network computes."""
+        """Returns the device that the network computes on."""
         return self.value.weight.device
 
     def calibrate(self, first: Observation) -> None:
         """Tells the torso what an episode's first observation looks like, arrays [N, ...]; it is always the same."""
         self.torso.calibrate(first)
 
-    def prefer(self, logits: Sequence[float]) -> None:
-        """Makes the policy start from these logits, one for each action; none leave it as it is.
+    def initialize_policy(self, logits: Sequence[float]) -> None:
+        """Adds logits to the biases of the policy, one for each action; none leave it as it is.
 
         Raises:
           ValueError: if there are some, but not as many as actions.
@@ -140,7 +154,7 @@ class RecurrentActorCritic(nn.Module):
             return self.lstm.project(self.torso(observation).to(self.device)).float()
 
     def step(self, inputs: torch.Tensor, state: lstm.State) -> tuple[torch.Tensor, torch.Tensor, lstm.State]:
-        """One time step of many episodes.
+        """Computes one time step of many episodes.
 
         Args:
           inputs: what `encode` returned, [N, F].
@@ -153,7 +167,7 @@ class RecurrentActorCritic(nn.Module):
         return *self._heads(outputs), state
 
     def unroll(self, inputs: torch.Tensor, batch_sizes: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
-        """Whole episodes from their first steps, packed: sorted from the longest to the shortest, no padding.
+        """Computes whole episodes from their first steps, packed: sorted from the longest to the shortest, no padding.
 
         Args:
           inputs: what `encode` returned, [N, F]: all first steps, then all second steps, and so on.

@@ -1,6 +1,6 @@
 """Trained agents that come with the package: weights in half precision, and a card that says where they come from."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 import contextlib
 import dataclasses
 import hashlib
@@ -8,6 +8,7 @@ import json
 import math
 import os
 from pathlib import Path
+import re
 from typing import Any
 
 from dm_env import specs
@@ -17,7 +18,6 @@ import torch
 from physexp.agents import acting, checkpointing, files, networks
 
 FOLDER = Path(__file__).with_name("pretrained_agents")
-_DEFAULT_DIFFICULTY = 5
 _WAITING = ".next.safetensors"  # Weights of a card that is about to be written, or has just been.
 
 
@@ -27,60 +27,86 @@ class Pretrained:
 
     Attributes:
       network: its network.
-      card: where it comes from: domain, task, command, commit, seed, frames, time, evaluation, the network's
-        hyperparameters and the specs it was made for.
+      card: where it comes from: domain, task, the options that the task had (`task_kwargs`), command, commit, seed,
+        frames, time, evaluation, the network's hyperparameters and the specs it was made for.
     """
 
     network: networks.RecurrentActorCritic
     card: dict[str, Any]
 
     def actor(self, seed: int = 0, greedy: bool = False) -> acting.RecurrentActor:
-        """An actor with this network; `seed` determines its actions, `greedy` takes the likeliest ones instead."""
+        """Returns an actor with this network; `seed` determines its actions, `greedy` takes the likeliest ones."""
         return acting.RecurrentActor(self.network, seed, greedy)
 
 
-def name(domain: str, task: str, difficulty: float | None) -> str:
-    """The name of an agent's files."""
-    if difficulty is None:
-        return f"{domain}-{task}"
-    short = f"{difficulty:g}"
-    return f"{domain}-{task}-difficulty{short if float(short) == difficulty else repr(difficulty)}"
+def name(domain: str, task: str, options: Mapping[str, Any]) -> str:
+    """Returns the name of an agent's files: domain, task, and each option that was chosen for the task."""
+    chosen = sorted((option, value) for option, value in options.items() if value is not None)
+    return "-".join([domain, task, *(f"{option}{_short(value)}" for option, value in chosen)])
+
+
+def _short(value: Any) -> str:
+    """Returns a value as it is in a name, 5 for 5.0."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return str(value)
+    short = f"{value:g}"
+    return short if float(short) == value else repr(value)
 
 
 def names(folder: Path = FOLDER) -> list[str]:
-    """The names of the agents in a folder."""
+    """Returns the names of the agents in a folder."""
     return sorted(card.stem for card in folder.glob("*.json"))
 
 
-def load(domain: str, task: str, difficulty: float | None = None, folder: Path = FOLDER) -> Pretrained:
+def load(domain: str, task: str, *values: Any, folder: Path = FOLDER, **options: Any) -> Pretrained:
     """Loads a trained agent.
 
     Args:
       domain, task: what it plays.
-      difficulty: what it was trained at, for a domain with difficulties; 5 by default.
+      values: of the options that the task had in training, in the order of the agents' names.
       folder: where the agents are.
+      options: the same by name. By default those of the agent whose card says that it is the task's default.
 
     Raises:
       OSError: if its files cannot be read.
       ValueError: where there is no such agent, and it lists those that there are; or if its files are damaged.
     """
-    base = name(domain, task, difficulty)
-    if difficulty is None and base not in names(folder):
-        base = name(domain, task, _DEFAULT_DIFFICULTY)
-    try:
-        return load_named(base, folder)
-    except _UnknownError:
-        raise _UnknownError(name(domain, task, difficulty), folder) from None
+    base = name(domain, task, {})
+    siblings = [each for each in names(folder) if each.startswith(f"{base}-")]
+    positions = _option_names(siblings[0], base) if siblings else []
+    given = {**dict(zip(positions, values, strict=False)), **options}
+    if len(values) > len(positions) and any(value is not None for value in values[len(positions) :]):
+        raise ValueError(
+            f"no trained agent of {domain}/{task} has options {', '.join(map(repr, values))}; there are: "
+            f"{', '.join(names(folder)) or 'none'}"
+        )
+    wanted = name(domain, task, given)
+    if wanted == base and base not in names(folder):
+        wanted = _default(siblings, folder) or base
+    return load_named(wanted, folder)
+
+
+def _option_names(base: str, prefix: str) -> list[str]:
+    """Returns the names of the options in an agent's name, which begins with domain and task."""
+    return re.findall(r"-([A-Za-z_]+)", base.removeprefix(prefix))
+
+
+def _default(candidates: Sequence[str], folder: Path) -> str | None:
+    """Returns the agent to take where no option is given: the only one, or the one whose card says so."""
+    if len(candidates) == 1:
+        return candidates[0]
+    cards = {base: files.read_json(folder / f"{base}.json") for base in candidates}
+    return next((base for base, card in cards.items() if isinstance(card, dict) and card.get("default") is True), None)
 
 
 def load_named(base: str, folder: Path = FOLDER) -> Pretrained:
     """Loads the trained agent whose files have this name; raises as `load`."""
     if base not in names(folder):
-        raise _UnknownError(base, folder)
+        raise ValueError(f"no trained agent is named {base}; there are: {', '.join(names(folder)) or 'none'}")
     path = folder / f"{base}.json"
     if folder == FOLDER:
         path = path.resolve()  # Some installers put links in the place of a package's files.
-    card = checkpointing.read_json(path)
+    card = files.read_json(path)
     try:
         _check(card, base)
         with torch.device("meta"):  # Nothing is made that its weights do not fit.
@@ -91,19 +117,19 @@ def load_named(base: str, folder: Path = FOLDER) -> Pretrained:
     try:
         weights = _read_weights(path, card, like)
     except ValueError:
-        if checkpointing.read_json(path) == card:
+        if files.read_json(path) == card:
             raise
         return load_named(base, folder)  # Another has just been written.
     network = _network(card["network"])
     network.load_state_dict(weights)
-    return Pretrained(network.eval(), card)
+    return Pretrained(network.eval(), {**card, "task_kwargs": _options(card, base)})
 
 
-class _UnknownError(ValueError):
-    """There is no such agent."""
-
-    def __init__(self, base: str, folder: Path):
-        super().__init__(f"no trained agent is named {base}; there are: {', '.join(names(folder)) or 'none'}")
+def _options(card: dict[str, Any], base: str) -> dict[str, Any]:
+    """Returns the options that the task had; on older cards, those in the name stand beside the rest."""
+    if "task_kwargs" in card:
+        return card["task_kwargs"]
+    return {option: card[option] for option in _option_names(base, name(card["domain"], card["task"], {}))}
 
 
 def _check(card: dict[str, Any], base: str) -> None:
@@ -112,12 +138,12 @@ def _check(card: dict[str, Any], base: str) -> None:
         raise ValueError("one of its two checksums is missing")
     if card.get("card_sha256") not in (None, checkpointing.json_digest({**card, "card_sha256": None})):
         raise ValueError("its checksum differs")
-    if (found := name(card["domain"], card["task"], card["difficulty"])) != base:
+    if (found := name(card["domain"], card["task"], _options(card, base))) != base:
         raise ValueError(f"it is of {found}")
 
 
 def _network(facts: dict[str, Any]) -> networks.RecurrentActorCritic:
-    """The network that the facts on a card describe, with some weights."""
+    """Returns the network that the facts on a card describe, with some weights."""
     observation_spec = {
         key: specs.Array(tuple(shape), np.dtype(dtype), key) for key, (shape, dtype) in facts["observations"].items()
     }
@@ -130,7 +156,7 @@ def _network(facts: dict[str, Any]) -> networks.RecurrentActorCritic:
 
 
 def _read_weights(card_path: Path, card: dict[str, Any], like: dict[str, torch.Tensor]) -> dict[str, torch.Tensor]:
-    """The weights that a card is about; those that wait to be put in place, where whoever wrote them was killed."""
+    """Reads the weights that a card is about; those that wait to be put in place, where their writer was killed."""
     checksum = card.get("sha256")
     path, waiting = card_path.with_suffix(".safetensors"), card_path.with_suffix(_WAITING)
     if waiting.exists() and checksum is not None:
@@ -144,7 +170,7 @@ def save(network: networks.RecurrentActorCritic, card: Mapping[str, Any], folder
 
     Args:
       network: its network; floating-point weights are kept in half precision.
-      card: all that is known of it, with `domain`, `task`, `difficulty` and `network` as `load` reads them.
+      card: all that is known of it, with `domain`, `task`, `task_kwargs` and `network` as `load` reads them.
       folder: where the agents are; made when needed.
 
     Raises:
@@ -154,7 +180,7 @@ def save(network: networks.RecurrentActorCritic, card: Mapping[str, Any], folder
     weights = checkpointing.agent_bytes(network.state_dict())
     content = sealed({**card, "sha256": hashlib.sha256(weights).hexdigest()})
     folder.mkdir(parents=True, exist_ok=True)
-    path = folder / f"{name(card['domain'], card['task'], card['difficulty'])}.json"
+    path = folder / f"{name(card['domain'], card['task'], card['task_kwargs'])}.json"
     waiting = path.with_suffix(_WAITING)
     with files.locked(folder):
         _put_in_place(path)  # What the last writer was killed over.
@@ -172,7 +198,7 @@ def _put_in_place(card_path: Path) -> None:
     waiting = card_path.with_suffix(_WAITING)
     # Without a card, or with one that is damaged or older than checksums, they are nobody's.
     with contextlib.suppress(FileNotFoundError, ValueError, KeyError, TypeError):
-        wanted = checkpointing.read_json(card_path)["sha256"]
+        wanted = files.read_json(card_path)["sha256"]
         with files.open_plain(waiting) as file:
             found = hashlib.sha256(file.read()).hexdigest()
         if found == wanted:
@@ -180,7 +206,7 @@ def _put_in_place(card_path: Path) -> None:
 
 
 def sealed(card: Mapping[str, Any]) -> bytes:
-    """A card as it is kept in a file, with a checksum of itself."""
+    """Returns a card as it is kept in a file, with a checksum of itself."""
     plain = json.loads(json.dumps({**card, "card_sha256": None}))  # As it will be read: JSON has no tuples.
     return (json.dumps({**plain, "card_sha256": checkpointing.json_digest(plain)}, indent=1) + "\n").encode()
 

@@ -15,7 +15,7 @@ _DEATH_SECONDS = 5.0  # For the system to take away what was killed.
 
 @contextlib.contextmanager
 def unheard_by_children():
-    """A context in which processes are started that do not hear requests to end.
+    """Returns a context in which processes are started that do not hear requests to end.
 
     Terminals and schedulers send those to every process; it is the parent that asks its children to stop. What comes
     meanwhile is heard afterwards.
@@ -30,7 +30,7 @@ def unheard_by_children():
 
 @contextlib.contextmanager
 def inherited_by_workers():
-    """A context in which workers are started: as `unheard_by_children`, and with one thread for torch."""
+    """Returns a context in which workers are started: as `unheard_by_children`, and with one thread for torch."""
     threads = os.environ.get("OMP_NUM_THREADS")
     os.environ["OMP_NUM_THREADS"] = "1"  # Read when a worker imports torch.
     try:
@@ -44,7 +44,7 @@ def inherited_by_workers():
 
 
 def begin() -> None:
-    """What a child's process does first: it ignores requests to end, and ends when its parent does."""
+    """Makes a child's process, first of all, ignore requests to end, and end when its parent does."""
     for number in STOP_SIGNALS:
         signal.signal(number, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()

@@ -37,11 +37,11 @@ def examine() -> dict:
 def _facts() -> dict:
     import torch
 
-    from physexp.analysis.training import run
+    from physexp.analysis.data import provenance
     from physexp.suite.engine import gl
 
     return {
-        **run.versions(),
+        **provenance.versions(),
         "processors": len(os.sched_getaffinity(0)),
         "torch_threads": torch.get_num_threads(),
         "omp_num_threads": os.environ.get("OMP_NUM_THREADS", "not set"),

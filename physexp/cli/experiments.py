@@ -61,7 +61,7 @@ class Reproduce:
                 num_processes=self.jobs,
                 frames=self.frames,
                 submit=submit,
-                report=printing.tell,
+                tell=printing.tell,
             )
 
 
@@ -96,16 +96,16 @@ class Bench:
     sections: Annotated[
         Positional[tuple[Literal[tuple(bench.SECTIONS)], ...]],  # type: ignore[valid-type]
         tyro.conf.arg(metavar="[SECTION ...]"),
-    ] = bench.DEFAULT
+    ] = bench.BY_DEFAULT
     results_dir: Path = Path("results")
     json: Switch = False
 
     def run(self) -> None:
-        extras.require(*dict.fromkeys(module for section in self.sections for module in bench.SECTIONS[section]))
+        extras.require(*bench.extras(self.sections))
         from physexp.analysis.bench import measuring
 
         rows = []
-        for row in measuring.run(self.sections, self.results_dir):
+        for row in bench.run(self.sections, self.results_dir):
             rows.append(row)
             if not self.json:
                 print(measuring.line(row), flush=True)

@@ -46,7 +46,7 @@ class Evaluate(Generic[options_lib.Options]):
         seed = playing.SEED if self.seed is None else self.seed
         with progress.bar("episodes", self.episodes) as show:
             played = playing.play(
-                network, config, self.episodes, self.interaction, self.greedy, seed, device=self.device, report=show
+                network, config, self.episodes, self.interaction, self.greedy, seed, device=self.device, show=show
             )
         printing.show(played.summary(config.agent.discount), self.json)
 

@@ -84,7 +84,13 @@ class Train(Generic[Config, options_lib.Options]):
                     for log in logs:
                         log(row)
 
-                trainer.train(run, report, self.cluster is not None, printing.warn, None if self.resume else config)
+                on_checkpoint = None
+                if config.replay_every:
+                    from physexp.analysis.replay import training
+
+                    on_checkpoint = training.Writer(run, config)
+                start = None if self.resume else config
+                trainer.train(run, report, self.cluster is not None, printing.warn, start, on_checkpoint)
         except KeyboardInterrupt:
             self._tell_how_to_go_on(run)
             raise

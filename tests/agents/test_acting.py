@@ -6,7 +6,7 @@ from scipy import stats
 import torch
 
 from physexp import suite
-from physexp.agents import acting, environment_loop, networks
+from physexp.agents import acting, environment_loop, networks, rounds
 
 torch.set_num_threads(1)  # As a worker does; more of them only wait for each other.
 
@@ -115,7 +115,7 @@ def test_packing_lays_out_all_first_steps_then_all_second_steps_in_the_given_ord
     # shortest (1, 2, 0): first steps 10, 20, 0; second steps 11, 21; third step 12.
     actions = np.array([[0, 10, 20], [-1, 11, 21], [-1, 12, -1]])
     inputs = torch.tensor([[0.0], [10], [20], [11], [21], [12]])  # As they were played: episodes in their own order.
-    episodes = acting.Round(actions, np.zeros((3, 3)), np.array([1, 3, 2]), np.array([7, 8, 9]), inputs)
+    episodes = rounds.Round(actions, np.zeros((3, 3)), np.array([1, 3, 2]), np.array([7, 8, 9]), inputs)
     assert episodes.num_frames == 6
     selected = episodes.select()
     assert selected.packed(selected.actions).tolist() == [10, 20, 0, 11, 21, 12]
@@ -128,7 +128,7 @@ def test_selecting_some_episodes_keeps_their_steps_and_no_padding():
     # As above, of episodes 2 and 0 only: first steps 20, 0; second step 21; nobody has a third.
     actions = np.array([[0, 10, 20], [-1, 11, 21], [-1, 12, -1]])
     inputs = torch.tensor([[0.0], [10], [20], [11], [21], [12]])
-    episodes = acting.Round(actions, np.zeros((3, 3)), np.array([1, 3, 2]), np.array([7, 8, 9]), inputs)
+    episodes = rounds.Round(actions, np.zeros((3, 3)), np.array([1, 3, 2]), np.array([7, 8, 9]), inputs)
     some = episodes.select(np.array([0, 2]))
     assert some.packed(some.actions).tolist() == some.inputs[:, 0].tolist() == [20, 0, 21]
     assert some.actions.shape == (2, 2)
@@ -136,18 +136,18 @@ def test_selecting_some_episodes_keeps_their_steps_and_no_padding():
 
 
 @pytest.mark.parametrize(("domain", "task"), suite.ALL_TASKS)
-def test_a_transcript_gives_back_the_probabilities_and_values_of_acting(domain, task):
+def test_behaviour_data_give_back_the_probabilities_and_values_of_acting(domain, task):
     seed = fresh_seed()
     batch = suite.load_batch(domain, task, 12, {"random": seed})
     network = make_network(batch, seed)
-    played = acting.play_round(network, batch, 0, np.random.default_rng(seed), transcribe=True)
+    played = acting.play_round(network, batch, 0, np.random.default_rng(seed), keep_behaviour=True)
     batch.close()
     some = played.select(np.array([3, 7, 1, 11, 5]))
     with torch.no_grad():
-        logits, values = network.unroll(network.encode(some.transcript.observation), some.batch_sizes)
+        logits, values = network.unroll(network.encode(some.behaviour.observation), some.batch_sizes)
     taken = torch.log_softmax(logits, -1).gather(1, some.packed(some.actions)[:, None])[:, 0]
-    torch.testing.assert_close(taken, some.transcript.log_probabilities, atol=1e-5, rtol=1e-5)
-    torch.testing.assert_close(values, some.transcript.values, atol=1e-5, rtol=1e-5)
+    torch.testing.assert_close(taken, some.behaviour.log_probabilities, atol=1e-5, rtol=1e-5)
+    torch.testing.assert_close(values, some.behaviour.values, atol=1e-5, rtol=1e-5)
 
 
 def test_draws_follow_the_softmax_of_the_logits():
@@ -290,9 +290,9 @@ def test_an_action_override_changes_what_the_environment_gets_and_what_is_record
 
 def test_the_arrays_of_a_round_can_be_received_after_their_sender_has_ended():
     inputs = torch.arange(6.0, requires_grad=True).reshape(2, 3)
-    transcript = acting.Transcript({"heights": torch.ones(2, 4)}, torch.zeros(2), torch.ones(2))
+    behaviour = rounds.BehaviourData({"heights": torch.ones(2, 4)}, torch.zeros(2), torch.ones(2))
     zeros = np.zeros((1, 2), int)
-    arrays = acting.Round(zeros, zeros, np.ones(2, int), np.zeros(2, int), inputs, transcript).arrays()
+    arrays = rounds.Round(zeros, zeros, np.ones(2, int), np.zeros(2, int), inputs, behaviour).arrays()
     names = "actions rewards lengths answers inputs heights log_probabilities values"
     assert set(arrays) == set(names.split())
     assert all(isinstance(array, np.ndarray) for array in arrays.values())  # A tensor is fetched from its sender.

@@ -8,7 +8,7 @@ import pytest
 import torch
 
 from physexp import suite
-from physexp.agents import acting, losses, networks
+from physexp.agents import losses, networks, rounds
 from physexp.agents.a3c import learning
 
 
@@ -130,7 +130,7 @@ def test_a_rounds_losses_are_means_over_the_steps_that_were_played_and_no_paddin
             head.bias.zero_()
     inputs = network.encode({"heights": torch.zeros(4, 4)}).detach()
     rewards = np.array([[1, 0], [0, 0], [0, -1]], np.float32)
-    episodes = acting.Round(np.zeros((3, 2), np.int64), rewards, np.array([1, 3]), np.zeros(2, np.int64), inputs)
+    episodes = rounds.Round(np.zeros((3, 2), np.int64), rewards, np.array([1, 3]), np.zeros(2, np.int64), inputs)
     batch.close()
     policy_loss, baseline_loss, entropy = learning.round_losses(network, episodes, 0.5)
     assert policy_loss.item() == pytest.approx(math.log(8) * -0.75 / 4, abs=1e-6)

@@ -1,5 +1,6 @@
 """The paper's convolutions, and where and how precisely they are computed."""
 
+from dm_env import specs
 import numpy as np
 import pytest
 import torch
@@ -84,11 +85,11 @@ def test_the_policy_starts_from_the_logits_it_is_told():
     network = make_network()
     before, _, _ = network.step(network.encode({"pixels": images}), network.initial_state(4))
     prior = torch.arange(9.0)
-    network.prefer(prior.tolist())
+    network.initialize_policy(prior.tolist())
     after, _, _ = network.step(network.encode({"pixels": images}), network.initial_state(4))
     torch.testing.assert_close(after - before, prior.expand(4, 9))
     with pytest.raises(ValueError, match="action_prior has 2 logits; give 9, or none"):
-        network.prefer([1.0, 2.0])
+        network.initialize_policy([1.0, 2.0])
 
 
 def test_features_are_computed_on_the_processor_unless_told_otherwise():
@@ -136,3 +137,13 @@ def test_a_gpu_agrees_with_the_processor_within_bf16():
     with torch.no_grad():
         projected = network.to("cpu").lstm.project(inputs.float().cpu())
     assert ((projected - expected).abs().max() / expected.abs().max()).item() < BF16_TOLERANCE
+
+
+@pytest.mark.parametrize("names", [[], ["heights", "pixels"], ["left", "right"]])
+def test_anything_but_features_or_one_image_is_refused_in_one_line(names):
+    image, features = specs.Array((84, 84, 3), np.uint8), specs.Array((4,), np.float32)
+    observed = {name: features if name == "heights" else image for name in names}
+    with pytest.raises(
+        ValueError, match=f"takes features .*, and what is observed is {', '.join(names) or 'nothing'};"
+    ):
+        networks.RecurrentActorCritic(observed, 9, lstm_units=1, observation_scale=1.0)

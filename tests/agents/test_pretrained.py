@@ -62,14 +62,27 @@ def test_an_agent_answers_as_well_as_its_card_says(path):
 
 def test_the_default_difficulty_is_that_of_the_task():
     card = pretrained.load("which_is_heavier", "features").card
-    assert card["difficulty"] == suite.load_task("which_is_heavier", "features").options.difficulty
+    assert card["task_kwargs"]["difficulty"] == suite.load_task("which_is_heavier", "features").options.difficulty
+
+
+@pytest.mark.parametrize("path", CARDS, ids=lambda path: path.stem)
+def test_an_agent_is_found_by_the_options_of_its_task_by_position_and_by_name(path):
+    agent = pretrained.load_named(path.stem)
+    domain, task, options = (agent.card[name] for name in ("domain", "task", "task_kwargs"))
+    assert pretrained.name(domain, task, options) == path.stem
+    for found in (pretrained.load(domain, task, *options.values()), pretrained.load(domain, task, **options)):
+        assert found.card == agent.card
+    assert pretrained.load(domain, task, None).card["task"] == task, "None is no choice"
 
 
 def test_an_agent_that_is_not_there_is_refused_with_a_list_of_those_that_are():
     with pytest.raises(ValueError, match="named towers-nothing; there are: .*towers-fist_features"):
         agents.load_pretrained("towers", "nothing")
-    with pytest.raises(ValueError, match="which_is_heavier-features-difficulty4; there are"):
-        agents.load_pretrained("which_is_heavier", "features", 4)
+    for values, options in (((4,), {}), ((), {"difficulty": 4})):
+        with pytest.raises(ValueError, match="which_is_heavier-features-difficulty4; there are"):
+            agents.load_pretrained("which_is_heavier", "features", *values, **options)
+    with pytest.raises(ValueError, match="no trained agent of towers/fist_features has options 3; there are: .*towers"):
+        agents.load_pretrained("towers", "fist_features", 3)
 
 
 def test_what_is_saved_is_what_is_loaded_to_half_precision(tmp_path):
@@ -81,7 +94,7 @@ def test_what_is_saved_is_what_is_loaded_to_half_precision(tmp_path):
     card = {
         "domain": "towers",
         "task": "fist_pixels",
-        "difficulty": None,
+        "task_kwargs": {},
         "network": {
             "observations": {"pixels": ((84, 84, 3), "uint8")},
             "num_actions": 9,
@@ -103,7 +116,7 @@ def small():
     card = {
         "domain": "towers",
         "task": "some",
-        "difficulty": None,
+        "task_kwargs": {},
         "network": {
             "observations": {"features": ((3,), "float32")},
             "num_actions": 4,
@@ -111,6 +124,41 @@ def small():
         },
     }
     return network, card
+
+
+def test_files_are_named_after_the_options_of_the_task_whatever_they_are(small, tmp_path):
+    network, card = small
+    options = {"skew": 2.0, "levels": 8, "is_covered": True, "chosen_by_nobody": None}
+    path = pretrained.save(network, {**card, "task_kwargs": options}, tmp_path)
+    assert path.name == "towers-some-is_coveredTrue-levels8-skew2.json"
+    assert pretrained.load("towers", "some", folder=tmp_path, levels=8, is_covered=True, skew=2).card["task"] == "some"
+
+
+def test_without_a_choice_the_only_agent_of_a_task_is_taken_or_the_one_that_is_the_default(small, tmp_path):
+    network, card = small
+    pretrained.save(network, {**card, "task_kwargs": {"skew": 2.5}}, tmp_path)
+    assert pretrained.load("towers", "some", folder=tmp_path).card["task_kwargs"] == {"skew": 2.5}
+    pretrained.save(network, {**card, "task_kwargs": {"skew": 1e-5}}, tmp_path)
+    with pytest.raises(ValueError, match="no trained agent is named towers-some; there are: towers-some-skew1e-05, "):
+        pretrained.load("towers", "some", folder=tmp_path)
+    pretrained.save(network, {**card, "task_kwargs": {"skew": 3.0}, "default": True}, tmp_path)
+    assert pretrained.load("towers", "some", folder=tmp_path).card["task_kwargs"] == {"skew": 3.0}
+    pretrained.save(network, card, tmp_path)  # Trained on the task as it is where nothing is chosen.
+    assert pretrained.load("towers", "some", folder=tmp_path).card["task_kwargs"] == {}
+
+
+@pytest.mark.parametrize("value", [None, 3.0, 1e-5])
+def test_a_card_from_before_options_had_a_place_of_their_own_is_read(value, small, tmp_path):
+    network, card = small
+    path = pretrained.save(network, {**card, "task_kwargs": {"skew": value}}, tmp_path)
+    older = {key: entry for key, entry in card_of(path).items() if key != "task_kwargs"} | {"skew": value}
+    path.write_bytes(pretrained.sealed(older))
+    found = pretrained.load("towers", "some", value, folder=tmp_path)
+    assert found.card["task_kwargs"] == ({} if value is None else {"skew": value})
+    path.write_bytes(pretrained.sealed({**older, "skew": 4.0}))
+    if value is not None:
+        with pytest.raises(ValueError, match="it is of towers-some-skew4; publish the agent again"):
+            pretrained.load("towers", "some", folder=tmp_path)
 
 
 def weights_of(network):
@@ -215,7 +263,8 @@ BAD_CARDS = {
     "no object": "[]",
     "no network": {"network": None},
     "no hyperparameters": {"network": {"observations": {}, "num_actions": 4}},
-    "a number that is none": {"difficulty": "3"},
+    "options of another agent": {"task_kwargs": {"colour": "red"}},
+    "options that are none": {"task_kwargs": 3},
     "another agent": {"task": "other"},
     "no units": ("lstm_units", 0),
     "half a unit": ("lstm_units", 0.5),

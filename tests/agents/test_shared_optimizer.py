@@ -55,7 +55,7 @@ def test_two_processes_move_one_set_of_adam_statistics(context):
     for gradient in (1.0, 2.0):  # One process after the other, so that the order is known.
         process = context.Process(target=apply_constant_gradient, args=(shared, gradient))
         process.start()
-        process.join(60)
+        process.join()
         assert process.exitcode == 0
     # Adam, beta1 = 0.9, beta2 = 0.999, learning rate 0.001, gradients 1 then 2:
     # exp_avg = 0.9 * (0.1 * 1) + 0.1 * 2 = 0.29; exp_avg_sq = 0.999 * (0.001 * 1) + 0.001 * 4 = 0.004999; step = 2.

@@ -23,12 +23,11 @@ import trainers
 from trainers import PHYSEXP, fresh_seed
 from waiting import Patience, wait_until
 
-from physexp.agents import agent as agent_lib
-from physexp.agents import learning
-from physexp.agents.a3c import agent as a3c_agent
+from physexp.agents import core, learning, rounds, starting
 from physexp.agents.a3c import config as a3c_config
 from physexp.agents.a3c import distributed
 from physexp.agents.a3c import learning as a3c
+from physexp.analysis.data import provenance
 from physexp.analysis.evaluation import playing
 from physexp.analysis.experiments import EXPERIMENTS, base
 from physexp.analysis.reproduction import cluster, reproduce
@@ -185,7 +184,7 @@ def test_workers_that_find_no_room_join_when_there_is_some(nodes, tmp_path):
             added = True
         if len(seen) == 3:
             agent.stop()
-    assert seen == {agent_lib.worker_seed(run.config.agent.seed, worker) for worker in range(3)}
+    assert seen == {starting.worker_seed(run.config.agent.seed, worker) for worker in range(3)}
 
 
 def test_a_machine_with_other_versions_is_refused_in_one_line_that_names_both(nodes, tmp_path):
@@ -195,7 +194,7 @@ def test_a_machine_with_other_versions_is_refused_in_one_line_that_names_both(no
     agent = distributed.DistributedA3C(
         environments, run.config.agent, lambda: {"mujoco": "3.17.0" if os.getpid() == trainer_pid else "3.16.0"}
     )
-    with pytest.raises(a3c_agent.WorkerError, match=r"has mujoco 3\.16\.0, not 3\.17\.0; install") as caught:
+    with pytest.raises(core.WorkerError, match=r"has mujoco 3\.16\.0, not 3\.17\.0; install") as caught:
         list(agent.updates())
     assert "\n" not in str(caught.value)
 
@@ -205,7 +204,7 @@ def test_a_loss_that_is_not_a_number_stops_training_and_leaves_the_batch(nodes, 
     tensors = trainer.make_agent(run.config).save()
     tensors["network/value.bias"][0] = 3e38  # Finite, but not its square.
     run.checkpointer.save(
-        tensors, {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
+        tensors, {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": provenance.versions()}
     )
     with pytest.raises(RuntimeError, match="worker 0: loss -?(inf|nan).*failed_batch.npz.*last checkpoint"):
         trainer.train(run, on_cluster=True)
@@ -223,7 +222,7 @@ def test_a_gradient_that_is_too_old_is_not_applied():
     network = torch.nn.Linear(2, 1)
     variables = learning.Variables(network)
     gradients = [torch.ones_like(parameter) for parameter in network.parameters()]
-    episodes = playing.acting.Round(
+    episodes = rounds.Round(
         actions=torch.zeros(1, 1).numpy(),
         rewards=torch.zeros(1, 1).numpy(),
         lengths=torch.ones(1, dtype=int).numpy(),
@@ -259,7 +258,7 @@ def test_a_sweep_gathers_what_the_cluster_made_and_survives_a_killed_task(nodes,
             num_seeds=1,
             frames=5_000,
             submit=cluster.submit,
-            report=lines.append,
+            tell=lines.append,
         )
 
     killer = threading.Thread(target=kill_one)
@@ -283,7 +282,7 @@ def test_training_ends_without_workers_that_find_no_room_and_says_how_many(nodes
     agent = distributed.DistributedA3C(
         functools.partial(trainer.make_environment, config),
         config.agent,
-        run_lib.versions,
+        provenance.versions,
         lines.append,
         distributed.Patience(room=0.0),
     )
@@ -298,14 +297,14 @@ def test_stopped_processes_of_a_cluster_hang_nobody(nodes, tmp_path):
     lines = []
     patience = types.SimpleNamespace(room=math.inf, silent=math.inf, stop=math.inf, answer=150.0)
     agent = distributed.DistributedA3C(
-        functools.partial(trainer.make_environment, config), config.agent, run_lib.versions, lines.append, patience
+        functools.partial(trainer.make_environment, config), config.agent, provenance.versions, lines.append, patience
     )
     updates = agent.updates(poll_seconds=0.05)
     assert any(update is not None for update in updates)
     (worker,) = nodes.processes("Worker")
     os.kill(worker, signal.SIGSTOP)
     patience.silent = patience.stop = 0.3
-    assert any("worker 0 has been silent for 0 s" in line for _ in updates for line in lines)
+    assert any("worker 0 has been silent since" in line for _ in updates for line in lines)
     agent.stop()
     list(updates)
     assert lines[-1] == "worker 0 did not end within 0 s: killed"
@@ -316,14 +315,14 @@ def test_a_parameter_server_that_does_not_answer_counts_as_dead(nodes, tmp_path)
     config = trainers.create(tmp_path / "run", frames=10**9, num_workers=1, envs_per_worker=2).config
     patience = types.SimpleNamespace(room=math.inf, silent=math.inf, stop=math.inf, answer=150.0)
     agent = distributed.DistributedA3C(
-        functools.partial(trainer.make_environment, config), config.agent, run_lib.versions, patience=patience
+        functools.partial(trainer.make_environment, config), config.agent, provenance.versions, patience=patience
     )
     updates = agent.updates(poll_seconds=0.05)
     assert any(update is not None for update in updates)
     (server,) = nodes.processes("ParameterServer")
     os.kill(server, signal.SIGSTOP)
     patience.answer = 0.3
-    with pytest.raises(agent_lib.VariablesLostError, match="the parameter server has not answered for 0 s"):
+    with pytest.raises(core.VariablesLostError, match="the parameter server has not answered for 0 s"):
         list(updates)
     wait_until(lambda: not Path(f"/proc/{server}").exists(), "the end of a stopped server")
 

@@ -10,6 +10,7 @@ import torch
 import trainers
 
 from physexp import suite
+from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
 
@@ -37,7 +38,7 @@ def assert_same_weights(run, other):
 def assert_whole_records(run):
     """The records have every frame once, in order, up to the last checkpoint, and each episode can be rebuilt."""
     metrics = pd.read_csv(run.path / "metrics.csv")
-    assert list(metrics.columns) == list(run_lib.METRICS)
+    assert list(metrics.columns) == [*metrics_lib.METRICS, *run.config.agent.metrics]
     frames = metrics["frames"].to_numpy()
     tensors, facts = run.checkpointer.latest()
     assert (np.diff(frames) > 0).all()

@@ -11,7 +11,7 @@ from trainers import fresh_seed
 
 from physexp import suite
 from physexp.agents import pretrained
-from physexp.analysis.data import estimates
+from physexp.analysis.data import episodes, estimates
 from physexp.analysis.evaluation import playing
 from physexp.analysis.training import run as run_lib
 
@@ -28,16 +28,19 @@ KEYS = [
 
 def test_the_summary_of_four_episodes_is_the_one_computed_by_hand():
     # Right at once; wrong after two pokes; out of time after 100 pokes; right after one poke.
-    played = playing.Episodes(
-        seeds=np.arange(4),
-        numbers=np.zeros(4, int),
+    actions = np.full((4, 100), -1)
+    for row, taken in zip(actions, ([4], [0, 1, 6], [0] * 100, [3, 7]), strict=True):
+        row[: len(taken)] = taken
+    played = episodes.Episodes(
+        seed=np.arange(4),
+        episode=np.zeros(4, int),
         hidden=np.zeros((4, 4)),
-        answers=np.array([0, 1, 2, 3]),
-        labels=np.array([0, 2, -1, 3]),
-        rewards=np.array([1.0, -1.0, -1.0, 1.0]),
-        lengths=np.array([1, 3, 100, 2]),
+        answer=np.array([0, 1, 2, 3]),
+        label=np.array([0, 2, -1, 3]),
+        reward=np.array([1.0, -1.0, -1.0, 1.0]),
+        length=np.array([1, 3, 100, 2]),
         interactions=np.array([0, 2, 100, 1]),
-        actions=[np.array([4]), np.array([0, 1, 6]), np.zeros(100, int), np.array([3, 7])],
+        actions=actions,
     )
     summary = played.summary(0.9)
     assert list(summary) == KEYS
@@ -81,21 +84,21 @@ def test_randomized_interaction_passes_labels_and_draws_every_poke_anew():
 def test_evaluation_repeats_with_its_seed_and_differs_with_another(untrained):
     seed = fresh_seed()
     first, again, other = (playing.evaluate(untrained, 300, seed=s) for s in (seed, seed, seed + 1))
-    for field in dataclasses.fields(playing.Episodes):
+    for field in dataclasses.fields(episodes.Episodes):
         values, repeated = getattr(first, field.name), getattr(again, field.name)
         assert len(values) == len(repeated) == 300
         for value, same in zip(values, repeated, strict=True):
             np.testing.assert_array_equal(value, same)
-    assert not (np.array_equal(first.lengths, other.lengths) and np.array_equal(first.rewards, other.rewards))
+    assert not (np.array_equal(first.length, other.length) and np.array_equal(first.reward, other.reward))
 
 
 def test_an_untrained_agent_answers_by_chance_with_either_interaction(untrained):
     for interaction in playing.INTERACTIONS:
         played = playing.evaluate(untrained, 1000, interaction, seed=fresh_seed())
         # Right with probability 1/4: the count stays within 6 standard deviations, 6 * sqrt(1000 * 3/16) = 82.
-        assert abs((played.rewards > 0).sum() - 250) < 83
-        assert set(np.unique(played.rewards)) == {-1.0, 1.0}
-        assert (played.interactions <= played.lengths).all()
+        assert abs((played.reward > 0).sum() - 250) < 83
+        assert set(np.unique(played.reward)) == {-1.0, 1.0}
+        assert (played.interactions <= played.length).all()
 
 
 def test_evaluation_refuses_what_makes_no_sense(untrained, tmp_path):
@@ -119,24 +122,24 @@ def test_the_evaluated_network_is_that_of_the_last_checkpoint(untrained):
     tensors["frames"] += 1
     untrained.checkpointer.save(tensors, facts)
     played = playing.evaluate(untrained, 200, seed=fresh_seed())
-    assert (played.lengths == 1).all() and not played.interactions.any()
-    assert 0 < (played.rewards > 0).sum() < 200
+    assert (played.length == 1).all() and not played.interactions.any()
+    assert 0 < (played.reward > 0).sum() < 200
 
 
 def test_every_episode_can_be_rebuilt_from_its_seed_number_and_actions(untrained):
     played = playing.evaluate(untrained, 40, seed=fresh_seed())
     for index in range(0, 40, 7):
         environment = suite.load(
-            "which_is_heavier", "features", task_kwargs={"random": int(played.seeds[index]), "difficulty": 10.0}
+            "which_is_heavier", "features", task_kwargs={"random": int(played.seed[index]), "difficulty": 10.0}
         )
-        environment.task.next_episode = int(played.numbers[index])
+        environment.task.next_episode = int(played.episode[index])
         environment.reset()
         np.testing.assert_array_equal(environment.task.hidden, played.hidden[index])
-        assert environment.task.correct_answer == played.answers[index]
-        for action in played.actions[index]:
+        assert environment.task.correct_answer == played.answer[index]
+        for action in played.actions_of(index):
             timestep = environment.step(int(action))
-        assert timestep.last() and timestep.reward == played.rewards[index]
-        assert len(played.actions[index]) == played.lengths[index]
+        assert timestep.last() and timestep.reward == played.reward[index]
+        assert len(played.actions_of(index)) == played.length[index]
 
 
 @pytest.mark.parametrize("base", pretrained.names())
@@ -200,9 +203,9 @@ def test_a_run_has_the_options_it_was_trained_with(untrained):
 def test_whole_rounds_are_played_until_there_are_enough_steps(untrained):
     network = playing.load_network(untrained)
     played = playing.play(network, untrained.config, 1, num_steps=5000)
-    assert played.lengths.sum() >= 5000
-    assert len(played.lengths) % 256 == 0  # Nothing is cut off, which would leave out long episodes.
-    assert played.lengths[:-256].sum() < 5000
+    assert played.length.sum() >= 5000
+    assert len(played) % 256 == 0  # Nothing is cut off, which would leave out long episodes.
+    assert played.length[:-256].sum() < 5000
 
 
 def test_a_run_that_keeps_its_agent_only_plays_as_before_to_half_precision(untrained):

@@ -16,6 +16,7 @@ import pytest
 import trainers
 from waiting import wait_until
 
+from physexp.agents import core
 from physexp.agents.a3c import agent as a3c
 from physexp.analysis.training import trainer
 
@@ -111,10 +112,10 @@ def test_a_worker_that_dies_or_is_stopped_with_the_shared_variables_ends_trainin
         else:
             patience.locked = 0.3
             message = rf"worker 0 \(process {victim}\) has kept the others from the shared variables"
-        with pytest.raises(a3c.WorkerError, match=message):
+        with pytest.raises(core.WorkerError, match=message):
             agent.save() if waiting == "to save" else list(updates)
     assert not Path(f"/proc/{victim}").exists()
-    with pytest.raises(a3c.WorkerError, match="killed in the middle of an update"):
+    with pytest.raises(core.WorkerError, match="killed in the middle of an update"):
         agent.save()
 
 

@@ -13,8 +13,10 @@ import trainers
 
 from physexp import suite
 from physexp.agents import pretrained
+from physexp.analysis.data import provenance
 from physexp.analysis.evaluation import playing, publishing
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
 from physexp.cli import options, parsing
@@ -33,11 +35,11 @@ def test_the_card_says_what_was_done_and_what_came_of_it(published):
     card = json.loads(path.read_text())
     last = run.metrics()[-1]
     assert path.name == "which_is_heavier-features-difficulty10.json"
-    assert (card["domain"], card["task"], card["difficulty"]) == ("which_is_heavier", "features", 10.0)
-    assert card["task_kwargs"] == {"difficulty": 10.0}
+    assert (card["domain"], card["task"], card["task_kwargs"]) == ("which_is_heavier", "features", {"difficulty": 10.0})
+    assert not card["default"], "the task's own difficulty is another"
     assert (card["seed"], card["frames"], card["seconds"]) == (5, int(last["frames"]), round(last["seconds"]))
     assert card["evaluation"]["drawn"]["episodes"] == card["evaluation"]["greedy"]["episodes"] == 200
-    assert card["versions"] == run_lib.versions()
+    assert card["versions"] == provenance.versions()
 
 
 def test_the_command_on_the_card_describes_the_same_run(published):
@@ -98,7 +100,7 @@ def copy_of(run, path):
     return run_lib.Run(path)
 
 
-HEADER = ",".join(run_lib.METRICS) + "\n"
+HEADER = ",".join(metrics_lib.METRICS) + "\n"
 
 
 @pytest.mark.parametrize(

@@ -107,7 +107,7 @@ def written(request, tmp_path_factory):
 
 def test_a_recorder_keeps_what_happened(written):
     episode, watcher, environment, _ = written
-    assert (episode.seed, episode.number) == (environment.task.options.random, 0)
+    assert (episode.seed, episode.episode) == (environment.task.options.random, 0)
     np.testing.assert_array_equal(episode.hidden, environment.task.hidden)
     assert episode.answer == environment.task.correct_answer
     np.testing.assert_array_equal(episode.actions, watcher.actions)
@@ -327,10 +327,12 @@ def test_an_episode_known_by_its_numbers_is_enacted_as_it_was(domain, task):
     network, config = playing.find_agent(f"{domain}/{task}")
     played = playing.play(network, config, 3, seed=fresh_seed())
     for index in range(3):
-        episode = recording.reenact(network, config, played.seeds[index], played.numbers[index], played.actions[index])
-        np.testing.assert_array_equal(episode.actions, played.actions[index])
+        episode = recording.reenact(
+            network, config, played.seed[index], played.episode[index], played.actions_of(index)
+        )
+        np.testing.assert_array_equal(episode.actions, played.actions_of(index))
         np.testing.assert_array_equal(episode.hidden, played.hidden[index])
-        assert episode.rewards.sum() == played.rewards[index]
+        assert episode.rewards.sum() == played.reward[index]
         chosen = episode.policies[np.arange(len(episode.actions)), episode.actions]
         assert (chosen > 1e-6).all()  # The beliefs are those that led to the actions.
 
@@ -377,7 +379,7 @@ def test_a_full_disk_while_writing_leaves_the_earlier_episodes_and_is_one_readab
 
 def test_two_agents_are_shown_side_by_side_on_the_same_instances(tmp_path):
     lines = []
-    path = replay.replay(["towers/fist_features"] * 2, 1, tmp_path / "both.rrd", report=lines.append)
+    path = replay.replay(["towers/fist_features"] * 2, 1, tmp_path / "both.rrd", tell=lines.append)
     assert len(lines) == 1
     names = {str(chunk.entity_path) for chunk in RrdReader(str(path)).stream()}
     assert {"/A/world/things/fist", "/B/world/things/fist", "/A/belief/value", "/B/belief/value"} <= names
@@ -398,17 +400,17 @@ def test_a_selection_is_what_it_says():
     everything = play(256, seed=5)
     kinds = ("any", "right", "longest", "hardest")
     chosen = {kind: list(selection.select(network, config, 5, kind, seed=5)) for kind in kinds}
-    rewards = dict(zip(zip(everything.seeds, everything.numbers, strict=True), everything.rewards, strict=True))
-    assert all(rewards[seed, number] > 0 for seed, number, _ in chosen["right"])
+    rewards = dict(zip(zip(everything.seed, everything.episode, strict=True), everything.reward, strict=True))
+    assert all(rewards[seed, episode] > 0 for seed, episode, _ in chosen["right"])
     lengths = sorted((len(actions) for actions in everything.actions), reverse=True)
     assert [len(actions) for _, _, actions in chosen["longest"]] == lengths[:5]
     gaps = np.sort(everything.hidden)[:, -1] - np.sort(everything.hidden)[:, -2]
     hardest = np.argsort(gaps)[:5]
-    assert [seed for seed, _, _ in chosen["hardest"]] == list(everything.seeds[hardest])
+    assert [seed for seed, _, _ in chosen["hardest"]] == list(everything.seed[hardest])
     wrong = list(selection.select(network, config, 2, "wrong", interaction="random", seed=5))
-    for seed, number, actions in wrong:
+    for seed, episode, actions in wrong:
         environment = suite.load("which_is_heavier", "features", task_kwargs={**config.task_kwargs, "random": seed})
-        environment.task.next_episode = number
+        environment.task.next_episode = episode
         environment.reset()
         for action in actions:
             timestep = environment.step(int(action))

@@ -11,9 +11,10 @@ import pytest
 from trainers import group
 from waiting import wait_until
 
-from physexp.analysis.data import records
+from physexp.analysis.data import provenance, records
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions
 from physexp.analysis.reproduction import report, reproduce, sweep
+from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 
 NAMES = [f"which_is_heavier-features-difficulty{beta}-discount0.95-seed0" for beta in (3, 5, 10)]
@@ -108,7 +109,7 @@ def test_the_report_has_every_figure_there_is_data_for_and_says_what_is_left_out
         assert claim.text in markdown and claim.statistic in page
     for name in ("waiting", "random_towers", "individual"):
         assert f"Left out: {name}" in markdown
-    assert run_lib.commit()[:10] in markdown
+    assert provenance.commit()[:10] in markdown
 
 
 def test_the_report_begins_with_the_failures_and_then_what_is_undecided(rehearsed):
@@ -131,7 +132,7 @@ def test_a_report_of_nothing_says_what_to_do(tmp_path):
 
 @pytest.mark.long
 def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
-    frames = 150_000
+    frames = 30_000  # The second has to be at it for longer than it takes to see that it has begun.
     with commands.start(*command(tmp_path, frames, "--jobs", 1)) as process:
         first, second = (tmp_path / "runs" / name for name in NAMES[:2])
         part = tmp_path / "episodes" / "learned" / f"{NAMES[0]}.parquet"
@@ -170,7 +171,7 @@ def test_the_time_that_is_left_is_told_once_it_is_known(tmp_path):
     assert meter.line(2) == "2 agents to go, 0.00 of 0.01 million frames"
     run = results.run(jobs[0].config)
     run.create(jobs[0].config)
-    run.append_metrics({**dict.fromkeys(run_lib.METRICS, 0.0), "frames": 1000, "seconds": 30.0})
+    run.append_metrics({**dict.fromkeys(metrics_lib.METRICS, 0.0), "frames": 1000, "seconds": 30.0})
     # The 7000 frames that are left take 30 s for each thousand.
     assert meter.line(1) == "1 agent to go, 0.00 of 0.01 million frames, time left 0:03:30"
 
@@ -203,7 +204,7 @@ def test_what_makes_no_sense_is_one_readable_line(arguments, message, tmp_path):
 
 def test_an_experiment_without_agents_takes_no_training(tmp_path):
     lines = []
-    reproduce.run([EXPERIMENTS["mass_gap"]], base.Results(tmp_path), observations=["features"], report=lines.append)
+    reproduce.run([EXPERIMENTS["mass_gap"]], base.Results(tmp_path), observations=["features"], tell=lines.append)
     assert (tmp_path / "figures" / "mass_gap.png").exists()
     assert sum(line.startswith("holds") for line in lines) == 2
 

@@ -1,6 +1,7 @@
 """A run's folder: one trainer at a time, nothing written or removed outside of it, and no record lost."""
 
 import json
+import math
 import multiprocessing
 import os
 import resource
@@ -10,7 +11,9 @@ import pytest
 import torch
 
 from physexp.agents.a3c import config as a3c
+from physexp.agents.ppo import config as ppo
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 
 ROUNDS = 50
@@ -21,8 +24,11 @@ def make_config(seed=0):
     return config_lib.TrainConfig(domain="which_is_heavier", task="features", agent=a3c.A3CConfig(seed=seed))
 
 
+COLUMNS = [*metrics_lib.METRICS, *a3c.A3CConfig.metrics]
+
+
 def row(frames):
-    return {**dict.fromkeys(run_lib.METRICS, 0.5), "frames": frames}
+    return {**dict.fromkeys(COLUMNS, 0.5), "frames": frames}
 
 
 def checkpoint(run, frames=10):
@@ -148,7 +154,7 @@ def test_a_run_has_no_place_where_a_file_is(place, tmp_path):
 
 def test_an_attempt_without_a_checkpoint_is_started_anew_and_its_records_are_moved_aside(run):
     run.append_metrics(row(10))
-    run.append_episodes(10, {name: [] for name in run_lib.EPISODES.names})
+    run.append_episodes(10, run_lib.EPISODES.empty_table())
     before = contents(run.path)
     moved = run.create(make_config(seed=1))
     assert moved == run.path / "superseded-1" and contents(moved) == before
@@ -194,7 +200,7 @@ def test_a_run_that_has_kept_its_agent_alone_is_not_resumed(run):
 def test_rewinding_moves_later_records_aside_and_drops_a_torn_row(run):
     for frames in (10, 20, 30):
         run.append_metrics(row(frames))
-        run.append_episodes(frames, {name: [] for name in run_lib.EPISODES.names})
+        run.append_episodes(frames, run_lib.EPISODES.empty_table())
     with open(run.path / "metrics.csv", "a") as file:
         file.write("1,7")  # Torn by a crash: a part of a row, whose frames look small.
     run.rewind(30)
@@ -246,6 +252,39 @@ def test_wherever_a_kill_tears_the_metrics_whole_rows_are_read_and_a_resumed_run
         assert (tmp_path / "metrics.csv").read_bytes().startswith(content[: content.index(b"\n") + 1])
 
 
+def test_a_run_has_the_columns_of_all_runs_and_those_of_its_learner(run):
+    run.append_metrics(row(10))
+    assert (run.path / "metrics.csv").read_text().splitlines()[0] == (
+        "frames,updates,episodes,seconds,frames_per_second,success_rate,episode_return,interactions,timeouts,"
+        "entropy,policy_loss,baseline_loss,gradient_norm,learning_rate,entropy_cost,staleness"
+    )
+    assert "staleness" not in ppo.PPOConfig.metrics
+
+
+def test_a_run_that_an_earlier_version_has_begun_with_more_columns_goes_on_under_them(tmp_path):
+    run = run_lib.Run(tmp_path)
+    run.create(config_lib.TrainConfig(domain="which_is_heavier", task="features", agent=ppo.PPOConfig()))
+    run.append_metrics({**row(10), "staleness": 0})  # PPO's rows had one.
+    run.append_metrics({**row(20), "staleness": 0})
+    checkpoint(run)
+    run.check_resumable()
+    run.rewind(10)
+    now = {name: value for name, value in row(30).items() if name != "staleness"}
+    run.append_metrics(now)
+    before, after = run.metrics()
+    assert list(before) == list(after) == COLUMNS
+    assert before["staleness"] == 0 and math.isnan(after.pop("staleness")) and after == now
+
+
+def test_a_run_that_an_earlier_version_has_begun_with_fewer_columns_is_read_but_not_resumed(run):
+    fewer = {name: value for name, value in row(10).items() if name != "entropy_cost"}
+    run.append_metrics(fewer)
+    checkpoint(run)
+    assert run.metrics() == [fewer]
+    with pytest.raises(ValueError, match=r"metrics\.csv has the columns of an earlier version; resume it with that"):
+        run.check_resumable()
+
+
 @pytest.mark.parametrize(
     ("content", "words"),
     [
@@ -258,7 +297,7 @@ def test_wherever_a_kill_tears_the_metrics_whole_rows_are_read_and_a_resumed_run
     ],
 )
 def test_damaged_metrics_are_named_in_one_line_and_left_alone(content, words, run):
-    first, *rest = run_lib.METRICS
+    first, *rest = COLUMNS
     fields = {"rest": ",".join(rest), "row": "1" + ",1" * len(rest), "word": "a" + ",1" * len(rest)}
     damaged = content.format(**fields).encode("latin-1")
     (run.path / "metrics.csv").write_bytes(damaged)

@@ -14,6 +14,7 @@ from waiting import wait_until
 
 from physexp.analysis import demo
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
 from physexp.cli import parsing
@@ -116,7 +117,8 @@ def test_ctrl_c_before_anything_was_learned_leaves_no_folder(starting, tmp_path)
 def test_records_without_a_checkpoint_are_not_resumed_but_moved_aside_by_a_new_start(tmp_path, capsys):
     run = run_lib.Run(tmp_path / "run")
     run.create(small())
-    run.append_metrics({**dict.fromkeys(run_lib.METRICS, 0.5), "frames": 7})  # As a kill leaves it in the first minute.
+    # As a kill leaves it in the first minute.
+    run.append_metrics({**dict.fromkeys(metrics_lib.METRICS, 0.5), "frames": 7})
     before = everything(run.path)
     line = refusal(capsys, "train", *TASK, "--run-dir", run.path, "--resume")
     assert "holds no checkpoint to resume from; leave out --resume to start anew" in line
@@ -139,7 +141,7 @@ def test_records_without_a_checkpoint_are_not_resumed_but_moved_aside_by_a_new_s
 def test_the_demo_refuses_a_folder_with_another_run_and_changes_nothing(tmp_path, capsys):
     run = run_lib.Run(tmp_path / "run")
     run.create(small())
-    run.append_metrics({**dict.fromkeys(run_lib.METRICS, 0.5), "frames": 7})
+    run.append_metrics({**dict.fromkeys(metrics_lib.METRICS, 0.5), "frames": 7})
     before = everything(tmp_path)
     line = refusal(capsys, "demo", "--run-dir", run.path)
     assert "holds a run that is no demo's; choose another --run-dir" in line
@@ -153,7 +155,7 @@ def test_a_demo_in_the_folder_of_an_earlier_one_moves_that_aside_and_tells_that_
     monkeypatch.setattr(demo, "EPISODES", 10)
     run = run_lib.Run(tmp_path / "demo")
     run.create(demo.config())
-    run.append_metrics({**dict.fromkeys(run_lib.METRICS, 0.5), "frames": 100})
+    run.append_metrics({**dict.fromkeys(metrics_lib.METRICS, 0.5), "frames": 100})
     checkpoint = run.checkpointer.save({"frames": torch.tensor(100)}, {})
     before = everything(run.path)
     demo.run(run.path)

@@ -15,7 +15,7 @@ import torch
 import trainers
 from waiting import wait_until
 
-from physexp.analysis.training import run as run_lib
+from physexp.analysis.data import provenance
 from physexp.analysis.training import trainer
 
 ENDLESS = 10**9  # Frames that no test waits for.
@@ -28,14 +28,14 @@ def save_first_checkpoint(run, poison=False):
     tensors = agent.save()
     if poison:
         tensors["network/value.bias"][0] = 3e38  # Finite, but not its square.
-    facts = {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": run_lib.versions()}
+    facts = {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": provenance.versions()}
     return run.checkpointer.save(tensors, facts)
 
 
 def assert_last_checkpoint_fits(run):
     """The last checkpoint is whole, finite, and one that the agent takes up."""
     tensors, facts = run.checkpointer.latest()
-    assert facts["versions"] == run_lib.versions()
+    assert facts["versions"] == provenance.versions()
     assert all(value.isfinite().all() for value in tensors.values())
     config = run.config
     agent = trainer.make_agent(config)

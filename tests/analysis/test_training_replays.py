@@ -6,8 +6,9 @@ import subprocess
 import pytest
 from rerun.chunk import RrdReader
 
+from physexp.agents import starting
 from physexp.agents.ppo import config as ppo
-from physexp.analysis.replay import writing
+from physexp.analysis.replay import training, writing
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
@@ -23,7 +24,7 @@ SMALL = config_lib.TrainConfig(
 def trained(path, **changes):
     run = run_lib.Run(path)
     run.create(dataclasses.replace(SMALL, **changes))
-    trainer.train(run)
+    trainer.train(run, on_checkpoint=training.Writer(run, run.config) if run.config.replay_every else None)
     return run
 
 
@@ -44,7 +45,7 @@ def test_every_replay_shows_the_same_instance(tmp_path):
     names = {
         RrdReader(str(path)).recordings()[0].recording_id.split("-")[0] for path in (run.path / "replays").iterdir()
     }
-    assert names == {str(trainer._REPLAY_SEED)}
+    assert names == {str(training.SEED)}
 
 
 def test_without_the_option_there_are_none(tmp_path):
@@ -54,3 +55,17 @@ def test_without_the_option_there_are_none(tmp_path):
 def test_a_negative_number_is_refused():
     with pytest.raises(ValueError, match="replay_every is -1; give an integer >= 0"):
         dataclasses.replace(SMALL, replay_every=-1)
+
+
+def test_a_run_that_goes_on_counts_steps_from_its_last_replay(tmp_path, monkeypatch):
+    run = run_lib.Run(tmp_path / "run")
+    (run.path / "replays").mkdir(parents=True)
+    for name in ("000000000003000", "000000000009000", "mine"):  # The second is of what was lost, and learned again.
+        (run.path / "replays" / f"{name}.rrd").touch()
+    config = dataclasses.replace(SMALL, replay_every=2000)
+    network = starting.make_network(trainer.make_environment(config, 0, 1, 1), config.agent)
+    written = []
+    monkeypatch.setattr(writing, "write", lambda path, groups: written.append(path.name))
+    for frames in (4999, 5000):
+        training.Writer(run, config)(frames, network.state_dict())
+    assert written == ["000000000005000.rrd"]

@@ -5,13 +5,12 @@ import pyarrow
 from pyarrow import parquet
 import torch
 
-from physexp.agents import agent as agent_lib
-from physexp.agents import networks, pretrained
+from physexp.agents import networks, pretrained, starting
 from physexp.agents.ppo import config as ppo
 from physexp.analysis.data import records
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import recorder, trainer
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import trainer
 
 SMALL = ppo.PPOConfig(
     num_threads=1, num_environments=4, num_minibatches=2, num_epochs=1, lstm_units=8, frames=60, checkpoint_seconds=1e-9
@@ -57,7 +56,7 @@ OPTIONS = [
 
 def train(path) -> None:
     """Trains a run to its end, from the start if it has no checkpoint, with a row of metrics for each update."""
-    trainer.ROW_SECONDS = -1.0
+    recorder.ROW_SECONDS = -1.0
     run = run_lib.Run(path)
     trainer.train(run, start=None if run.checkpointer.paths() else config())
 
@@ -73,7 +72,7 @@ def contents(run: run_lib.Run):
 
 def network(number: float) -> networks.RecurrentActorCritic:
     """A network of the small agent, of which every variable is a number."""
-    made = agent_lib.make_network(trainer.make_environment(config(), 0, 1, 1), SMALL)
+    made = starting.make_network(trainer.make_environment(config(), 0, 1, 1), SMALL)
     with torch.no_grad():
         for value in made.state_dict().values():
             value.fill_(number)
@@ -91,13 +90,13 @@ def card(number: int) -> dict:
     return {
         "domain": "which_is_heavier",
         "task": "features",
-        "difficulty": 10.0,
+        "task_kwargs": {"difficulty": 10.0},
         "frames": number,
         "agent": config().to_json()["agent"],
         "network": {
             "observations": observations,
             "num_actions": num_actions,
-            "hyperparameters": agent_lib.hyperparameters(SMALL),
+            "hyperparameters": starting.hyperparameters(SMALL),
         },
     }
 
@@ -108,7 +107,7 @@ def publish(folder, number: int) -> None:
 
 def published(folder) -> int:
     """The number of the agent in a folder, weights and card alike."""
-    agent = pretrained.load("which_is_heavier", "features", 10.0, folder)
+    agent = pretrained.load("which_is_heavier", "features", 10.0, folder=folder)
     numbers = {float(value) for tensor in agent.network.state_dict().values() for value in tensor.flatten()}
     assert numbers == {float(agent.card["frames"])}
     return agent.card["frames"]

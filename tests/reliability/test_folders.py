@@ -12,8 +12,8 @@ import pytest
 import reading
 import subjects
 
+from physexp.analysis.training import recorder
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import trainer
 
 pytestmark = pytest.mark.long
 
@@ -30,7 +30,7 @@ def expected(tmp_path_factory):
 
 def train_disturbed(path, number, act):
     """`physexp train --resume`; `act(path)` is called when a number of rows have been written."""
-    trainer.ROW_SECONDS = -1.0
+    recorder.ROW_SECONDS = -1.0
     append, counter = run_lib.Run.append_metrics, itertools.count(1)
 
     def append_and_act(self, row):

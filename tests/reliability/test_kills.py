@@ -1,11 +1,11 @@
 """A process that is killed while it writes leaves what was there before or what it wrote, and the next one goes on."""
 
-import dataclasses
 import functools
 import subprocess
 
 import attacks
 import commands
+import pyarrow
 import pytest
 import reading
 import subjects
@@ -17,8 +17,9 @@ from physexp.analysis.evaluation import playing
 from physexp.analysis.experiments import base
 from physexp.analysis.replay import recording, writing
 from physexp.analysis.reproduction import sweep
+from physexp.analysis.training import metrics as metrics_lib
+from physexp.analysis.training import recorder
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import trainer
 
 pytestmark = pytest.mark.long
 
@@ -44,7 +45,7 @@ def write_episodes(folder, number):
     size = 50
     columns = {name: [0] * size for name in run_lib.EPISODES.names}
     columns |= {"frames": [number] * size, "actions": [[number % 100] * 20] * size}
-    run.append_episodes(number, columns)
+    run.append_episodes(number, pyarrow.table(columns, run_lib.EPISODES))
 
 
 def read_episodes(folder):
@@ -58,13 +59,13 @@ def read_episodes(folder):
 def write_metrics(folder, number):
     run = run_lib.Run(folder)
     run.rewind(number - 1)  # As a trainer does that goes on.
-    run.append_metrics({name: number if name == "frames" else number + 0.25 for name in run_lib.METRICS})
+    run.append_metrics({name: number if name == "frames" else number + 0.25 for name in metrics_lib.METRICS})
 
 
 def read_metrics(folder):
     rows = run_lib.Run(folder).metrics()
     assert [row["frames"] for row in rows] == list(range(len(rows)))
-    assert all(set(row) == set(run_lib.METRICS) and row["staleness"] == row["frames"] + 0.25 for row in rows)
+    assert all(set(row) == set(metrics_lib.METRICS) and row["timeouts"] == row["frames"] + 0.25 for row in rows)
     return len(rows) - 1
 
 
@@ -185,13 +186,13 @@ def test_training_that_was_killed_goes_on_to_the_same_variables_bit_for_bit(unin
 # A sweep's agent: training, keeping the network alone, playing.
 
 JOB = sweep.Job(
-    dataclasses.replace(subjects.config(frames=30), control_timestep=None),
+    subjects.config(frames=30),
     (base.Trial(name="learned", num_steps=10), base.Trial(name="random", interaction="random", num_steps=10)),
 )
 
 
 def sweep_one(folder):
-    trainer.ROW_SECONDS = -1.0  # A row for each update, however long they take.
+    recorder.ROW_SECONDS = -1.0  # A row for each update, however long they take.
     sweep._work(print, JOB, base.Results(folder))
 
 

@@ -12,7 +12,7 @@ from physexp import suite
 from physexp.suite import gymnasium as gymnasium_lib
 from physexp.suite import stable_baselines
 
-FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
+FEATURE_TASKS = suite.tagged("features")
 every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_TASKS)
 
 HEAVIER = ("which_is_heavier", "features")

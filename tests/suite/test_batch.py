@@ -2,25 +2,19 @@
 
 import dm_env
 from episodes import random_actions
+from every_task import every_feature_task, load, load_batch
 import numpy as np
 import pytest
 
 from physexp import suite
 from physexp.suite.domains import towers
 
-FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
-every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_TASKS)
-
-# Control steps to compare: the single towers take some 300 of them a second.
-STEPS = {"which_is_heavier": 400, "towers": 120}
+STEPS = 150  # Control steps to compare: some episodes of every task.
 
 
-def _load_both(domain_name, task_name, seed, size, num_threads=1, **task_kwargs):
-    batch = suite.load_batch(domain_name, task_name, size, {"random": seed, **task_kwargs}, num_threads)
-    singles = [
-        suite.load(domain_name, task_name, {"random": suite.environment_seed(seed, i), **task_kwargs})
-        for i in range(size)
-    ]
+def _load_both(name, seed, size, num_threads=1, **task_kwargs):
+    batch = load_batch(name, size, num_threads, random=seed, **task_kwargs)
+    singles = [load(name, random=suite.environment_seed(seed, i), **task_kwargs) for i in range(size)]
     return batch, singles
 
 
@@ -46,24 +40,24 @@ def _assert_same_questions(batch, singles) -> None:
 
 @every_feature_task
 @pytest.mark.parametrize("size, num_threads", [(1, 1), (3, 2)])
-def test_a_batch_is_its_single_environments(seed, domain_name, task_name, size, num_threads):
+def test_a_batch_is_its_single_environments(seed, name, size, num_threads):
     rng = np.random.default_rng(seed)
-    batch, singles = _load_both(domain_name, task_name, seed, size, num_threads)
+    batch, singles = _load_both(name, seed, size, num_threads)
     _assert_same(batch.reset(), [single.reset() for single in singles])
-    for _ in range(STEPS[domain_name]):
+    for _ in range(STEPS):
         _assert_same_questions(batch, singles)
         actions = random_actions(rng, batch.task, size)
         _assert_same(batch.step(actions), [single.step(a) for single, a in zip(singles, actions, strict=True)])
 
 
 @every_feature_task
-def test_chosen_environments_step_and_reset_without_the_others(seed, domain_name, task_name):
+def test_chosen_environments_step_and_reset_without_the_others(seed, name):
     """Some step, some are reset in the middle of an episode, some wait: each is its single environment still."""
     rng = np.random.default_rng(seed)
     size = 3
-    batch, singles = _load_both(domain_name, task_name, seed, size)
+    batch, singles = _load_both(name, seed, size)
     _assert_same(batch.reset(), [single.reset() for single in singles])
-    for _ in range(STEPS[domain_name] // 2):
+    for _ in range(STEPS // 2):
         chosen = np.flatnonzero(rng.random(size) < 0.6)
         actions = random_actions(rng, batch.task, len(chosen))
         expected = [singles[i].step(a) for i, a in zip(chosen, actions, strict=True)]
@@ -76,9 +70,9 @@ def test_chosen_environments_step_and_reset_without_the_others(seed, domain_name
 
 
 @every_feature_task
-def test_a_reset_rebuilds_a_chosen_episode(seed, domain_name, task_name):
+def test_a_reset_rebuilds_a_chosen_episode(seed, name):
     rng = np.random.default_rng(seed)
-    batch, singles = _load_both(domain_name, task_name, seed, 3)
+    batch, singles = _load_both(name, seed, 3)
     batch.reset()
     for episode, chosen in ((7, [0, 1, 2]), (2, [1]), (2, [0, 2]), (0, [0, 1])):
         for i in chosen:
@@ -95,7 +89,7 @@ def test_a_reset_rebuilds_a_chosen_episode(seed, domain_name, task_name):
 @pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
 def test_a_fine_control_step_changes_nothing_in_that(seed, task_name):
     rng = np.random.default_rng(seed)
-    batch, singles = _load_both("towers", task_name, seed, 3, control_timestep=0.01)
+    batch, singles = _load_both(f"towers/{task_name}", seed, 3, control_timestep=0.01)
     _assert_same(batch.reset(), [single.reset() for single in singles])
     for t in range(80):
         if t % 25 == 0:
@@ -105,13 +99,11 @@ def test_a_fine_control_step_changes_nothing_in_that(seed, task_name):
 
 
 @every_feature_task
-def test_an_environment_does_not_depend_on_how_many_there_are(seed, domain_name, task_name):
+def test_an_environment_does_not_depend_on_how_many_there_are(seed, name):
     """Batches of 1, 3 and 6 environments, on 1 and 2 threads; the first environments take the same actions."""
     rng = np.random.default_rng(seed)
     shapes = [(1, 1), (3, 2), (6, 1), (6, 2)]
-    batches = [
-        suite.load_batch(domain_name, task_name, size, {"random": seed}, num_threads) for size, num_threads in shapes
-    ]
+    batches = [load_batch(name, size, num_threads, random=seed) for size, num_threads in shapes]
     steps = [batch.reset() for batch in batches]
     for _ in range(20):
         actions = random_actions(rng, batches[0].task, 6)
@@ -126,9 +118,9 @@ def test_an_environment_does_not_depend_on_how_many_there_are(seed, domain_name,
 
 
 @every_feature_task
-def test_the_specs_are_those_of_the_single_environment(domain_name, task_name):
-    single = suite.load(domain_name, task_name, {"random": 0})
-    batch = suite.load_batch(domain_name, task_name, 2, {"random": 0})
+def test_the_specs_are_those_of_the_single_environment(name):
+    single = load(name, random=0)
+    batch = load_batch(name, 2, random=0)
     assert batch.action_spec() == single.action_spec()
     assert batch.reward_spec() == single.reward_spec()
     assert batch.discount_spec() == single.discount_spec()
@@ -136,8 +128,8 @@ def test_the_specs_are_those_of_the_single_environment(domain_name, task_name):
 
 
 @every_feature_task
-def test_a_time_step_has_arrays_with_a_leading_axis(domain_name, task_name):
-    batch = suite.load_batch(domain_name, task_name, 3, {"random": 0})
+def test_a_time_step_has_arrays_with_a_leading_axis(name):
+    batch = load_batch(name, 3, random=0)
     for step in (batch.reset(), batch.step(np.zeros(3, np.int32))):
         assert isinstance(step, dm_env.TimeStep)
         assert step.step_type.shape == step.reward.shape == step.discount.shape == (3,)
@@ -147,9 +139,9 @@ def test_a_time_step_has_arrays_with_a_leading_axis(domain_name, task_name):
 
 
 @every_feature_task
-def test_what_a_batch_returns_is_the_callers_own(domain_name, task_name):
+def test_what_a_batch_returns_is_the_callers_own(name):
     """Writing into returned arrays changes nothing, and later steps do not write into them."""
-    batch, twin = (suite.load_batch(domain_name, task_name, 2, {"random": 0}) for _ in range(2))
+    batch, twin = (load_batch(name, 2, random=0) for _ in range(2))
     for returned in (batch.reset(), batch.step(np.zeros(2, int))):
         for value in (*returned.observation.values(), returned.reward, returned.discount, returned.step_type):
             value[:] = 77

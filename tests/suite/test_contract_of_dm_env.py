@@ -3,6 +3,7 @@
 from absl.testing import absltest
 import dm_env
 from dm_env import test_utils
+from every_task import NAMES, every_feature_task, every_task, load
 import numpy as np
 import pytest
 
@@ -10,34 +11,34 @@ from physexp import suite
 
 # Interaction actions, labels, and control steps of an unanswered episode. Heavier: 4 blocks to poke, 4 to name, 100
 # steps. Towers: 5 blocks in 4 directions or a fist in 4, 1..5 bodies to answer, 2.6 s / 0.1 s = 26 steps.
-NUMBERS = {"features": (4, 4, 100), "direct_features": (20, 5, 26), "fist_features": (4, 5, 26)}
+NUMBERS = {
+    "which_is_heavier/features": (4, 4, 100),
+    "towers/direct_features": (20, 5, 26),
+    "towers/fist_features": (4, 5, 26),
+}
 NUMBERS |= {name.replace("features", "pixels"): numbers for name, numbers in NUMBERS.items()}
-
-FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
-every_task = pytest.mark.parametrize("domain_name, task_name", suite.ALL_TASKS)
-every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_TASKS)
 
 
 @pytest.fixture
-def env(domain_name, task_name):
-    environment = suite.load(domain_name, task_name, task_kwargs={"random": 0})
+def env(name):
+    environment = load(name, random=0)
     yield environment
     environment.close()
 
 
-def _contract_of(domain_name, task_name):
+def _contract_of(name):
     """The test case of one task."""
 
     class Contract(test_utils.EnvironmentTestMixin, absltest.TestCase):
         def make_object_under_test(self):
-            return suite.load(domain_name, task_name, task_kwargs={"random": 0})
+            return load(name, random=0)
 
         def make_action_sequence(self):
             """Past the time limit, through the first step of the next episode, to an answer and past that as well."""
-            interactions, _, step_limit = NUMBERS[task_name]
-            for t in range(step_limit + 3):
-                yield np.int32(t % interactions)
-            for action in (interactions, 0, 0):
+            rules = self.environment.task.rules
+            for t in range(rules.step_limit + 3):
+                yield np.int32(t % rules.num_interactions)
+            for action in (rules.num_interactions, 0, 0):
                 yield np.int32(action)
 
         def test_the_longer_action_sequence_ends_two_episodes(self):
@@ -55,45 +56,57 @@ def _contract_of(domain_name, task_name):
     return Contract
 
 
-for _domain_name, _task_name in suite.ALL_TASKS:
-    _name = f"Test_{_domain_name}_{_task_name}"
-    globals()[_name] = type(_name, (_contract_of(_domain_name, _task_name),), {"__module__": __name__})
+for _name in NAMES:
+    _title = f"Test_{_name.replace('/', '_')}"
+    globals()[_title] = type(_title, (_contract_of(_name),), {"__module__": __name__})
 
 
-def test_the_registry_holds_the_feature_tasks_of_both_domains():
-    assert {
-        ("which_is_heavier", "features"),
-        ("towers", "direct_features"),
-        ("towers", "fist_features"),
-    } <= set(suite.ALL_TASKS)
+def test_the_registry_holds_the_papers_tasks():
+    assert {tuple(name.split("/")) for name in NUMBERS} <= set(suite.ALL_TASKS)
 
 
 def test_the_two_registries_agree():
     assert list(suite.ALL_TASKS) == [(d, name) for d, names in suite.TASKS_BY_DOMAIN.items() for name in names]
 
 
+@pytest.mark.parametrize("name", NUMBERS)
+def test_the_papers_tasks_have_the_stated_numbers_of_actions_and_steps(env, name):
+    assert (env.task.num_interactions, env.task.num_labels, env.task.rules.step_limit) == NUMBERS[name]
+
+
 @every_task
-def test_actions_are_the_interactions_followed_by_the_labels(env, task_name):
-    interactions, labels, _ = NUMBERS[task_name]
-    assert (env.task.num_interactions, env.task.num_labels) == (interactions, labels)
-    assert env.action_spec().num_values == interactions + labels
+def test_actions_are_the_interactions_followed_by_the_labels(env):
+    task = env.task
+    assert env.action_spec().num_values == task.num_interactions + task.num_labels == len(task.action_names)
+    assert (len(task.interactions), len(task.label_names)) == (task.num_interactions, task.num_labels)
+    assert len({*task.action_names}) == len(task.action_names)
 
 
 @every_feature_task
-def test_features_are_float32_of_the_stated_shapes(env, domain_name, task_name):
-    blocks = (4,) if domain_name == "which_is_heavier" else (5, 3)
-    expected = {blocks, (3,)} if task_name.startswith("fist") else {blocks}
+def test_features_are_float32_of_the_declared_shapes(env):
     observation = env.reset().observation
-    assert {value.shape for value in observation.values()} == expected
+    assert {name: value.shape for name, value in observation.items()} == {
+        name: reading.shape for name, reading in env.task.readings.items()
+    }
     assert {value.dtype for value in observation.values()} == {np.dtype(np.float32)}
 
 
+@pytest.mark.parametrize(
+    "name, shapes",
+    [
+        ("which_is_heavier/features", {"heights": (4,)}),
+        ("towers/direct_features", {"positions": (5, 3)}),
+        ("towers/fist_features", {"positions": (5, 3), "fist_position": (3,)}),
+    ],
+)
+def test_the_papers_tasks_have_the_stated_features(env, name, shapes):
+    assert {name: value.shape for name, value in env.reset().observation.items()} == shapes
+
+
 @every_task
-def test_a_flat_observation_is_the_others_in_a_row_sorted_by_name(domain_name, task_name):
+def test_a_flat_observation_is_the_others_in_a_row_sorted_by_name(name):
     """As `dm_control.suite.load` has it with the same argument, of features and of images."""
-    flat, named = (
-        suite.load(domain_name, task_name, {"random": 0}, {"flat_observation": flat}) for flat in (True, False)
-    )
+    flat, named = (load(name, {"flat_observation": flat}, random=0) for flat in (True, False))
     (spec,) = flat.observation_spec().values()
     actions = [0, flat.task.num_interactions, 0, 1]  # The second one ends the episode, the third starts the next.
     for each, expected in zip(
@@ -107,8 +120,8 @@ def test_a_flat_observation_is_the_others_in_a_row_sorted_by_name(domain_name, t
 
 
 @every_task
-def test_only_the_right_label_earns_one_and_the_others_lose_one(env, task_name):
-    interactions, labels, _ = NUMBERS[task_name]
+def test_only_the_right_label_earns_one_and_the_others_lose_one(env):
+    interactions, labels = env.task.num_interactions, env.task.num_labels
     for label in range(labels):
         env.reset()
         step = env.step(np.int32(interactions + label))
@@ -117,8 +130,8 @@ def test_only_the_right_label_earns_one_and_the_others_lose_one(env, task_name):
 
 
 @every_task
-def test_interacting_earns_nothing_until_time_runs_out_which_loses_one(env, task_name):
-    interactions, _, step_limit = NUMBERS[task_name]
+def test_interacting_earns_nothing_until_time_runs_out_which_loses_one(env):
+    interactions, step_limit = env.task.num_interactions, env.task.rules.step_limit
     env.reset()
     for t in range(step_limit - 1):
         step = env.step(np.int32(t % interactions))
@@ -129,8 +142,8 @@ def test_interacting_earns_nothing_until_time_runs_out_which_loses_one(env, task
 
 
 @every_task
-def test_the_right_label_in_the_last_step_still_earns_one(env, task_name):
-    interactions, _, step_limit = NUMBERS[task_name]
+def test_the_right_label_in_the_last_step_still_earns_one(env):
+    interactions, step_limit = env.task.num_interactions, env.task.rules.step_limit
     env.reset()
     for _ in range(step_limit - 1):
         env.step(np.int32(0))
@@ -138,8 +151,8 @@ def test_the_right_label_in_the_last_step_still_earns_one(env, task_name):
 
 
 @every_feature_task
-def test_a_label_moves_nothing(env, task_name):
-    interactions, _, _ = NUMBERS[task_name]
+def test_a_label_moves_nothing(env):
+    interactions = env.task.num_interactions
     env.reset()
     for t in range(5):
         before = env.step(np.int32(t % interactions)).observation

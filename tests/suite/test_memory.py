@@ -14,7 +14,7 @@ NUM_BATCH_RESETS = 10_000
 FLAT = 100
 NOISE = 50_000  # bytes: buffers that numpy keeps came to 5 kB.
 
-FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
+FEATURE_TASKS = suite.tagged("features")
 every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_TASKS)
 
 

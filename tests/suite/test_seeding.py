@@ -14,7 +14,7 @@ from physexp.suite.engine import seeding
 
 P_VALUE = 1e-4  # A right generator fails one test in ten thousand.
 
-FEATURE_TASKS = [(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")]
+FEATURE_TASKS = suite.tagged("features")
 every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_TASKS)
 
 

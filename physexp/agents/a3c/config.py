@@ -18,6 +18,11 @@ class A3CConfig(config.AgentConfig):
     """
 
     algorithm: ClassVar[str] = "a3c"
+    metrics: ClassVar[Mapping[str, str]] = {
+        **config.AgentConfig.metrics,
+        "staleness": "updates of others between taking the parameters and applying the gradient",
+    }
+    can_run_on_cluster: ClassVar[bool] = True
 
     num_workers: int = 2
     envs_per_worker: int = 256

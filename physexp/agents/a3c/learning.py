@@ -1,4 +1,4 @@
-"""Learning: gradients of whole episodes, applied to variables that all workers share."""
+"""A3C's learner: gradients of whole episodes, applied to variables that all workers share."""
 
 from collections.abc import Callable, Mapping, Sequence
 import contextlib
@@ -7,7 +7,7 @@ from typing import Protocol
 
 import torch
 
-from physexp.agents import acting, core, learning, losses, networks
+from physexp.agents import core, learning, losses, networks, rounds
 from physexp.agents.a3c import config as config_lib
 
 
@@ -18,22 +18,22 @@ class Pulled:
     Attributes:
       frames: environment steps trained on.
       updates: updates made.
-      rounds: rounds that the worker has played.
+      episode: index of the episodes that the worker plays next.
     """
 
     frames: int
     updates: int
-    rounds: int
+    episode: int
 
 
 @dataclasses.dataclass(frozen=True)
 class Contribution:
-    """What a worker has learned from a round.
+    """A gradient that a worker has made from a round.
 
     Attributes:
-      worker: who.
-      pulled: from which parameters.
-      gradients: for each parameter.
+      worker: index of the worker.
+      pulled: where training stood when it took the parameters.
+      gradients: of each parameter.
       learning_rate: the step size they ask for.
       metrics: figures of the learner.
       episodes: the round, for records.
@@ -44,7 +44,11 @@ class Contribution:
     gradients: list[torch.Tensor]
     learning_rate: float
     metrics: dict[str, float]
-    episodes: acting.Round
+    episodes: rounds.Round
+
+    def update(self, seed: int, counters: Mapping[str, float]) -> core.Update:
+        """Returns the update that was made of it, with the seed of the worker's environments and the counters then."""
+        return core.Update(seed, self.pulled.episode, {**self.metrics, **counters}, self.episodes)
 
 
 class Shared(Protocol):
@@ -60,22 +64,22 @@ class Shared(Protocol):
         """
 
     def save(self) -> dict[str, torch.Tensor]:
-        """Copies of all variables, by name."""
+        """Returns copies of all variables, by name."""
 
     def restore(self, tensors: Mapping[str, torch.Tensor]) -> None:
         """Takes up what `save` returned."""
 
 
 def pull(variables: learning.Variables, worker: int) -> Pulled:
-    """Where training stands, for a worker."""
+    """Returns where training stands, for a worker."""
     return Pulled(int(variables.frames), int(variables.updates), int(variables.rounds[worker]))
 
 
 def push(variables: learning.Variables, contribution: Contribution, max_staleness: int) -> dict[str, float] | None:
-    """As `Shared.push`, on variables that nobody else reads or writes meanwhile.
+    """Does what `Shared.push` does, on variables that nobody else reads or writes meanwhile.
 
     Returns:
-      The counters `updates`, `frames`, `rounds` (index of the round) and `staleness`; or None.
+      The counters `updates`, `frames` and `staleness`; or None.
     """
     staleness = int(variables.updates) - contribution.pulled.updates
     variables.rounds[contribution.worker] += 1
@@ -86,7 +90,6 @@ def push(variables: learning.Variables, contribution: Contribution, max_stalenes
     return {
         "updates": int(variables.updates),
         "frames": int(variables.frames),
-        "rounds": contribution.pulled.rounds,
         "staleness": staleness,
     }
 
@@ -95,7 +98,7 @@ class SharedMemory(Shared):
     """Variables in memory that the workers of one machine share.
 
     Attributes:
-      variables: themselves.
+      variables: the variables.
       lock: held while they are read or written.
       holder: the worker that holds the lock, int64 []; -1 when none does.
       record: called by `push`, while the lock is held, with what was applied and the counters. So an update is in the
@@ -144,13 +147,13 @@ class A3CLearner(core.Learner):
       last_round: what the last update learned from.
     """
 
-    last_round: acting.Round
+    last_round: rounds.Round
 
     def __init__(
         self,
         network: networks.RecurrentActorCritic,
         shared: Shared,
-        play: Callable[[int], acting.Round],
+        play: Callable[[int], rounds.Round],
         worker: int,
         config: config_lib.A3CConfig,
     ):
@@ -159,7 +162,7 @@ class A3CLearner(core.Learner):
         Args:
           network: the worker's own copy of the network.
           shared: what all workers share.
-          play: plays a round, from its number, with the network as it is.
+          play: plays a round, from the index of its episodes, with the network as it is.
           worker: index of the worker.
           config: the agent's configuration.
         """
@@ -180,7 +183,7 @@ class A3CLearner(core.Learner):
     def _learn(self, pulled: Pulled) -> Contribution:
         config = self._config
         learning_rate, entropy_cost = config.at(min(1.0, pulled.frames / config.frames))
-        self.last_round = episodes = self._play(pulled.rounds)
+        self.last_round = episodes = self._play(pulled.episode)
         policy_loss, baseline_loss, entropy = round_losses(
             self._network, episodes, config.discount, config.trace, config.entropy_prior
         )
@@ -208,12 +211,12 @@ class A3CLearner(core.Learner):
 
 def round_losses(
     network: networks.RecurrentActorCritic,
-    episodes: acting.Round,
+    episodes: rounds.Round,
     discount: float,
     trace: float = 1.0,
     prior: Sequence[float] = (),
 ):
-    """The losses of a round (see `losses.actor_critic_losses`), the network unrolled over whole episodes."""
+    """Computes the losses of a round (see `losses.actor_critic_losses`), the network unrolled over whole episodes."""
     episodes = episodes.select()
     assert isinstance(episodes.inputs, torch.Tensor)
     logits, values = network.unroll(episodes.inputs, episodes.batch_sizes)

@@ -1,11 +1,11 @@
-"""Learning: several epochs of clipped updates on each round of whole episodes (Schulman et al., 2017)."""
+"""PPO's learner: several epochs of clipped updates on each round of whole episodes (Schulman et al., 2017)."""
 
 from collections.abc import Callable
 
 import numpy as np
 import torch
 
-from physexp.agents import acting, core, learning, losses
+from physexp.agents import core, learning, losses, rounds
 from physexp.agents.ppo import config as config_lib
 
 
@@ -17,27 +17,32 @@ class PPOLearner(core.Learner):
       last_round: what the last update learned from.
     """
 
-    last_round: acting.Round
+    last_round: rounds.Round
 
     def __init__(
-        self, variables: learning.Variables, play: Callable[[int], acting.Round], config: config_lib.PPOConfig
+        self, variables: learning.Variables, play: Callable[[int], rounds.Round], config: config_lib.PPOConfig
     ):
         """Joins variables to episodes.
 
         Args:
           variables: the network and its optimizer.
-          play: plays a round, from its number, with the network as it is, and transcribes it.
+          play: plays a round, from the index of its episodes, with the network as it is, and keeps the behaviour.
           config: the agent's configuration.
         """
         self.variables, self._play, self._config = variables, play, config
 
+    @property
+    def next_episode(self) -> int:
+        """Returns the index of the episodes that the next step plays."""
+        return int(self.variables.rounds[0])
+
     def step(self) -> dict[str, float]:
         """Plays a round, and goes through it several times, in parts of whole episodes."""
         config, variables = self._config, self.variables
-        number = int(variables.rounds[0])
+        episode = self.next_episode
         learning_rate, entropy_cost = config.at(min(1.0, variables.frames.item() / config.frames))
-        self.last_round = episodes = self._play(number)
-        generator = np.random.default_rng([config.seed, number])
+        self.last_round = episodes = self._play(episode)
+        generator = np.random.default_rng([config.seed, episode])
         figures = []
         for _ in range(config.num_epochs):
             for chosen in np.array_split(generator.permutation(len(episodes.lengths)), config.num_minibatches):
@@ -49,24 +54,22 @@ class PPOLearner(core.Learner):
             **means,
             "learning_rate": learning_rate,
             "entropy_cost": entropy_cost,
-            "rounds": number,
             "updates": variables.updates.item(),
             "frames": variables.frames.item(),
-            "staleness": 0.0,
         }
 
-    def _learn(self, episodes: acting.Round, learning_rate: float, entropy_cost: float) -> dict[str, float]:
-        """One step of Adam on some episodes."""
-        config, network, transcript = self._config, self.variables.network, episodes.transcript
-        assert transcript is not None
-        logits, values = network.unroll(network.encode(transcript.observation), episodes.batch_sizes)
-        returns, advantages = learning.targets(episodes, transcript.values, config.discount, config.trace)
+    def _learn(self, episodes: rounds.Round, learning_rate: float, entropy_cost: float) -> dict[str, float]:
+        """Makes one step of Adam on some episodes; returns its metrics."""
+        config, network, behaviour = self._config, self.variables.network, episodes.behaviour
+        assert behaviour is not None
+        logits, values = network.unroll(network.encode(behaviour.observation), episodes.batch_sizes)
+        returns, advantages = learning.targets(episodes, behaviour.values, config.discount, config.trace)
         device = logits.device
         policy_loss, baseline_loss, entropy = losses.clipped_losses(
             logits,
             values,
             episodes.packed(episodes.actions).to(device),
-            transcript.log_probabilities.to(device),
+            behaviour.log_probabilities.to(device),
             returns.to(device),
             _standardized(advantages).to(device),
             config.clip,
@@ -93,5 +96,5 @@ class PPOLearner(core.Learner):
 
 
 def _standardized(advantages: torch.Tensor) -> torch.Tensor:
-    """With mean 0 and standard deviation 1, so that a step is as large late in training as it was at the start."""
+    """Scales advantages to mean 0 and standard deviation 1: steps are as large late in training as at the start."""
     return (advantages - advantages.mean()) / (advantages.std(correction=0) + 1e-8)

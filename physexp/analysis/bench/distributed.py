@@ -1,6 +1,6 @@
 """A3C on a cluster of this machine alone against A3C in processes, and where a parameter server would saturate."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 import os
 from pathlib import Path
 import signal
@@ -8,7 +8,8 @@ import statistics
 import tempfile
 import time
 
-from physexp.agents.a3c import distributed
+from physexp.agents.a3c import distributed, parameter_server
+from physexp.analysis import callbacks
 from physexp.analysis.bench import measuring
 from physexp.analysis.evaluation import playing
 from physexp.analysis.reproduction import cluster
@@ -16,7 +17,6 @@ from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
 
-_TASK = ("which_is_heavier", "features")
 _SECONDS = 15.0
 _FRAMES, _EPISODES = 4_000_000, 10_000  # To learn what either trainer makes of an agent, and to measure it.
 _REPETITIONS = 3
@@ -24,13 +24,13 @@ _WORKERS = (1, 2, 4, 8, 16, 32, 64, 128)
 _GIGABIT = 1e9 / 8  # Bytes per second.
 
 
-def run() -> Iterator[dict]:
+def figures() -> Iterator[dict]:
     """Measures frames per second with one and two workers, and derives what many would reach."""
     with cluster.joined(cluster.LOCAL):
         ratios, ours, theirs = [], [], []
         for _ in range(_REPETITIONS):  # Side by side: such machines change their speed within minutes.
             ours.append(_measure(2)[0])
-            theirs.append(measuring.training_rate(_TASK, _SECONDS))
+            theirs.append(measuring.training_rate(measuring.REFERENCE, _SECONDS))
             ratios.append(ours[-1] / theirs[-1])
         yield measuring.row(
             "2 workers on a cluster / 2 processes: heavier",
@@ -75,8 +75,8 @@ def run() -> Iterator[dict]:
         yield measuring.row(f"{workers} workers, derived: bound by the {bound}", limits[bound], "f/s", 0)
 
 
-def _measure(num_workers: int) -> tuple[float, distributed.Traffic, float]:
-    """Frames per second once all workers are under way; the traffic; and frames in an update."""
+def _measure(num_workers: int) -> tuple[float, parameter_server.Traffic, float]:
+    """Returns frames per second once all workers are under way; the traffic; and frames in an update."""
     agent = _agent(num_workers)
     heard: set[int] = set()
     start, first, last = 0.0, None, None
@@ -96,17 +96,18 @@ def _measure(num_workers: int) -> tuple[float, distributed.Traffic, float]:
 
 
 def _final_return(on_cluster: bool) -> float:
-    """Mean discounted return of an agent that two workers have trained."""
-    agent = config_lib.preset(*_TASK).replace(num_workers=2, frames=_FRAMES)
+    """Returns mean discounted return of an agent that two workers have trained."""
+    domain, task = measuring.REFERENCE
+    agent = config_lib.preset(domain, task).replace(num_workers=2, frames=_FRAMES)
     with tempfile.TemporaryDirectory() as folder:
         run = run_lib.Run(Path(folder) / "run")
-        run.create(config_lib.TrainConfig(domain=_TASK[0], task=_TASK[1], replay_every=0, agent=agent))
+        run.create(config_lib.TrainConfig(domain=domain, task=task, agent=agent))
         trainer.train(run, on_cluster=on_cluster)
         return playing.evaluate(run, _EPISODES).summary(agent.discount)["mean_return"]
 
 
 def _recovery() -> float:
-    """Seconds from the death of the only worker to the first update of the one that takes its place."""
+    """Returns seconds from the death of the only worker to the first update of the one that takes its place."""
     told: list[str] = []
     updates = _agent(1, told.append).updates(poll_seconds=0.1)
     next(update for update in updates if update is not None)
@@ -120,16 +121,17 @@ def _recovery() -> float:
     return seconds
 
 
-def _agent(num_workers: int, tell: Callable[[str], None] = lambda line: None) -> distributed.DistributedA3C:
-    preset = config_lib.preset(*_TASK).replace(num_workers=num_workers, frames=10**12)
-    config = config_lib.TrainConfig(domain=_TASK[0], task=_TASK[1], agent=preset)
+def _agent(num_workers: int, tell: callbacks.Tell = callbacks.ignore) -> distributed.DistributedA3C:
+    domain, task = measuring.REFERENCE
+    preset = config_lib.preset(domain, task).replace(num_workers=num_workers, frames=10**12)
+    config = config_lib.TrainConfig(domain=domain, task=task, agent=preset)
     agent = trainer.make_agent(config, on_cluster=True, tell=tell)
     assert isinstance(agent, distributed.DistributedA3C)
     return agent
 
 
 def _processes(title: str) -> list[int]:
-    """Those of this machine whose command line starts so."""
+    """Returns the processes of this machine whose command line starts with a title."""
     found = []
     for entry in Path("/proc").glob("[0-9]*"):
         try:

@@ -14,7 +14,7 @@ SUCCESS = {"fist_features": 0.98, "direct_features": 0.95}  # Share of right ans
 HOURS = 12.0  # For all experiments on features.
 
 
-def run(results_dir: Path) -> Iterator[dict]:
+def figures(results_dir: Path) -> Iterator[dict]:
     """Trains the agents that are missing, reads what all of them reached, and takes the time of the rest."""
     results = base.Results(results_dir)
     features = sweep.jobs(list(EXPERIMENTS.values()), ["features"], conditions.SEEDS.__getitem__)

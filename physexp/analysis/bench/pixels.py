@@ -5,9 +5,13 @@ import multiprocessing
 import time
 
 import numpy as np
+import torch
 
 from physexp import suite  # Before mujoco and dm_control, for which it chooses the GL backend.
+from physexp.agents import losses, starting
+from physexp.agents.a3c import config as a3c
 from physexp.analysis.bench import measuring
+from physexp.analysis.training import config as config_lib
 from physexp.suite.engine import gl, rendering
 from physexp.suite.parts import block, tower
 
@@ -15,17 +19,19 @@ from dm_control import composer, mjcf  # isort: skip
 import mujoco  # isort: skip
 
 BATCH = 64
-TASKS = {
-    "heavier": ("which_is_heavier", "pixels"),
-    "direct": ("towers", "direct_pixels"),
-    "fist": ("towers", "fist_pixels"),
-}
+TASKS = measuring.tasks("pixels")
 _ROUND_STEPS = 6
 _SECONDS = 20.0  # Of training, or of the bare network, for one rate.
 
 
+def figures() -> Iterator[dict]:
+    """Measures drawing, then training."""
+    yield from rendering_figures()
+    yield from training_figures()
+
+
 def rendering_figures() -> Iterator[dict]:
-    """Frames per second of a batch, against what MuJoCo needs to draw the same scene, and a composer scene."""
+    """Measures frames per second of a batch, against what MuJoCo needs to draw the same scene, and a composer scene."""
     for name in TASKS:
         drawn, bare = measuring.rates(_batch_drawing(name), bare_rendering(name))
         yield measuring.row(
@@ -55,7 +61,7 @@ def rendering_figures() -> Iterator[dict]:
 
 
 def training_figures() -> Iterator[dict]:
-    """Frames per second of training, against the bare network on random images."""
+    """Measures frames per second of training, against the bare network on random images."""
     for name in ("fist", "heavier"):
         trained = measuring.training_rate(TASKS[name], _SECONDS)
         bare = bare_network_rate(TASKS[name])
@@ -87,12 +93,10 @@ def _batch_drawing(name: str) -> Callable[[], int]:
 
 
 def _played_poses(name: str) -> tuple[np.ndarray, np.ndarray]:
-    """Poses of the geoms after some random interactions in each of `BATCH` environments."""
-    domain, task = TASKS[name]
-    task = task.replace("pixels", "features")
+    """Returns poses of the geoms after some random interactions in each of `BATCH` environments."""
     poses = []
     generator = np.random.default_rng(0)
-    environment = suite.load(domain, task, task_kwargs={"random": 0})
+    environment = suite.load(*measuring.FEATURES[name], task_kwargs={"random": 0})
     for _ in range(BATCH):
         environment.reset()
         for action in generator.integers(environment.task.num_interactions, size=5):
@@ -103,7 +107,7 @@ def _played_poses(name: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def bare_rendering(name: str) -> Callable[[], int]:
-    """MuJoCo's own drawing and read-back of a task's scene, which stays as it is."""
+    """Returns what draws a task's scene, which stays as it is, and reads it back with MuJoCo's own functions."""
     apparatus = suite.load_task(*TASKS[name], {"random": 0}).build_apparatus(0)
     renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms)
     size = rendering.SIZE
@@ -121,7 +125,7 @@ def bare_rendering(name: str) -> Callable[[], int]:
 
 
 def composer_rendering() -> Callable[[], int]:
-    """The blocks of a tower in composer's default arena, seen by its default camera, drawn by dm_control."""
+    """Returns what draws the blocks of a tower in composer's default arena, by its default camera, with dm_control."""
     arena = composer.Arena()
     for k in range(tower.NUM_BLOCKS):
         cube = block.Block(rgba=block.COLORS[k], mass=1.0, name=f"block_{k}")
@@ -135,27 +139,20 @@ def composer_rendering() -> Callable[[], int]:
     return draw
 
 
-def bare_network_rate(task: tuple[str, str], num_processes: int = 2) -> float:
-    """Frames per second of a preset's network that acts and trains on random images, in as many processes."""
+def bare_network_rate(task: measuring.Task, num_processes: int = 2) -> float:
+    """Returns frames per second of a preset's network that acts and trains on random images, in as many processes."""
     context = multiprocessing.get_context("spawn")
     with context.Pool(num_processes) as pool:
         return sum(pool.map(_bare_network_rate, [task] * num_processes, chunksize=1))
 
 
-def _bare_network_rate(task: tuple[str, str]) -> float:
-    """Each image passes forward once to act, and forward and backward to train, in rounds like those of training."""
-    import torch
-
-    from physexp.agents import agent as agent_lib
-    from physexp.agents import losses
-    from physexp.agents.a3c import config as a3c
-    from physexp.analysis.training import config as config_lib
-
+def _bare_network_rate(task: measuring.Task) -> float:
+    """Returns frames per second; as in training, an image passes forward to act, and forward and backward to learn."""
     torch.set_num_threads(1)
     config = config_lib.preset(*task)
     assert isinstance(config, a3c.A3CConfig)
     environment = suite.load_batch(*task, 1)
-    network = agent_lib.make_network(environment, config)
+    network = starting.make_network(environment, config)
     shape = (_ROUND_STEPS, config.envs_per_worker, rendering.SIZE, rendering.SIZE, 3)
     images = torch.randint(256, shape, dtype=torch.uint8, generator=torch.Generator().manual_seed(0))
     batch_sizes = torch.full((_ROUND_STEPS,), config.envs_per_worker)

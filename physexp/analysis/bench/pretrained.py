@@ -22,22 +22,22 @@ TARGETS = {
 }
 
 
-def run() -> Iterator[dict]:
+def figures() -> Iterator[dict]:
     """Evaluates every agent, its actions drawn from its policy as in training."""
-    for (domain, task, difficulty), (figure, target) in TARGETS.items():
+    for (domain, task, difficulty), (measured, target) in TARGETS.items():
         agent = pretrained.load(domain, task, difficulty)
         config = playing.config_of(agent)
         drawn, greedy = (
             playing.play(agent.network, config, EPISODES, greedy=greedy).summary(config.agent.discount)
             for greedy in (False, True)
         )
-        name = pretrained.name(domain, task, difficulty)
+        name = pretrained.name(domain, task, agent.card["task_kwargs"])
         yield measuring.row(
-            f"{figure}: {name}",
-            drawn[figure],
+            f"{measured}: {name}",
+            drawn[measured],
             "",
             target,
-            greedy=greedy[figure],
+            greedy=greedy[measured],
             right=drawn["success_rate"],
             interactions=drawn["mean_interactions"],
             million_frames=agent.card["frames"] / 1e6,

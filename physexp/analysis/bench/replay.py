@@ -18,11 +18,11 @@ from physexp.analysis.training import config as config_lib
 _PAIRS, _EPISODES = 100, 8  # Measurements of each side, and what is played in one.
 
 
-def run() -> Iterator[dict]:
+def figures() -> Iterator[dict]:
     """Measures the recorder, a replay in training, `physexp replay` and `physexp --help`."""
-    for name, task in measuring.TASKS.items():
+    for name, task in measuring.FEATURES.items():
         yield _recording(name, task)
-    for name, task in measuring.TASKS.items():
+    for name, task in measuring.FEATURES.items():
         yield _replay_in_training(name, task)
     with tempfile.TemporaryDirectory() as folder:
         arguments = ["replay", "towers/fist_features", "--episodes", "4", "--output", f"{folder}/replay.rrd"]
@@ -30,8 +30,8 @@ def run() -> Iterator[dict]:
     yield measuring.timed("physexp --help", ["--help"], 0.5)
 
 
-def _recording(name: str, task: tuple[str, str]) -> dict:
-    """What recording adds to playing with a trained agent: the same episodes with and without it, in turns."""
+def _recording(name: str, task: measuring.Task) -> dict:
+    """Returns what recording adds to playing with a trained agent: the same episodes with and without it, in turns."""
     environment, actor = suite.load(*task, task_kwargs={"random": 0}), pretrained.load(*task).actor(greedy=True)
     recorder = replay.EpisodeRecorder(environment, *task, {}, actor)
     loops = [environment_loop.EnvironmentLoop(environment, actor, observers) for observers in ([], [recorder])]
@@ -55,8 +55,8 @@ def _recording(name: str, task: tuple[str, str]) -> dict:
     )
 
 
-def _replay_in_training(name: str, task: tuple[str, str]) -> dict:
-    """Processor time of a replay over that of training from one to the next, on two workers."""
+def _replay_in_training(name: str, task: measuring.Task) -> dict:
+    """Returns processor time of a replay over that of training from one to the next, on two workers."""
     agent = pretrained.load(*task)
     config = playing.config_of(agent)
     seconds = []

@@ -22,12 +22,12 @@ class Estimate:
 
 
 def better_half(values: Sequence[float] | np.ndarray) -> np.ndarray:
-    """Indices of the larger half of some values, the largest first; the middle one of an odd number belongs to it."""
+    """Returns indices of the larger half of some values, largest first; the middle one of an odd number is in it."""
     return np.argsort(-np.asarray(values), kind="stable")[: (len(values) + 1) // 2]
 
 
 def wilson_interval(successes: int, trials: int) -> tuple[float, float]:
-    """The 95 % confidence interval of a proportion (Wilson, 1927).
+    """Returns the 95 % confidence interval of a proportion (Wilson, 1927).
 
     Args:
       successes: how often it happened.
@@ -40,13 +40,13 @@ def wilson_interval(successes: int, trials: int) -> tuple[float, float]:
 
 
 def proportion(outcomes: Sequence[bool] | np.ndarray) -> Estimate:
-    """The share of true outcomes that are independent, [N]."""
+    """Returns the share of true outcomes that are independent, [N]."""
     right = int(np.sum(outcomes))
     return Estimate(right / len(outcomes), *wilson_interval(right, len(outcomes)))
 
 
 def mean(values: Sequence[float] | np.ndarray) -> Estimate:
-    """The mean of independent values, [N], with Student's interval; infinite for less than two values."""
+    """Returns the mean of independent values, [N], with Student's interval; infinite for less than two values."""
     from scipy import stats
 
     average = float(np.mean(values)) if len(values) else math.nan
@@ -60,13 +60,13 @@ def mean(values: Sequence[float] | np.ndarray) -> Estimate:
 
 
 def mean_share(shares: Sequence[float] | np.ndarray) -> Estimate:
-    """The mean of independent shares, [N] in [0, 1], with the part of Student's interval that a share can lie in."""
+    """Returns the mean of independent shares, [N] in [0, 1], with what of Student's interval a share can lie in."""
     estimate = mean(shares)
     return Estimate(estimate.value, max(0.0, estimate.low), min(1.0, estimate.high))
 
 
 def median(values: Sequence[float] | np.ndarray) -> Estimate:
-    """The median of independent values, [N], with the interval of the order statistics; infinite for too few values."""
+    """Returns the median of independent values, [N], with the order statistics' interval, infinite for too few."""
     from scipy import stats
 
     interval = stats.quantile_test(np.asarray(values), p=0.5).confidence_interval(_LEVEL)
@@ -77,7 +77,7 @@ def median(values: Sequence[float] | np.ndarray) -> Estimate:
 
 
 def ratio_of_means(numerators: Sequence[float] | np.ndarray, denominators: Sequence[float] | np.ndarray) -> Estimate:
-    """How many times as large the values of one group are as those of another, by their geometric means.
+    """Returns how many times as large the values of one group are as those of another, by their geometric means.
 
     Args:
       numerators, denominators: independent values, [N] and [M]; Welch's interval of the logarithms, which is infinite
@@ -102,7 +102,7 @@ def ratio_of_means(numerators: Sequence[float] | np.ndarray, denominators: Seque
 
 
 def ratio_of_pairs(numerators: Sequence[float] | np.ndarray, denominators: Sequence[float] | np.ndarray) -> Estimate:
-    """The geometric mean of ratios, [N] of independent pairs, with Student's interval of their logarithms.
+    """Returns the geometric mean of ratios, [N] of independent pairs, with Student's interval of their logarithms.
 
     The interval is infinite for a single pair and where a value is not positive and finite.
     """
@@ -116,7 +116,7 @@ def ratio_of_pairs(numerators: Sequence[float] | np.ndarray, denominators: Seque
 def bootstrap(
     values: Sequence[float] | np.ndarray, statistic: Callable[[np.ndarray], float], seed: int = 0
 ) -> Estimate:
-    """Any statistic of independent values, [N], with the bootstrap's percentile interval; infinite for one value."""
+    """Returns any statistic of independent values, [N], with the bootstrap's percentile interval, infinite for one."""
     from scipy import stats
 
     values = np.asarray(values, float)
@@ -135,7 +135,7 @@ def bootstrap(
 
 
 def slope(x: np.ndarray, y: np.ndarray) -> Estimate:
-    """The slope of an ordinary least-squares line; x and y [N] are pairs.
+    """Returns the slope of an ordinary least-squares line; x and y [N] are pairs.
 
     The interval allows for a spread of y that changes with x (White's standard error, HC1); it is infinite for fewer
     than three pairs and where all x are the same.

@@ -94,9 +94,9 @@ def _check_size(metadata: parquet.FileMetaData) -> None:
         raise ValueError("it says that it unpacks to more than any table of ours")
 
 
-def _check_schema(found: pyarrow.Schema, wanted: pyarrow.Schema) -> None:
-    if found.names != wanted.names:
-        raise ValueError(f"its columns are {', '.join(found.names)[:80]} instead of {', '.join(wanted.names)}")
-    for name in wanted.names:
-        if found.field(name).type != wanted.field(name).type:
-            raise ValueError(f"{name} is {found.field(name).type} instead of {wanted.field(name).type}")
+def _check_schema(found: pyarrow.Schema, schema: pyarrow.Schema) -> None:
+    if found.names != schema.names:
+        raise ValueError(f"its columns are {', '.join(found.names)[:80]} instead of {', '.join(schema.names)}")
+    for name in schema.names:
+        if found.field(name).type != schema.field(name).type:
+            raise ValueError(f"{name} is {found.field(name).type} instead of {schema.field(name).type}")

@@ -1,10 +1,10 @@
 """The domains, as the analysis sees them; one that is not here has the defaults of `base.Domain`."""
 
-from physexp.analysis.domains import base, towers, which_is_heavier
+from physexp.analysis.domains import base, threshold, towers, which_is_heavier
 
 __all__ = ["DOMAINS", "find"]
 
-_MODULES = (which_is_heavier, towers)
+_MODULES = (which_is_heavier, towers, threshold)
 
 DOMAINS = {module.DOMAIN.name: module.DOMAIN for module in _MODULES}
 """All domains that have more than defaults, by name."""

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from physexp import suite
 from physexp.analysis.training import run as run_lib
 
 
@@ -37,7 +38,5 @@ def draw(run: run_lib.Run, path: Path) -> Path:
 
 
 def num_labels(run: run_lib.Run) -> int:
-    """How many answers the run's question has."""
-    from physexp import suite
-
+    """Returns how many answers the run's question has."""
     return suite.load_task(run.config.domain, run.config.task, run.config.task_kwargs).num_labels

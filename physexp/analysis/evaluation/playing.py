@@ -1,7 +1,6 @@
 """Evaluation: plays episodes with a trained agent and measures how well it answers."""
 
-from collections.abc import Callable, Mapping, Sequence
-import dataclasses
+from collections.abc import Callable, Mapping
 import functools
 from pathlib import Path
 from typing import Any
@@ -10,9 +9,8 @@ import numpy as np
 import torch
 
 from physexp import suite
-from physexp.agents import acting, devices, networks, pretrained
-from physexp.agents import agent as agent_lib
-from physexp.analysis.data import estimates
+from physexp.agents import acting, devices, networks, pretrained, starting
+from physexp.analysis.data.episodes import Episodes
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
@@ -22,76 +20,8 @@ INTERACTIONS = ("learned", "random")
 _BATCH = 256
 
 
-@dataclasses.dataclass(frozen=True)
-class Episodes:
-    """What happened in many episodes.
-
-    Attributes:
-      seeds, numbers: seed of the environment and index of the episode, int64 [N] each: together they rebuild it.
-      hidden: the hidden property, [N, ...].
-      answers: the right labels, int64 [N].
-      labels: the labels given, -1 where time ran out, int64 [N].
-      rewards: final rewards, float64 [N].
-      lengths: actions in each episode, int64 [N].
-      interactions: interaction actions in each episode, int64 [N].
-      actions: the actions of each episode, N arrays int64 [length].
-    """
-
-    seeds: np.ndarray
-    numbers: np.ndarray
-    hidden: np.ndarray
-    answers: np.ndarray
-    labels: np.ndarray
-    rewards: np.ndarray
-    lengths: np.ndarray
-    interactions: np.ndarray
-    actions: list[np.ndarray]
-
-    @classmethod
-    def of_round(cls, episodes: acting.Round, environment, number: int) -> "Episodes":
-        """The episodes of a round that has just been played in the environments of a batch, all with this index."""
-        columns = trainer.episode_columns(episodes, environment.task.num_interactions)
-        return cls(
-            seeds=environment.seeds,
-            numbers=np.full(environment.num_environments, number),
-            hidden=environment.hidden,
-            answers=episodes.answers,
-            labels=np.array(columns["label"]),
-            rewards=episodes.rewards.sum(axis=0, dtype=np.float64),
-            lengths=episodes.lengths,
-            interactions=trainer.interaction_counts(episodes, environment.task.num_interactions),
-            actions=[np.array(actions) for actions in columns["actions"]],
-        )
-
-    @classmethod
-    def joined(cls, parts: "Sequence[Episodes]") -> "Episodes":
-        """The episodes of all parts, one after the other."""
-        columns: dict[str, Any] = {}
-        for field in dataclasses.fields(cls):
-            values: list[Any] = [getattr(part, field.name) for part in parts]
-            columns[field.name] = sum(values, []) if field.name == "actions" else np.concatenate(values)
-        return cls(**columns)
-
-    def first(self, count: int) -> "Episodes":
-        """The first episodes."""
-        return Episodes(*(getattr(self, field.name)[:count] for field in dataclasses.fields(self)))
-
-    def summary(self, discount: float) -> dict:
-        """The figures of `physexp evaluate`; the interval is Wilson's, at 95 %."""
-        right = int((self.rewards > 0).sum())
-        return {
-            "episodes": len(self.rewards),
-            "success_rate": right / len(self.rewards),
-            "success_interval": list(estimates.wilson_interval(right, len(self.rewards))),
-            "mean_return": float((self.rewards * discount ** (self.lengths - 1)).mean()),
-            "mean_interactions": float(self.interactions.mean()),
-            "median_interactions": float(np.median(self.interactions)),
-            "timeouts": int((self.interactions == self.lengths).sum()),
-        }
-
-
 def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
-    """The network that a run has trained.
+    """Returns the network that a run has trained.
 
     Raises:
       ValueError: if there is none yet, or its files are damaged or do not fit; it names the file.
@@ -99,9 +29,9 @@ def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
     config = run.config
     environment = trainer.make_environment(config, 0, 1, 1)
     with torch.device("meta"):  # Nothing is made that the variables do not fit.
-        like = agent_lib.make_network(environment, config.agent).state_dict()
+        like = starting.make_network(environment, config.agent).state_dict()
     variables = run.variables(like)
-    network = agent_lib.make_network(environment, config.agent)
+    network = starting.make_network(environment, config.agent)
     environment.close()
     network.load_state_dict(variables)
     return network.eval()
@@ -146,8 +76,7 @@ def shipped_agent(
     Raises:
       ValueError: if there is none; it lists those that there are.
     """
-    agent = pretrained.load(domain, task, task_kwargs.get("difficulty"))  # Which names the files.
-    _check_options(f"{domain}/{task}", config_of(agent), task_kwargs)
+    agent = pretrained.load(domain, task, **task_kwargs)
     return _with_config(agent)
 
 
@@ -183,7 +112,7 @@ def network_facts(config: config_lib.TrainConfig) -> dict[str, Any]:
     return {
         "observations": observations,
         "num_actions": num_actions,
-        "hyperparameters": agent_lib.hyperparameters(config.agent),
+        "hyperparameters": starting.hyperparameters(config.agent),
     }
 
 
@@ -194,8 +123,8 @@ def config_of(agent: pretrained.Pretrained) -> config_lib.TrainConfig:
       ValueError: if its card does not say so.
     """
     try:
-        facts = {name: agent.card[name] for name in ("domain", "task", "difficulty", "agent")}
-        return config_lib.TrainConfig.from_json({**facts, "task_kwargs": agent.card.get("task_kwargs", {})})
+        facts = {name: agent.card[name] for name in ("domain", "task", "task_kwargs", "agent")}
+        return config_lib.TrainConfig.from_json(facts)
     except (KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"an agent's card is not what was written: {error!r}; publish the agent again") from None
 
@@ -223,9 +152,9 @@ def play(
     num_threads: int = 2,
     device: str = "auto",
     num_steps: int = 0,
-    report: Callable[[int], None] | None = None,
+    show: Callable[[int], None] | None = None,
 ) -> Episodes:
-    """Plays episodes with a network.
+    """Plays episodes with a network; returns them.
 
     Args:
       network: the agent's network.
@@ -236,9 +165,9 @@ def play(
       greedy: take the likeliest action instead of drawing one.
       seed: of the environments and the actions.
       num_threads: threads that simulate.
-      device: where convolutions are computed, as in `A3CConfig`.
+      device: where convolutions are computed, as in `AgentConfig`.
       num_steps: go on, in rounds of whole episodes, until there are so many environment steps.
-      report: called after each round with how many of the episodes are played.
+      show: called after each round with how many of the episodes are played.
 
     Raises:
       ValueError: for an unknown interaction or a number of episodes below one.
@@ -257,13 +186,13 @@ def play(
     rounds: list[Episodes] = []
     episodes_left, steps_left = num_episodes, num_steps
     while episodes_left > 0 or steps_left > 0:
-        number = len(rounds)
-        generator = np.random.default_rng([seed, number])
-        episodes = acting.play_round(network, environment, number, generator, greedy, action_override)
-        rounds.append(Episodes.of_round(episodes, environment, number))
-        episodes_left, steps_left = episodes_left - len(episodes.lengths), steps_left - episodes.num_frames
-        if report is not None:
-            report(num_episodes - max(0, episodes_left))
+        episode = len(rounds)
+        generator = np.random.default_rng([seed, episode])
+        played = acting.play_round(network, environment, episode, generator, greedy, action_override)
+        rounds.append(Episodes.of_round(played, num_interactions, environment.seeds, episode, environment.hidden))
+        episodes_left, steps_left = episodes_left - len(rounds[-1]), steps_left - played.num_frames
+        if show is not None:
+            show(num_episodes - max(0, episodes_left))
     environment.close()
     joined = Episodes.joined(rounds)
     return joined if num_steps else joined.first(num_episodes)

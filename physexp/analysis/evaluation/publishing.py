@@ -3,6 +3,7 @@
 import dataclasses
 from pathlib import Path
 
+from physexp import suite
 from physexp.agents import checkpointing, pretrained
 from physexp.analysis.evaluation import playing
 from physexp.analysis.training import config as config_lib
@@ -33,8 +34,8 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int) -> Path:
     card = {
         "domain": config.domain,
         "task": config.task,
-        "difficulty": config.task_kwargs.get("difficulty"),  # Names the agent's files.
         "task_kwargs": dict(config.task_kwargs),
+        "default": _is_default(config),
         "command": command(config),
         "commit": created.get("commit", "not recorded"),
         "versions": created.get("versions", "not recorded"),
@@ -47,6 +48,15 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int) -> Path:
         "network": playing.network_facts(config),
     }
     return pretrained.save(network.cpu(), card, folder)
+
+
+def _is_default(config: config_lib.TrainConfig) -> bool:
+    """Returns whether the agent plays the task as it is where no option is chosen."""
+    chosen, default = (
+        suite.load_task(config.domain, config.task, {**task_kwargs, "random": 0}).options
+        for task_kwargs in (config.task_kwargs, {})
+    )
+    return chosen == default
 
 
 def _progress(run: run_lib.Run) -> tuple[int, int]:

@@ -82,7 +82,7 @@ class Results:
         return frame.assign(condition=_labels(frame))
 
     def curves(self, configs: Sequence[config_lib.TrainConfig]) -> Any:
-        """Learning curves: a DataFrame of the rows of `run.METRICS` of all seeds of these conditions."""
+        """Learning curves: a DataFrame of the rows of `metrics.METRICS` of all seeds of these conditions."""
         import pandas
 
         frames = []

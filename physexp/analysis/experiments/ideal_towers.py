@@ -4,9 +4,10 @@ from collections.abc import Callable
 import json
 from typing import Any
 
-from physexp.agents import checkpointing, files
+from physexp.agents import files
 from physexp.analysis.domains import towers
 from physexp.analysis.experiments import base, conditions
+from physexp.analysis.ideal import search
 
 # How coarsely the observer sees: metres for features, differing pixels for images.
 RESOLUTIONS = {"features": (0.0, 0.001, 0.003, 0.01, 0.03), "pixels": (0.0, 10.0, 30.0, 100.0)}
@@ -14,8 +15,6 @@ RESOLUTIONS = {"features": (0.0, 0.001, 0.003, 0.01, 0.03), "pixels": (0.0, 10.0
 
 def prepare(results: base.Results, report: Callable[[str], None]) -> None:
     """Computes the ideal experimenters of all tasks that are not there yet; `report` is told which."""
-    from physexp.analysis.ideal import search  # Figures of what has been computed need no physics.
-
     for condition in conditions.TOWERS:
         path = _path(results, condition.task)
         if not path.exists():
@@ -37,7 +36,7 @@ def read(results: base.Results) -> dict[str, list[dict]]:
         path = _path(results, condition.task)
         if not path.exists():
             raise ValueError(f"{path} is missing; `physexp reproduce ideal_gap` makes it")
-        found[condition.task] = rows = checkpointing.read_json(path)
+        found[condition.task] = rows = files.read_json(path)
         if not isinstance(rows, list) or not rows or not all(map(_is_summary, rows)):
             raise ValueError(f"{path} is not what was written; remove it, and `physexp reproduce ideal_gap` makes it")
     return found

@@ -5,6 +5,7 @@ import numpy as np
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions
+from physexp.suite.domains import which_is_heavier
 
 _EPISODES = 200_000
 _SMALL = 0.1  # A gap that is hard to tell from none.
@@ -13,8 +14,6 @@ _SMALL = 0.1  # A gap that is hard to tell from none.
 def load(results: base.Results):
     """Mass gaps of the first episodes of seed 0, drawn as the task draws them."""
     import pandas
-
-    from physexp.suite.domains import which_is_heavier
 
     seeds, episodes = np.zeros(_EPISODES, np.int64), np.arange(_EPISODES)
     frames = []

@@ -1,10 +1,11 @@
 """Replays: episodes recorded with all that was seen, believed and done, and written for the rerun viewer."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 import functools
 from pathlib import Path
 from typing import Any
 
+from physexp.analysis import callbacks
 from physexp.analysis.evaluation import playing
 from physexp.analysis.replay import recording, selection, writing
 from physexp.analysis.replay.recording import Episode, EpisodeRecorder
@@ -20,7 +21,7 @@ def replay(
     interaction: str = "learned",
     select: selection.Selection = "any",
     seed: int = playing.SEED,
-    report: Callable[[str], None] = lambda line: None,
+    tell: callbacks.Tell = callbacks.ignore,
     task_kwargs: Mapping[str, Any] | None = None,
 ) -> Path:
     """Plays episodes with trained agents and writes them for the viewer.
@@ -30,7 +31,7 @@ def replay(
       count: how many episodes.
       output: the file.
       interaction, select, seed: see `selection.select`.
-      report: called with lines that tell how it goes.
+      tell: called with lines that tell how it goes.
       task_kwargs: options that the agents are to be trained with, see `playing.find_agent`.
 
     Returns:
@@ -51,9 +52,9 @@ def replay(
             )
     chosen = list(selection.select(network, config, count, select, interaction, seed))
     if len(chosen) < count:
-        report(f"only {len(chosen)} episodes are {select}")
-    groups = [functools.partial(_episodes, targets, agents, episode, interaction) for episode in chosen]
-    return writing.write(output, groups, report)
+        tell(f"only {len(chosen)} episodes are {select}")
+    groups = [functools.partial(_episodes, targets, agents, instance, interaction) for instance in chosen]
+    return writing.write(output, groups, tell)
 
 
 def _what(config) -> str:
@@ -62,14 +63,14 @@ def _what(config) -> str:
     return f"{config.domain}/{config.task}{options}"
 
 
-def _episodes(targets, agents, episode, interaction) -> list[Episode]:
+def _episodes(targets, agents, instance, interaction) -> list[Episode]:
     """One instance as the first agent has played it, and as the others play it."""
-    seed, number, actions = episode
+    seed, episode, actions = instance
     (network, config), *others = agents
     title = targets[0] if interaction == "learned" else f"{targets[0]}, {interaction} interaction"
-    first = recording.reenact(network, config, seed, number, actions, title)
+    first = recording.reenact(network, config, seed, episode, actions, title)
     rest = [
-        recording.reenact(other, other_config, seed, number, None, target)
+        recording.reenact(other, other_config, seed, episode, None, target)
         for target, (other, other_config) in zip(targets[1:], others, strict=True)
     ]
     return [first, *rest]

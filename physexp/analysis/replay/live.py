@@ -34,7 +34,7 @@ class Live(environment_loop.Observer):
     def observe_first(self, environment, timestep):
         episode = self._recorder.episode
         self._stream = rr.RecordingStream(
-            f"physexp-{episode.domain}-{episode.task}", recording_id=f"{episode.seed}-{episode.number}-live"
+            f"physexp-{episode.domain}-{episode.task}", recording_id=f"{episode.seed}-{episode.episode}-live"
         )
         self._screen.show(self._stream, layout.blueprint([episode], [""]))
         self._stream.send_recording_name(words.name(episode))

@@ -38,7 +38,7 @@ class Episode:
     Attributes:
       domain, task: what was played.
       task_kwargs: that differ from the defaults, without the seed.
-      seed, number: seed of the environment and index of the episode; they rebuild it.
+      seed, episode: seed of the environment and index of the episode; they rebuild it.
       agent: who played, in words.
       hidden: the hidden property.
       answer: the right label.
@@ -56,7 +56,7 @@ class Episode:
     task: str
     task_kwargs: dict[str, Any]
     seed: int
-    number: int
+    episode: int
     agent: str
     hidden: np.ndarray
     answer: int
@@ -140,16 +140,16 @@ class EpisodeRecorder(environment_loop.Observer):
         seen_again, rebuilt = self._rebuilder.rebuild(*self._identity, self._actions)
         for name, values in observations.items():
             if not np.array_equal(values, seen_again[name]):
-                seed, number = self._identity
+                seed, index = self._identity
                 raise RuntimeError(
-                    f"episode {number} of seed {seed} is not what was seen: {name} differs; record the "
+                    f"episode {index} of seed {seed} is not what was seen: {name} differs; record the "
                     "environment with the task_kwargs that it was loaded with"
                 )
-        seed, number = self._identity
+        seed, index = self._identity
         return Episode(
             **self._facts,
             seed=seed,
-            number=number,
+            episode=index,
             observations=observations,
             actions=np.array(self._actions, np.int64),
             rewards=np.array(self._rewards),
@@ -169,11 +169,11 @@ class _Rebuilder:
     def close(self) -> None:
         self._environment.close()
 
-    def rebuild(self, seed: int, number: int, actions: Sequence[int]) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    def rebuild(self, seed: int, episode: int, actions: Sequence[int]) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
         """What is seen, by name, and the fields of `Episode` that only the simulation knows."""
         task = self._environment.task
         task.reseed(seed)
-        task.next_episode = number
+        task.next_episode = episode
         timestep = self._environment.reset()
         model = self._environment.physics.model.ptr
         self._geoms = [geom for geom in range(model.ngeom) if model.body_weldid[model.geom_bodyid[geom]] != 0]
@@ -240,7 +240,7 @@ def reenact(
     network: networks.RecurrentActorCritic,
     config: config_lib.TrainConfig,
     seed: int,
-    number: int,
+    episode: int,
     actions: Sequence[int] | None,
     agent: str = "",
 ) -> Episode:
@@ -249,18 +249,18 @@ def reenact(
     Args:
       network: of the agent that played it, for its beliefs.
       config: what it plays.
-      seed, number: the episode, as `evaluation.Episodes` has it.
+      seed, episode: seed of the environment and index of the episode, as `data.episodes.Episodes` has them.
       actions: what was done in it; None to let the agent do what it likes.
       agent: who played, in words.
     """
     environment = suite.load(config.domain, config.task, task_kwargs={**config.task_kwargs, "random": int(seed)})
-    environment.task.next_episode = int(number)
+    environment.task.next_episode = int(episode)
     actor: core.Actor = acting.RecurrentActor(network)
     if actions is not None:
         actor = Reenactor(actor, actions)
     recorder = EpisodeRecorder(environment, config.domain, config.task, config.task_kwargs, actor, agent)
     environment_loop.EnvironmentLoop(environment, actor, [recorder]).run_episode()
-    episode = recorder.episode
+    recorded = recorder.episode
     recorder.close()
     environment.close()
-    return episode
+    return recorded

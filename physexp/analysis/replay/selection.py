@@ -7,6 +7,7 @@ import numpy as np
 
 from physexp import suite
 from physexp.agents import networks
+from physexp.analysis.data import episodes
 from physexp.analysis.evaluation import playing
 from physexp.analysis.training import config as config_lib
 
@@ -31,7 +32,7 @@ def select(
         task has it, or else those that take this agent the longest.
 
     Yields:
-      Seed, number and actions of each chosen episode; fewer than wanted where there are not enough.
+      Seed, index and actions of each chosen episode; fewer than wanted where there are not enough.
 
     Raises:
       ValueError: if count is below one, or none of many episodes is as wanted.
@@ -49,15 +50,15 @@ def select(
     if not len(order):
         raise ValueError(f"none of {size} episodes is {selection}; choose another selection")
     for index in order[:count]:
-        yield int(played.seeds[index]), int(played.numbers[index]), played.actions[index]
+        yield int(played.seed[index]), int(played.episode[index]), played.actions_of(index)
 
 
-def _order(played: playing.Episodes, selection: Selection, hardness: np.ndarray | None) -> np.ndarray:
+def _order(played: episodes.Episodes, selection: Selection, hardness: np.ndarray | None) -> np.ndarray:
     """Indices of the episodes that are as wanted, the best first."""
     if selection == "wrong":
-        return np.flatnonzero(played.rewards < 0)
+        return np.flatnonzero(played.reward < 0)
     if selection == "right":
-        return np.flatnonzero(played.rewards > 0)
+        return np.flatnonzero(played.reward > 0)
     if selection == "longest":
         return np.argsort(-played.interactions, kind="stable")
     if selection == "hardest":
@@ -65,4 +66,4 @@ def _order(played: playing.Episodes, selection: Selection, hardness: np.ndarray 
             _, kinds = np.unique(played.hidden, axis=0, return_inverse=True)
             hardness = (np.bincount(kinds, played.interactions) / np.bincount(kinds))[kinds]
         return np.argsort(-hardness, kind="stable")
-    return np.arange(len(played.lengths))
+    return np.arange(len(played))

@@ -29,7 +29,7 @@ scene.
 def name(episode: recording.Episode) -> str:
     """Which episode it is."""
     options = "".join(f", {key} {value:g}" for key, value in episode.task_kwargs.items())
-    return f"{episode.domain}/{episode.task}{options}, seed {episode.seed}, episode {episode.number}"
+    return f"{episode.domain}/{episode.task}{options}, seed {episode.seed}, episode {episode.episode}"
 
 
 def about(episode: recording.Episode, question: str, ending: str) -> str:

@@ -25,6 +25,7 @@ from scipy.spatial import transform
 
 from physexp import suite
 from physexp.agents import files
+from physexp.analysis import callbacks
 from physexp.analysis.replay import beliefs, layout, palette, recording, words
 from physexp.analysis.replay.layout import TIMELINE
 from physexp.analysis.replay.viewing import PROGRAM, last_line
@@ -37,14 +38,14 @@ _MERGE_SECONDS = 300.0  # A few hundred times what it takes.
 def write(
     path: Path,
     groups: Sequence[Callable[[], Sequence[recording.Episode]]],
-    report: Callable[[str], None] = lambda line: None,
+    tell: callbacks.Tell = callbacks.ignore,
 ) -> Path:
     """Writes recordings into one file; after each of them the file is whole.
 
     Args:
       path: of the file, usually `*.rrd`.
       groups: called one after the other, each for the episodes of one recording: one, or several side by side.
-      report: called with a line for each recording.
+      tell: called with a line for each recording.
 
     Returns:
       The path.
@@ -62,7 +63,7 @@ def write(
         newest = _recording(episodes)
         written = _merge(written + newest) if written else newest
         files.write_atomically(path, written)
-        report(f"{number + 1} of {len(groups)}: {words.name(episodes[0])}")
+        tell(f"{number + 1} of {len(groups)}: {words.name(episodes[0])}")
     return path
 
 
@@ -104,7 +105,7 @@ def _recording(episodes: Sequence[recording.Episode]) -> bytes:
     """A recording in memory, because rerun drops what it cannot write to a file without a word."""
     first, players = episodes[0], "-".join(episode.agent for episode in episodes)
     stream = rr.RecordingStream(
-        f"physexp-{first.domain}-{first.task}", recording_id=f"{first.seed}-{first.number}-{players}"
+        f"physexp-{first.domain}-{first.task}", recording_id=f"{first.seed}-{first.episode}-{players}"
     )
     roots = [""] if len(episodes) == 1 else [f"{chr(ord('A') + index)}" for index in range(len(episodes))]
     memory = stream.memory_recording()

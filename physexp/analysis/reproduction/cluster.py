@@ -25,7 +25,7 @@ _LOOPBACK_VARIABLE = "RAY_ENABLE_WINDOWS_OR_OSX_CLUSTER"  # What Ray calls it; 0
 
 @contextlib.contextmanager
 def joined(address: str) -> Iterator[None]:
-    """A context in which this process belongs to a cluster.
+    """Returns a context in which this process belongs to a cluster.
 
     A cluster that is started here listens on the loopback only, has no dashboard, and demands Ray's token.
 
@@ -88,7 +88,7 @@ def _check_health(address: str) -> None:
 
 @contextlib.contextmanager
 def _on_the_loopback() -> Iterator[None]:
-    """A context in which Ray starts clusters that only this machine can reach.
+    """Returns a context in which Ray starts clusters that only this machine can reach.
 
     By default its servers listen on all addresses, whatever address they are given.
     """

@@ -9,6 +9,7 @@ import time
 from typing import Any
 
 from physexp.agents import processes
+from physexp.analysis import callbacks
 from physexp.analysis.training import stopping
 
 _BEAT_SECONDS = 1.0  # Between two signs of life of a job.
@@ -29,7 +30,7 @@ class Processes:
         self,
         work: Callable,
         num_processes: int,
-        report: Callable[[str], None],
+        tell: callbacks.Tell,
         silent_seconds: float = 60.0,
         stop_seconds: float = 300.0,
     ):
@@ -38,11 +39,11 @@ class Processes:
         Args:
           work: does a job: called in a process, with something to call with lines, and the job's arguments.
           num_processes: how many at a time.
-          report: called with lines: those of jobs, and one when a job is silent, or killed.
+          tell: called with lines: those of jobs, and one when a job is silent, or killed.
           silent_seconds: without a sign of life, until a line says so.
           stop_seconds: for a job to end that was asked to, before it is killed.
         """
-        self._work, self._report = work, report
+        self._work, self._tell = work, tell
         self._silent_seconds, self._stop_seconds = silent_seconds, stop_seconds
         self._context = multiprocessing.get_context("spawn")
         self._threads = futures.ThreadPoolExecutor(num_processes)
@@ -95,9 +96,9 @@ class Processes:
                 silent = 0.0
                 if told:
                     told = False
-                    self._report(f"{name} is back")
+                    self._tell(f"{name} is back")
                 if kind == "line":
-                    self._report(content)
+                    self._tell(content)
                 elif kind == "end":
                     if content is not None:
                         raise content
@@ -106,10 +107,10 @@ class Processes:
             silent, stopping_for = silent + passed, stopping_for + passed if asked else 0.0
             if silent >= self._silent_seconds and not told:
                 told = True
-                self._report(f"{name} has given no sign of life for {silent:.0f} s")
+                self._tell(f"{name} has given no sign of life for {silent:.0f} s")
             if self._killing or stopping_for >= self._stop_seconds:
                 if not self._killing:
-                    self._report(f"{name} did not end within {self._stop_seconds:.0f} s, and was killed")
+                    self._tell(f"{name} did not end within {self._stop_seconds:.0f} s, and was killed")
                 raise Failed("it was killed")
 
 

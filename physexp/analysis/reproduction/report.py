@@ -1,12 +1,13 @@
 """The report: every figure, and the table of claims, as Markdown and as one HTML page."""
 
 import base64
-from collections.abc import Callable
 import html
 import math
 from pathlib import Path
 
 from physexp.agents import files
+from physexp.analysis import callbacks
+from physexp.analysis.data import provenance
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions
 from physexp.analysis.experiments import claims as claims_lib
@@ -19,12 +20,12 @@ _INTRODUCTION = (
 )
 
 
-def write(results: base.Results, report: Callable[[str], None] = lambda line: None) -> Path:
+def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Path:
     """Draws every figure and tests every claim that there is data for; returns the path of the Markdown.
 
     Args:
       results: the folder with the data.
-      report: called with lines that tell how it goes.
+      tell: called with lines that tell how it goes.
 
     Raises:
       ValueError: if there is no such folder.
@@ -37,11 +38,11 @@ def write(results: base.Results, report: Callable[[str], None] = lambda line: No
             frame = experiment.load(results)
         except ValueError as error:
             missing.append(f"{experiment.name}: {error}")
-            report(f"left out {missing[-1]}")
+            tell(f"left out {missing[-1]}")
             continue
         figures.save(experiment.figure(frame), results.path / "figures", experiment.name)
         sections.append((experiment, experiment.claims(frame)))
-        report(f"drew {experiment.name}")
+        tell(f"drew {experiment.name}")
     markdown = results.path / "report.md"
     files.write_atomically(markdown, _markdown(sections, missing, results).encode())
     files.write_atomically(results.path / "report.html", _page(sections, missing, results).encode())
@@ -57,7 +58,7 @@ def _provenance(results: base.Results) -> list[str]:
     made = ", ".join(f"{number} by {commit}" for commit, number in counts.items())
     return [
         f"Agents: {sum(counts.values())}, trained by the source of these commits: {made}.",
-        f"Figures and verdicts: made by {run_lib.commit()[:11]}.",
+        f"Figures and verdicts: made by {provenance.commit()[:11]}.",
     ]
 
 
@@ -106,7 +107,7 @@ def _number(value: float) -> str:
 
 
 def _reasons(found: list[claims_lib.Claim]) -> list[str]:
-    """What we think of the claims that fail, each once."""
+    """Returns what we think of the claims that fail, each once."""
     failing = [claim for claim in found if claim.verdict == claims_lib.FAILS and claim.reason]
     return list(dict.fromkeys(f'Why "{claim.text}" fails: {claim.reason}' for claim in failing))
 

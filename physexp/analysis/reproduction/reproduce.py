@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from concurrent import futures
 
+from physexp.analysis import callbacks
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions
 from physexp.analysis.reproduction import sweep
@@ -11,7 +12,7 @@ ALL = "all"
 
 
 def choose(name: str) -> list[base.Experiment]:
-    """The experiments that a name stands for.
+    """Returns the experiments that a name stands for.
 
     Raises:
       ValueError: for an unknown name.
@@ -32,7 +33,7 @@ def run(
     num_processes: int | None = None,
     frames: int | None = None,
     submit: Callable[[sweep.Job], futures.Future] | None = None,
-    report: Callable[[str], None],
+    tell: callbacks.Tell,
 ) -> None:
     """Does everything for some experiments that is not done yet.
 
@@ -44,7 +45,7 @@ def run(
       num_processes: agents trained at a time; by default as many as there are cores.
       frames: environment steps of training, for a rehearsal; by default each condition's own budget.
       submit: trains an agent elsewhere; by default agents are trained here.
-      report: called with lines that tell how it goes.
+      tell: called with lines that tell how it goes.
 
     Raises:
       ValueError: for numbers that make no sense, or a folder whose runs are not these.
@@ -53,17 +54,17 @@ def run(
     for name, value, most in (("seeds", num_seeds, 1_000), ("jobs", num_processes, 1_000), ("frames", frames, 10**12)):
         if value is not None and not 1 <= value <= most:
             raise ValueError(f"{name} is {value}; give an integer >= 1 and <= {most}")
-    wanted = sweep.jobs(experiments, observations, lambda kind: num_seeds or conditions.SEEDS[kind], frames)
-    sweep.run(wanted, results, num_processes or sweep.num_cores(), report, submit)
+    jobs = sweep.jobs(experiments, observations, lambda kind: num_seeds or conditions.SEEDS[kind], frames)
+    sweep.run(jobs, results, num_processes or sweep.num_cores(), tell, submit)
     for experiment in experiments:
         if experiment.prepare is not None:
-            experiment.prepare(results, report)
+            experiment.prepare(results, tell)
         frame = experiment.load(results)
         for path in figures.save(experiment.figure(frame), results.path / "figures", experiment.name):
-            report(str(path))
+            tell(str(path))
         for claim in experiment.claims(frame):
             estimate = claim.estimate
-            report(
+            tell(
                 f"{claim.verdict:9}  {claim.text} ({claim.condition}): {estimate.value:.3g}, 95 % interval "
                 f"{estimate.low:.3g} to {estimate.high:.3g}, wanted {claim.wanted}"
             )

@@ -9,13 +9,17 @@ from pathlib import Path
 import tempfile
 import time
 
+import pyarrow
+
 from physexp import suite
 from physexp.agents import files
+from physexp.analysis import callbacks
 from physexp.analysis.data import records
-from physexp.analysis.experiments import base
+from physexp.analysis.evaluation import playing
+from physexp.analysis.experiments import base, conditions
 from physexp.analysis.reproduction import jobs as jobs_lib
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import progress, stopping, trainer, verdict
+from physexp.analysis.training import progress, recorder, stopping, trainer, verdict
 from physexp.analysis.training import run as run_lib
 
 _POLL_SECONDS = 5.0
@@ -36,7 +40,7 @@ def jobs(
     num_seeds: Callable[[str], int],
     frames: int | None = None,
 ) -> list[Job]:
-    """The agents that experiments need, each once, the first seed of all before the second of any.
+    """Returns the agents that experiments need, each once, the first seed of all before the second of any.
 
     Args:
       experiments: what is asked for.
@@ -44,38 +48,36 @@ def jobs(
       num_seeds: how many agents to train in each condition, by kind of observation.
       frames: environment steps to train for; None for each condition's own budget.
     """
-    from physexp.analysis.experiments import conditions
-
-    wanted: dict[config_lib.TrainConfig, list[base.Trial]] = {}
+    played: dict[config_lib.TrainConfig, list[base.Trial]] = {}
     for experiment in experiments:
         for condition in experiment.conditions:
             kind = conditions.observations(condition)
             for seed in range(num_seeds(kind) if kind in observations else 0):
                 agent = condition.agent.replace(seed=seed, frames=frames or condition.agent.frames)
-                trials = wanted.setdefault(dataclasses.replace(condition, agent=agent), [])
+                trials = played.setdefault(dataclasses.replace(condition, agent=agent), [])
                 trials += [trial for trial in experiment.trials if trial not in trials]
-    return [Job(config, tuple(wanted[config])) for config in sorted(wanted, key=lambda config: config.agent.seed)]
+    return [Job(config, tuple(played[config])) for config in sorted(played, key=lambda config: config.agent.seed)]
 
 
 def num_cores() -> int:
-    """How many agents to train at a time: each has one busy process."""
+    """Returns how many agents to train at a time: each has one busy process."""
     return len(os.sched_getaffinity(0))
 
 
 def run(
-    wanted: Sequence[Job],
+    jobs: Sequence[Job],
     results: base.Results,
     num_processes: int,
-    report: Callable[[str], None],
+    tell: callbacks.Tell,
     submit: Callable[[Job], futures.Future] | None = None,
 ) -> None:
     """Does what is not done yet.
 
     Args:
-      wanted: the agents.
+      jobs: the agents.
       results: where everything goes.
       num_processes: how many agents to train at a time, here.
-      report: called with lines that tell how it goes.
+      tell: called with lines that tell how it goes.
       submit: trains an agent elsewhere, as `cluster.submit` does; by default agents are trained here.
 
     Raises:
@@ -83,20 +85,20 @@ def run(
       stopping.Interrupted: after a request to end, when the agents that were being trained have their checkpoints.
       ValueError: when the folder holds a run of the same name with another configuration, or what such a run played.
     """
-    for job in wanted:
+    for job in jobs:
         _check(job, results)
-    todo = [job for job in wanted if not _is_done(job, results)]
-    report(f"{len(wanted) - len(todo)} of {len(wanted)} agents are done")
+    todo = [job for job in jobs if not _is_done(job, results)]
+    tell(f"{len(jobs) - len(todo)} of {len(jobs)} agents are done")
     if not todo:
         return
-    meter = Meter(wanted, results, num_processes)
+    meter = Meter(jobs, results, num_processes)
     reported = time.monotonic()
     failures = []
     with contextlib.ExitStack() as stack:
         if submit is None:
-            here = stack.enter_context(jobs_lib.Processes(_work, num_processes, report))
-            interruption = stack.enter_context(stopping.Interruption(here.stop))
-            pending = {here.submit(job.config.name, job, results): job for job in todo}
+            processes = stack.enter_context(jobs_lib.Processes(_work, num_processes, tell))
+            interruption = stack.enter_context(stopping.Interruption(processes.stop))
+            pending = {processes.submit(job.config.name, job, results): job for job in todo}
         else:
             interruption = stopping.Interruption(lambda: None)  # The cluster forgets its tasks when this process ends.
             pending = {submit(job): job for job in todo}
@@ -108,15 +110,15 @@ def run(
                     continue
                 if future.exception() is not None:
                     failures.append(f"{job.config.name}: {future.exception()}")
-                    report(f"FAILED {failures[-1]}")
+                    tell(f"FAILED {failures[-1]}")
                     continue
                 for name, content in (future.result() or {}).items():
                     (results.path / name).parent.mkdir(parents=True, exist_ok=True)
                     files.write_atomically(results.path / name, content)
                 problem = verdict.of_run(results.run(job.config))
-                report(f"done: {job.config.name}" + (f", but {problem}" if problem else ""))
+                tell(f"done: {job.config.name}" + (f", but {problem}" if problem else ""))
             if pending and not interruption.happened and (done or time.monotonic() - reported > _REPORT_SECONDS):
-                report(meter.line(len(pending)))
+                tell(meter.line(len(pending)))
                 reported = time.monotonic()
     if interruption.happened:
         raise interruption.happened
@@ -145,20 +147,23 @@ def _is_done(job: Job, results: base.Results) -> bool:
     return all(results.episodes_path(trial, job.config).exists() for trial in job.trials)
 
 
-def _work(tell: Callable[[str], None], job: Job, results: base.Results) -> None:
+def _work(tell: callbacks.Tell, job: Job, results: base.Results) -> None:
     """Trains an agent, if that is not done, and plays what it has not played."""
-    this = results.run(job.config)
-    with this.locked():
-        if not this.agent_path.exists():
-            is_new = not this.checkpointer.paths()
+    run = results.run(job.config)
+    with run.locked():
+        if not run.agent_path.exists():
+            is_new = not run.checkpointer.paths()
             trainer.train(
-                this, tell=lambda line: tell(f"{job.config.name}: {line}"), start=job.config if is_new else None
+                run,
+                tell=lambda line: tell(f"{job.config.name}: {line}"),
+                start=job.config if is_new else None,
+                on_checkpoint=_replays(run, job.config),
             )
-        this.keep_agent_only()
+        run.keep_agent_only()
     for trial in job.trials:
         path = results.episodes_path(trial, job.config)
         if not path.exists():
-            records.write(path, _play(this, trial))
+            records.write(path, _play(run, trial))
 
 
 def work_elsewhere(job: Job) -> dict[str, bytes]:
@@ -172,15 +177,22 @@ def work_elsewhere(job: Job) -> dict[str, bytes]:
         }
 
 
-def _play(this: run_lib.Run, trial: base.Trial):
-    """The rows of what a run's agent plays."""
-    from physexp.analysis.evaluation import playing
+def _replays(run: run_lib.Run, config: config_lib.TrainConfig) -> recorder.OnCheckpoint | None:
+    """Returns what writes replays while a run trains, if it is to have any."""
+    if not config.replay_every:
+        return None
+    from physexp.analysis.replay import training  # Takes seconds, and most runs do without.
 
-    config = this.config
+    return training.Writer(run, config)
+
+
+def _play(run: run_lib.Run, trial: base.Trial) -> pyarrow.Table:
+    """Returns the rows of what a run's agent plays."""
+    config = run.config
     chosen = {} if trial.control_timestep is None else {"control_timestep": trial.control_timestep}
     played_as = dataclasses.replace(config, task_kwargs={**config.task_kwargs, **chosen})
     played = playing.play(
-        playing.load_network(this),
+        playing.load_network(run),
         played_as,
         trial.num_episodes,
         trial.interaction,
@@ -194,15 +206,15 @@ def _play(this: run_lib.Run, trial: base.Trial):
 class Meter:
     """Tells how far a sweep is and how long it will take, from the speed of its own runs."""
 
-    def __init__(self, wanted: Sequence[Job], results: base.Results, num_processes: int):
-        self._wanted, self._results, self._num_processes = wanted, results, num_processes
+    def __init__(self, jobs: Sequence[Job], results: base.Results, num_processes: int):
+        self._jobs, self._results, self._num_processes = jobs, results, num_processes
 
     def line(self, num_pending: int) -> str:
-        """How many agents and frames there are to go, and for how long, as far as that is known."""
+        """Returns how many agents and frames there are to go, and for how long, as far as that is known."""
         done = total = left = 0.0
         speeds: dict[tuple[str, ...], list[tuple[float, float]]] = {}
         remaining: dict[tuple[str, ...], float] = {}
-        for job in self._wanted:
+        for job in self._jobs:
             kind: tuple[str, ...] = (job.config.domain, job.config.task, job.config.agent.algorithm)
             rows = self._results.run(job.config).metrics()
             frames = min(rows[-1]["frames"], job.config.agent.frames) if rows else 0

@@ -22,7 +22,7 @@ class FolderLock:
 
     @contextlib.contextmanager
     def held(self) -> Iterator[None]:
-        """A context in which nobody else holds the lock; the folder is made if need be. It may be nested.
+        """Returns a context in which nobody else holds the lock; the folder is made if need be. It may be nested.
 
         A folder that was made, and has nothing in it in the end, is removed again.
 

@@ -49,7 +49,7 @@ class Progress:
     def _show(self, row: dict) -> None:
         self._rates = [*self._rates[-11:], row["frames_per_second"]]
         left = (self._config.agent.frames - row["frames"]) / max(1.0, sum(self._rates) / len(self._rates))
-        cells = {name: form.format(row[name]) for name, form in _COLUMNS}
+        cells = {name: form.format(row[name]) for name, form in _COLUMNS if name in row}
         cells["time left"] = duration(max(0.0, left))
         if self._live is not None:
             from rich import table
@@ -70,7 +70,7 @@ class Progress:
 
 @contextlib.contextmanager
 def bar(name: str, total: int, file=None) -> Iterator[Callable[[int], None]]:
-    """A context with a function to be called with how many of `total` are done: it moves a bar on a terminal.
+    """Returns a context with a function to be called with how many of `total` are done: it moves a bar on a terminal.
 
     Elsewhere than on a terminal nothing is shown. By default `file` is standard error.
     """
@@ -89,7 +89,7 @@ def bar(name: str, total: int, file=None) -> Iterator[Callable[[int], None]]:
 
 
 def duration(seconds: float) -> str:
-    """Hours, minutes and seconds, as in 1:02:03."""
+    """Returns hours, minutes and seconds, as in 1:02:03."""
     minutes, seconds = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}:{minutes:02d}:{seconds:02d}"

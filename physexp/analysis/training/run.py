@@ -17,52 +17,33 @@ The folder may be a symbolic link; what is in it may not, since it is written to
 
 from collections.abc import Iterator, Mapping
 import contextlib
-import importlib.metadata
+import functools
 import itertools
 import json
 import os
 from pathlib import Path
-import platform
 import shutil
-import subprocess
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pyarrow
-import torch
 
-from physexp.agents import checkpointing, files, learning
-from physexp.analysis.data import tables
+from physexp import suite
+from physexp.agents import files
+from physexp.analysis.data import provenance, tables
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import lock
+from physexp.analysis.training import lock, metrics
+from physexp.suite.engine import gl
+
+if TYPE_CHECKING:
+    import torch
+
+    from physexp.agents import checkpointing
+    from physexp.analysis.training import weights
 
 FORMAT = 1
 
 _FOLDERS = ("checkpoints", "episodes.parquet", "replays", "tensorboard")
 _RECORDS = ("metrics.csv", "failed_batch.npz", "agent.safetensors", *_FOLDERS)
-_GIT_SECONDS = 60.0
-_LARGEST_METRICS = 2**28  # Bytes: rows of a hundred days.
-
-METRICS = {
-    "frames": "environment steps trained on",
-    "updates": "updates made",
-    "episodes": "episodes trained on",
-    "seconds": "time spent training, s",
-    "frames_per_second": "since the row before",
-    "success_rate": "share of episodes with the right label",
-    "episode_return": "mean discounted return",
-    "interactions": "mean interaction actions in an episode",
-    "timeouts": "share of episodes that ran out of time",
-    "entropy": "mean entropy of the policy, nats",
-    "policy_loss": "",
-    "baseline_loss": "",
-    "gradient_norm": "before clipping",
-    "learning_rate": "",
-    "entropy_cost": "",
-    "staleness": "updates of others between taking the parameters and applying the gradient",
-}
-"""The columns of `metrics.csv`; losses and rates are means over the updates since the row before."""
-
-_HEADER = ",".join(METRICS) + "\n"
 
 EPISODES = pyarrow.schema(
     [
@@ -82,13 +63,14 @@ class Run:
     """A run's folder."""
 
     def __init__(self, path: Path):
+        """Names a folder, in which there need be nothing yet."""
         self.path = Path(path)
-        self.checkpointer = checkpointing.Checkpointer(self.path / "checkpoints")
+        self._metrics = metrics.MetricsFile(self.path / "metrics.csv")
         self._lock = lock.FolderLock(self.path)
 
     @property
     def config(self) -> config_lib.TrainConfig:
-        """What was asked for.
+        """Returns what was asked for.
 
         Raises:
           ValueError: if the folder holds no run, or one of another format, or what was asked for makes no sense.
@@ -108,7 +90,7 @@ class Run:
           ValueError: as `config`.
         """
         try:
-            fields = checkpointing.read_json(self.path / "config.json")
+            fields = files.read_json(self.path / "config.json")
         except (FileNotFoundError, NotADirectoryError):
             raise ValueError(f"{self.path} holds no run (no config.json); give the folder of a run") from None
         form = fields.get("format") if isinstance(fields, dict) else None
@@ -120,7 +102,7 @@ class Run:
 
     @contextlib.contextmanager
     def locked(self) -> Iterator[None]:
-        """A context in which no other trainer works in the folder; see `FolderLock.held`.
+        """Returns a context in which no other trainer works in the folder; see `FolderLock.held`.
 
         Raises:
           OSError: if the folder cannot be made or written to.
@@ -160,9 +142,9 @@ class Run:
             content = {
                 "format": FORMAT,
                 "train": config.to_json(),
-                "versions": versions(),
-                "commit": commit(),
-                "renderer": renderer(config),
+                "versions": provenance.versions(),
+                "commit": provenance.commit(),
+                "renderer": _renderer(config),
             }
             files.write_atomically(self.path / "config.json", (json.dumps(content, indent=1) + "\n").encode())
         return moved
@@ -181,9 +163,13 @@ class Run:
         """Makes sure that training can go on, or start, without a loss.
 
         Raises:
-          ValueError: if there are records or an agent, but no checkpoint that training could go on from.
+          ValueError: if there are records or an agent, but no checkpoint that training could go on from; as `metrics`;
+            or if the rows lack columns of the learner.
         """
         if self.checkpointer.paths():
+            names, *_ = self._metrics.split(0)
+            if names and not {*metrics.METRICS, *self.config.agent.metrics} <= set(names):
+                raise ValueError(f"{self.path}/metrics.csv has the columns of an earlier version; resume it with that")
             return
         if self.agent_path.exists():
             raise ValueError(
@@ -236,8 +222,19 @@ class Run:
         """Where `keep_agent_only` puts the network's variables."""
         return self.path / "agent.safetensors"
 
-    def variables(self, like: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:
-        """The network's variables by name: those kept at the end, or those of the last checkpoint.
+    @functools.cached_property
+    def _weights(self) -> "weights.Weights":
+        from physexp.analysis.training import weights  # Imports torch, without which records are read in no time.
+
+        return weights.Weights(self.path, self.agent_path)
+
+    @property
+    def checkpointer(self) -> "checkpointing.Checkpointer":
+        """Writes and reads the run's checkpoints."""
+        return self._weights.checkpointer
+
+    def variables(self, like: Mapping[str, "torch.Tensor"]) -> dict[str, "torch.Tensor"]:
+        """Returns the network's variables by name: those kept at the end, or those of the last checkpoint.
 
         Args:
           like: variables with the names, shapes and types that the network has; their values do not matter.
@@ -245,20 +242,7 @@ class Run:
         Raises:
           ValueError: if there are none yet, or they do not fit.
         """
-        if os.path.lexists(self.agent_path):  # A link to nowhere is refused as any other is.
-            return checkpointing.read_agent(self.agent_path, like)
-
-        def accept(tensors, facts):
-            try:
-                checkpointing.check(learning.network_variables(tensors), like)
-            except ValueError as error:
-                raise ValueError(f"the network {error}; put back the run's own, or remove it") from None
-
-        most = 4 * checkpointing.num_bytes(like.values())  # Adam keeps two statistics of each.
-        found = self.checkpointer.latest(accept=accept, most=most)
-        if found is None:
-            raise ValueError(f"{self.path} holds no checkpoint yet; let the training write one")
-        return learning.network_variables(found[0])
+        return self._weights.variables(like)
 
     def keep_agent_only(self) -> None:
         """Keeps the network, in half precision, in the place of checkpoints and episodes: this run will not go on.
@@ -267,63 +251,35 @@ class Run:
           ValueError: if there is no checkpoint, or its weights are not finite in half precision.
         """
         with self.locked():
-            if not self.agent_path.exists():
-                found = self.checkpointer.latest()
-                if found is None:
-                    raise ValueError(f"{self.path} holds no checkpoint yet; let the training write one")
-                checkpointing.write_agent(self.agent_path, learning.network_variables(found[0]))
+            self._weights.keep_network()
             for name in ("checkpoints", "episodes.parquet"):
                 with contextlib.suppress(FileNotFoundError):
                     shutil.rmtree(self.path / name)
 
-    # Metrics.
+    # Records.
 
-    def append_metrics(self, row: dict[str, float]) -> None:
-        """Adds a row to `metrics.csv`."""
-        values = (f"{row[name]:.6g}" if isinstance(row[name], float) else str(row[name]) for name in METRICS)
-        with files.open_plain(self.path / "metrics.csv", "ab") as file:
-            header = b"" if file.tell() else _HEADER.encode()
-            file.write(header + f"{','.join(values)}\n".encode())
+    def append_metrics(self, row: Mapping[str, float]) -> None:
+        """Adds a row to `metrics.csv`, under the columns that the first row has made."""
+        self._metrics.append(row)
 
     def metrics(self) -> list[dict[str, float]]:
-        """The rows of `metrics.csv`, without one that a crash has torn.
+        """Returns the rows of `metrics.csv`, without one that a crash has torn.
 
         Raises:
           ValueError: if there is something else in it.
         """
-        return self._rows(*self._lines())
+        return self._metrics.rows()
 
-    def _rows(self, header: list[str], lines: list[str]) -> list[dict[str, float]]:
-        rows = []
-        for number, line in enumerate(lines, 2):
-            try:
-                rows.append(dict(zip(header, map(float, line.split(",")), strict=True)))
-            except ValueError:
-                raise ValueError(
-                    f"{self.path}/metrics.csv is damaged: line {number} is no row of {len(header)} numbers; mend it, "
-                    "or move it away"
-                ) from None
-        return rows
+    def append_episodes(self, frames: int, rows: pyarrow.Table) -> None:
+        """Adds a part to `episodes.parquet`.
 
-    def _lines(self) -> tuple[list[str], list[str]]:
-        """The names of the columns of `metrics.csv`, and its whole lines, without their ends."""
-        try:
-            content = files.read_plain(self.path / "metrics.csv", _LARGEST_METRICS).decode(errors="replace")
-        except (FileNotFoundError, NotADirectoryError):
-            content = ""
-        header, *lines = (content[: content.rfind("\n") + 1] or _HEADER).splitlines()
-        names = header.split(",")
-        if names[0] != "frames" or not set(names) <= set(METRICS):  # Earlier versions had fewer columns.
-            raise ValueError(
-                f"{self.path}/metrics.csv is damaged: its first line names no metrics; mend it, or move it away"
-            )
-        return names, lines
-
-    def append_episodes(self, frames: int, columns: dict[str, list]) -> None:
-        """Adds a part to `episodes.parquet`."""
+        Args:
+          frames: of training, by now; they name the part.
+          rows: episodes, with the columns of `EPISODES`.
+        """
         folder = self.path / "episodes.parquet"
         folder.mkdir(exist_ok=True)
-        tables.write(folder / f"part-{frames:015d}.parquet", pyarrow.table(columns, EPISODES), compression="zstd")
+        tables.write(folder / f"part-{frames:015d}.parquet", rows, compression="zstd")
 
     def rewind(self, frames: int) -> None:
         """Moves what was recorded after a checkpoint aside, so that a resumed run leaves no row twice.
@@ -331,14 +287,9 @@ class Run:
         What it tells of was learned and lost. One worker, or PPO, makes it again to the bit; several workers do not.
 
         Raises:
-          ValueError: as `metrics`, or if the rows have the columns of an earlier version.
+          ValueError: as `metrics`.
         """
-        header, lines = self._lines()
-        if header != list(METRICS):
-            raise ValueError(f"{self.path}/metrics.csv has the columns of an earlier version; resume it with that")
-        is_kept = [row["frames"] <= frames for row in self._rows(header, lines)]
-        kept = list(itertools.compress(lines, is_kept))
-        later = [line for line, keep in zip(lines, is_kept, strict=True) if not keep]
+        names, kept, later = self._metrics.split(frames)
         parts = (self.path / "episodes.parquet").glob(f"part-{'[0-9]' * 15}.parquet")
         later_parts = [part for part in parts if int(part.stem.removeprefix("part-")) > frames]
         if later or later_parts:
@@ -346,43 +297,12 @@ class Run:
             (folder / "episodes.parquet").mkdir()
             for part in later_parts:
                 part.rename(folder / "episodes.parquet" / part.name)
-            _write_lines(folder / "metrics.csv", later)
-        if (self.path / "metrics.csv").exists():
-            _write_lines(self.path / "metrics.csv", kept)
+            metrics.MetricsFile(folder / "metrics.csv").write(names, later)
+        if self._metrics.path.exists():
+            self._metrics.write(names, kept)
 
 
-def _write_lines(path: Path, lines: list[str]) -> None:
-    files.write_atomically(path, (_HEADER + "".join(f"{line}\n" for line in lines)).encode())
-
-
-def renderer(config: config_lib.TrainConfig) -> str:
-    """What draws the images of a run, or that none are drawn."""
-    from physexp import suite
-    from physexp.suite.engine import gl
-
+def _renderer(config: config_lib.TrainConfig) -> str:
+    """Returns what draws the images of a run, or that none are drawn."""
     task = suite.load_task(config.domain, config.task, config.task_kwargs)
     return gl.renderer_name() if task.sense.needs_gl else "none is needed"
-
-
-def commit() -> str:
-    """Returns the commit of the source that is running, with `+` where files differ from it.
-
-    `unknown` outside a checkout, and where git does not answer.
-    """
-    if shutil.which("git") is None:
-        return "unknown"
-    git = ["git", "-C", str(Path(__file__).parent)]
-    try:
-        found = subprocess.run([*git, "rev-parse", "HEAD"], capture_output=True, text=True, timeout=_GIT_SECONDS)
-        if found.returncode:
-            return "unknown"
-        changed = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", ".."], timeout=_GIT_SECONDS).returncode
-    except subprocess.TimeoutExpired:  # A network's file system, for one: no reason not to train.
-        return "unknown"
-    return found.stdout.strip() + ("+" if changed else "")
-
-
-def versions() -> dict[str, str]:
-    """Versions of what determines a run's results."""
-    names = ("physexp", "mujoco", "dm-control", "torch", "numpy")
-    return {"python": platform.python_version(), **{name: importlib.metadata.version(name) for name in names}}

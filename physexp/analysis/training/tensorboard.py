@@ -23,12 +23,12 @@ class TensorBoard:
             self._writer.close()
 
     def __call__(self, row: dict[str, float]) -> None:
-        """Logs a row of `run.METRICS`, the last of the run's, at its environment steps."""
+        """Logs a row of metrics, the last of the run's, at its environment steps."""
         if self._writer is None:
             self._writer = self._open()
-        for name in run_lib.METRICS:
+        for name, value in row.items():
             if name != "frames":
-                self._writer.add_scalar(name, row[name], int(row["frames"]))
+                self._writer.add_scalar(name, value, int(row["frames"]))
         self._writer.flush()
 
     def _open(self):

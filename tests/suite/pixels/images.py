@@ -16,7 +16,7 @@ import mujoco  # isort: skip  # The suite chooses the GL backend, which mujoco l
 
 HEAVIER, DIRECT, FIST = ("which_is_heavier", "pixels"), ("towers", "direct_pixels"), ("towers", "fist_pixels")
 PIXEL_TASKS = [HEAVIER, DIRECT, FIST]
-every_pixel_task = pytest.mark.parametrize("domain_name, task_name", PIXEL_TASKS)
+every_pixel_task = pytest.mark.parametrize("domain_name, task_name", suite.tagged("pixels"))
 MARKS = [
     pytest.mark.usefixtures("seed"),
     pytest.mark.filterwarnings("ignore:PIXELS ARE DRAWN BY THE PROCESSOR"),  # What draws is not what is tested here.
@@ -116,9 +116,8 @@ def poses_of(batch, chosen):
     """Positions [N, G, 3] and rotation matrices [N, G, 3, 3] of all geoms of some environments after a step."""
     poses = {"geom_xpos": [], "geom_xmat": []}
     for i in chosen:
-        structure = batch._structures[i]
         for field, values in poses.items():
-            values.append(batch._groups[int(structure)]._batch.bind(field)[i].copy())
+            values.append(batch.view(field, int(i)).copy())
     positions = np.stack(poses["geom_xpos"])
     return positions, np.stack(poses["geom_xmat"]).reshape(*positions.shape[:2], 3, 3)
 

@@ -8,7 +8,6 @@ from images import (
     EDGE,
     HEAVIER,
     MARKS,
-    PIXEL_TASKS,
     SEPARATE,
     SHAPE,
     WHOLE,
@@ -49,9 +48,12 @@ def test_a_pixel_task_observes_one_image_and_nothing_else(domain_name, task_name
 
 
 def test_every_task_of_features_has_one_of_pixels():
-    other = {"features": "pixels", "direct_features": "direct_pixels", "fist_features": "fist_pixels"}
-    features = {(domain, task) for domain, task in suite.ALL_TASKS if task.endswith("features")}
-    assert {(domain, other[task]) for domain, task in features} == set(suite.ALL_TASKS) - features == set(PIXEL_TASKS)
+    kinds = {
+        kind: {(domain, suite.tags(domain, task) - {kind}) for domain, task in suite.tagged(kind)}
+        for kind in ("features", "pixels")
+    }
+    assert kinds["features"] == kinds["pixels"]
+    assert len(suite.tagged("features")) + len(suite.tagged("pixels")) == len(suite.ALL_TASKS)
 
 
 @pytest.mark.parametrize("task_name, patterns", [("direct_pixels", [SEPARATE, 6, WHOLE]), ("fist_pixels", range(16))])

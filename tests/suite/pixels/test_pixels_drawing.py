@@ -114,4 +114,4 @@ def test_when_all_environments_of_a_batch_diverge_their_images_are_the_ones_befo
 
 def _overwrite(batch, environment: int, field: str) -> None:
     """With something that MuJoCo cannot go on from."""
-    batch._groups[int(batch._structures[environment])]._batch.bind(field)[environment, 0] = np.nan
+    batch.view(field, environment)[0] = np.nan

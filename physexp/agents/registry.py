@@ -1,0 +1,42 @@
+"""The agents that there are, by the name of their algorithm, here and on a cluster."""
+
+from collections.abc import Callable, Mapping
+
+from physexp.agents import config as config_lib
+from physexp.agents import core
+from physexp.agents.a3c import agent as a3c
+from physexp.agents.ppo import agent as ppo
+
+AGENTS: Mapping[str, Callable[..., core.Agent]] = {"a3c": a3c.A3C, "ppo": ppo.PPO}
+"""What makes an agent that trains on this machine, from what `make` takes."""
+
+
+def make(
+    make_environment: core.EnvironmentFactory, config: config_lib.AgentConfig, report: Callable[[str], None]
+) -> core.Agent:
+    """Returns the agent of a configuration, as it is before training.
+
+    Args:
+      make_environment: makes a batch; it is called in other processes, too, so it must be picklable.
+      config: the agent's configuration.
+      report: called with a line when something has gone wrong that training survives.
+    """
+    return AGENTS[config.algorithm](make_environment, config, report)
+
+
+def make_on_cluster(
+    make_environment: core.EnvironmentFactory,
+    config: config_lib.AgentConfig,
+    report: Callable[[str], None],
+    find_versions: Callable[[], dict[str, str]],
+) -> core.Agent:
+    """Returns the agent of a configuration that trains on the cluster that this process has joined.
+
+    Args:
+      make_environment, config, report: as for `make`; the algorithm can run on a cluster.
+      find_versions: says what is installed; it must say the same on every machine.
+    """
+    from physexp.agents.a3c import distributed  # Ray is an extra, and takes a second to import.
+
+    agents: Mapping[str, Callable[..., core.Agent]] = {"a3c": distributed.DistributedA3C}
+    return agents[config.algorithm](make_environment, config, find_versions, report)

@@ -1,0 +1,145 @@
+"""The one table of episodes, a row an episode, from acting to Parquet: stored files are selections of its columns."""
+
+from collections.abc import Sequence
+import dataclasses
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pyarrow
+
+from physexp.analysis.data import estimates
+
+if TYPE_CHECKING:
+    from physexp.agents import rounds  # Imports torch, without which tables are read in no time.
+
+
+@dataclasses.dataclass(frozen=True)
+class Episodes:
+    """What happened in N episodes of at most T actions.
+
+    Attributes:
+      seed: seeds of the environments, int64 [N].
+      episode: indices of the episodes, int64 [N]: seed and index together rebuild an episode.
+      hidden: the hidden property, [N, ...]; [N, 0] in the record of a learner, which has none.
+      answer: the right labels, int64 [N].
+      label: the labels given, -1 where time ran out, int64 [N].
+      reward: final rewards, float64 [N].
+      length: actions in each episode, the label among them, int64 [N].
+      interactions: interaction actions in each episode, int64 [N].
+      actions: the actions, -1 after the end of an episode, int64 [N, T].
+    """
+
+    seed: np.ndarray
+    episode: np.ndarray
+    hidden: np.ndarray
+    answer: np.ndarray
+    label: np.ndarray
+    reward: np.ndarray
+    length: np.ndarray
+    interactions: np.ndarray
+    actions: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.length)
+
+    @classmethod
+    def of_round(
+        cls,
+        played: "rounds.Round",
+        num_interactions: int,
+        seed: np.ndarray,
+        episode: int,
+        hidden: np.ndarray | None = None,
+    ) -> "Episodes":
+        """Returns the episodes of a round.
+
+        Args:
+          played: one episode in each of N environments.
+          num_interactions: how many actions of the task are interactions; the labels follow them.
+          seed: seeds of the environments, int64 [N].
+          episode: the index that all episodes of the round have.
+          hidden: the hidden property in each environment, [N, ...], where it is known.
+        """
+        num_episodes = len(played.lengths)
+        is_played = np.arange(len(played.actions)) < played.lengths[:, None]
+        actions = np.where(is_played, played.actions.T, -1)
+        last = actions[np.arange(num_episodes), played.lengths - 1]
+        return cls(
+            seed=seed,
+            episode=np.full(num_episodes, episode),
+            hidden=np.zeros((num_episodes, 0)) if hidden is None else hidden,
+            answer=played.answers,
+            label=np.where(last >= num_interactions, last - num_interactions, -1),
+            reward=played.rewards.sum(axis=0, dtype=np.float64),
+            length=played.lengths,
+            interactions=(is_played & (actions < num_interactions)).sum(axis=1),
+            actions=actions,
+        )
+
+    @classmethod
+    def joined(cls, parts: "Sequence[Episodes]") -> "Episodes":
+        """Returns the episodes of all parts, one after the other."""
+        names = [field.name for field in dataclasses.fields(cls) if field.name != "actions"]
+        columns = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
+        return cls(**columns, actions=_stacked([part.actions for part in parts]))
+
+    def first(self, count: int) -> "Episodes":
+        """Returns the first episodes."""
+        return Episodes(**{field.name: getattr(self, field.name)[:count] for field in dataclasses.fields(self)})
+
+    def actions_of(self, index: int) -> np.ndarray:
+        """Returns the actions of one episode, int64 [length]."""
+        return self.actions[index, : self.length[index]]
+
+    def returns(self, discount: float) -> np.ndarray:
+        """Returns discounted returns, float64 [N]: the reward, discounted once for each action before the last."""
+        return self.reward * discount ** (self.length - 1)
+
+    def summary(self, discount: float) -> dict:
+        """Returns the figures of `physexp evaluate`; the interval is Wilson's, at 95 %."""
+        right = int((self.reward > 0).sum())
+        return {
+            "episodes": len(self),
+            "success_rate": right / len(self),
+            "success_interval": list(estimates.wilson_interval(right, len(self))),
+            "mean_return": float(self.returns(discount).mean()),
+            "mean_interactions": float(self.interactions.mean()),
+            "median_interactions": float(np.median(self.interactions)),
+            "timeouts": int(self.is_timeout.sum()),
+        }
+
+    @property
+    def is_timeout(self) -> np.ndarray:
+        """Which episodes ran out of time, bool [N]."""
+        return self.interactions == self.length
+
+    def table(self, schema: pyarrow.Schema, **others: Any) -> pyarrow.Table:
+        """Returns the columns that a schema selects, a row an episode.
+
+        Args:
+          schema: names and types of the columns.
+          others: columns that this table does not have: an array of length N each, or one value for all rows.
+        """
+        columns: dict[str, Any] = dict(vars(self))
+        is_played = np.arange(self.actions.shape[1]) < self.length[:, None]
+        columns["actions"] = lists(self.actions[is_played], self.length)
+        for name, value in others.items():
+            columns[name] = value if isinstance(value, (np.ndarray, pyarrow.Array)) else [value] * len(self)
+        return pyarrow.table({name: columns[name] for name in schema.names}, schema)
+
+
+def lists(values: np.ndarray, lengths: np.ndarray) -> pyarrow.Array:
+    """Returns N lists: the first holds the first `lengths[0]` values, and so on."""
+    offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int32)
+    return pyarrow.ListArray.from_arrays(offsets, values)
+
+
+def _stacked(parts: Sequence[np.ndarray]) -> np.ndarray:
+    """Returns actions of several parts, int64 [N, T], where T is the longest of theirs."""
+    longest = max(part.shape[1] for part in parts)
+    found = np.full((sum(map(len, parts)), longest), -1)
+    start = 0
+    for part in parts:
+        found[start : start + len(part), : part.shape[1]] = part
+        start += len(part)
+    return found

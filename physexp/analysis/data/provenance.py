@@ -1,0 +1,36 @@
+"""Where results come from: the commit and the versions that make them."""
+
+import importlib.metadata
+from pathlib import Path
+import platform
+import shutil
+import subprocess
+
+import physexp
+
+_DISTRIBUTIONS = ("physexp", "mujoco", "dm-control", "torch", "numpy")
+_GIT_SECONDS = 60.0
+
+
+def commit() -> str:
+    """Returns the commit of the source that is running, with `+` where files differ from it.
+
+    `unknown` outside a checkout, and where git does not answer.
+    """
+    if shutil.which("git") is None:
+        return "unknown"
+    git = ["git", "-C", str(Path(physexp.__file__).parent)]
+    try:
+        found = subprocess.run([*git, "rev-parse", "HEAD"], capture_output=True, text=True, timeout=_GIT_SECONDS)
+        if found.returncode:
+            return "unknown"
+        changed = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", "."], timeout=_GIT_SECONDS).returncode
+    except subprocess.TimeoutExpired:  # A network's file system, for one: no reason not to train.
+        return "unknown"
+    return found.stdout.strip() + ("+" if changed else "")
+
+
+def versions() -> dict[str, str]:
+    """Returns the versions of what determines a run's results."""
+    found = {name: importlib.metadata.version(name) for name in _DISTRIBUTIONS}
+    return {"python": platform.python_version(), **found}

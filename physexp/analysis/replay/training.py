@@ -1,0 +1,52 @@
+"""Replays that a run in training leaves: the agent as it becomes, always on the same instance."""
+
+from collections.abc import Mapping
+
+import torch
+
+from physexp.agents import starting
+from physexp.analysis.replay import recording, writing
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer
+
+SEED = 2_000_003  # Of the environment, apart from those of training and evaluation.
+
+
+class Writer:
+    """Writes a replay into a run's folder with a checkpoint, once enough steps have passed since the replay before.
+
+    It is a `recorder.OnCheckpoint`.
+    """
+
+    def __init__(self, run: run_lib.Run, config: config_lib.TrainConfig):
+        """Writes nothing yet.
+
+        Args:
+          run: the run, into whose folder replays go.
+          config: what is trained; `replay_every` says how many steps are enough.
+        """
+        self._folder, self._config = run.path / "replays", config
+
+    def __call__(self, frames: int, variables: Mapping[str, torch.Tensor]) -> None:
+        """Lets the agent play one episode, if it is time for that, and writes it for the viewer.
+
+        Args:
+          frames: that the agent has been trained on.
+          variables: of its network, by name.
+
+        Raises:
+          OSError: if the file cannot be written.
+        """
+        if frames - self._last_replay(frames) < self._config.replay_every:
+            return
+        network = starting.make_network(trainer.make_environment(self._config, 0, 1, 1), self._config.agent)
+        network.load_state_dict(variables)
+        title = f"{self._config.name} after {frames:,} steps"
+        path = self._folder / f"{frames:015d}.rrd"
+        writing.write(path, [lambda: [recording.reenact(network, self._config, SEED, 0, None, title)]])
+
+    def _last_replay(self, frames: int) -> int:
+        """Returns after how many frames the last replay was written, 0 for none; later ones are of what was lost."""
+        names = (path.stem for path in self._folder.glob("*.rrd"))
+        return max((int(name) for name in names if name.isdecimal() and int(name) <= frames), default=0)

@@ -1,0 +1,210 @@
+"""Recording: writes the metrics, episodes and checkpoints of a run as it trains."""
+
+from collections.abc import Callable, Mapping
+import functools
+import io
+import time
+
+import numpy as np
+import pyarrow
+import torch
+
+from physexp import suite
+from physexp.agents import checkpointing, core, files, learning
+from physexp.analysis import callbacks
+from physexp.analysis.data import episodes as episodes_lib
+from physexp.analysis.data import provenance
+from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
+
+ROW_SECONDS = 5.0  # Between rows of metrics.csv.
+
+OnCheckpoint = Callable[[int, Mapping[str, torch.Tensor]], None]
+"""Called before a checkpoint is written, with the frames trained on and the network's variables."""
+
+
+class Recorder:
+    """Writes a run's rows, episodes and checkpoints.
+
+    A checkpoint is written when all updates in it, and none after it, have been recorded: so the records of a run that
+    was killed and resumed have no gap, and nothing twice.
+    """
+
+    def __init__(
+        self,
+        run: run_lib.Run,
+        config: config_lib.TrainConfig,
+        report: callbacks.Report = callbacks.ignore,
+        tell: callbacks.Tell = callbacks.ignore,
+        on_checkpoint: OnCheckpoint | None = None,
+    ):
+        """Records nothing yet.
+
+        Args:
+          run: whose folder is written to; it is locked meanwhile.
+          config: what is trained.
+          report: called with each row of metrics.
+          tell: called with a line for each checkpoint that is damaged.
+          on_checkpoint: watches the network as it becomes.
+        """
+        self._run, self._config, self._report, self._tell = run, config, report, tell
+        self._on_checkpoint = on_checkpoint
+        self._num_interactions = suite.load_task(config.domain, config.task, config.task_kwargs).num_interactions
+        self._start_over()
+
+    def _start_over(self) -> None:
+        """Forgets all that has been recorded."""
+        self._frames = self._updates = self._num_episodes = 0
+        self._seconds = 0.0
+        self._started = self._checkpointed = time.monotonic()
+        self._row_started = 0.0  # Set by the first update: the workers take a while to start.
+        self._frames_at_row = 0
+        self._window: list[core.Update] = []  # Updates since the last row.
+        self._snapshot: dict | None = None  # The variables of a checkpoint that waits for updates before it.
+        self._later: list[core.Update] = []  # Updates after that checkpoint.
+        self._rows: list[pyarrow.Table] = []  # Episodes since the last checkpoint.
+
+    def resume(self, agent: core.Agent) -> None:
+        """Puts the agent and the records back to the last checkpoint that is whole, or to the start.
+
+        Raises:
+          ValueError: if none is whole, or it is of another task or does not fit; it names the file.
+        """
+        self._start_over()
+
+        def accept(tensors, facts):
+            self._check_facts(facts)
+            agent.restore(tensors)
+
+        most = checkpointing.num_bytes(agent.save().values())
+        found = self._run.checkpointer.latest(self._tell, accept, most)
+        if found is None:
+            self._run.rewind(-1)
+            return
+        tensors, facts = found
+        self._frames, self._updates = int(tensors["frames"]), int(tensors["updates"])
+        self._num_episodes, self._seconds = facts["episodes"], facts["seconds"]
+        self._frames_at_row = self._frames
+        self._run.rewind(self._frames)
+
+    def add(self, update: core.Update) -> None:
+        """Records an update, or keeps it until the checkpoint before it has been written."""
+        if self._snapshot is not None and update.metrics["updates"] > int(self._snapshot["updates"]):
+            self._later.append(update)
+            return
+        if not self._row_started:
+            self._row_started = time.monotonic()
+        self._window.append(update)
+        self._updates += 1
+        self._frames += update.episodes.num_frames
+        self._num_episodes += len(update.episodes.lengths)
+        if time.monotonic() - self._row_started > ROW_SECONDS:
+            self._write_row()
+        self._write_checkpoint_when_complete()
+
+    def checkpoint_is_due(self) -> bool:
+        """Returns whether it is time for a snapshot."""
+        waited = time.monotonic() - self._checkpointed
+        return self._snapshot is None and waited > self._config.agent.checkpoint_seconds
+
+    def snapshot(self, tensors: dict) -> None:
+        """Writes a checkpoint of these variables, as soon as the updates in it have been recorded, if there are any."""
+        if int(tensors["updates"]) == 0:
+            return
+        self._snapshot = tensors
+        self._write_checkpoint_when_complete()
+
+    def save_failure(self, error: core.AgentError) -> str:
+        """Saves the episodes that made the loss diverge; returns a phrase that says where."""
+        if error.batch is None:
+            return ""
+        path, content = self._run.path / "failed_batch.npz", io.BytesIO()
+        np.savez_compressed(content, **error.batch)
+        try:
+            files.write_atomically(path, content.getvalue())
+        except OSError as obstacle:
+            return f" (the batch could not be written to {path}: {obstacle.strerror})"
+        return f" (the batch is in {path})"
+
+    def _check_facts(self, facts: dict) -> None:
+        """Refuses the facts beside a checkpoint that is of another task, or no run's."""
+        task, episodes, seconds = (facts.get(name) for name in ("task", "episodes", "seconds"))
+        if task != self._config.task_name:
+            task = ascii(task)[:80] if not isinstance(task, str) else task[:80]
+            raise ValueError(
+                f"the checkpoint is of {task}, the run of {self._config.task_name}; put back the run's own"
+            )
+        if not isinstance(episodes, int) or isinstance(episodes, bool) or not 0 <= episodes < 2**63:
+            raise ValueError("the checkpoint's `episodes` is no count; put back the run's own")
+        if not isinstance(seconds, (int, float)) or isinstance(seconds, bool) or not 0 <= seconds < 2**63:
+            raise ValueError("the checkpoint's `seconds` is no duration; put back the run's own")
+
+    def _write_checkpoint_when_complete(self) -> None:
+        if self._snapshot is None or self._updates < int(self._snapshot["updates"]):
+            return
+        tensors, self._snapshot = self._snapshot, None
+        if self._window:
+            self._write_row()
+        self._run.check_lock()
+        if self._rows:
+            self._run.append_episodes(self._frames, pyarrow.concat_tables(self._rows).combine_chunks())
+            self._rows = []
+        if self._on_checkpoint is not None:
+            self._on_checkpoint(self._frames, learning.network_variables(tensors))
+        facts = {
+            "task": self._config.task_name,
+            "episodes": self._num_episodes,
+            "seconds": self._elapsed(),
+            "versions": provenance.versions(),
+        }
+        self._run.check_lock()  # Once more: who watches may take seconds.
+        self._run.checkpointer.save(tensors, facts)
+        self._checkpointed = time.monotonic()
+        later, self._later = self._later, []
+        for update in later:
+            self.add(update)
+
+    def _elapsed(self) -> float:
+        return self._seconds + time.monotonic() - self._started
+
+    def _write_row(self) -> None:
+        """Writes a row of metrics about the updates since the row before, and keeps the episodes of the last one."""
+        self._run.check_lock()
+        now = time.monotonic()
+        parts = [self._episodes_of(update) for update in self._window]
+        row = {
+            "frames": self._frames,
+            "updates": self._updates,
+            "episodes": self._num_episodes,
+            "seconds": self._elapsed(),
+            "frames_per_second": (self._frames - self._frames_at_row) / max(1e-3, now - self._row_started),
+            **self._summary(episodes_lib.Episodes.joined(parts)),
+        }
+        self._run.append_metrics(row)
+        self._rows.append(parts[-1].table(run_lib.EPISODES, frames=self._frames))
+        self._report(row)
+        self._window, self._row_started, self._frames_at_row = [], now, self._frames
+
+    def _summary(self, episodes: episodes_lib.Episodes) -> dict[str, float]:
+        """Returns means over the episodes and the updates since the row before."""
+        return {
+            "success_rate": float((episodes.reward > 0).mean()),
+            "episode_return": float(episodes.returns(self._config.agent.discount).mean()),
+            "interactions": float(episodes.interactions.mean()),
+            "timeouts": float(episodes.is_timeout.mean()),
+            **{
+                name: float(np.mean([update.metrics[name] for update in self._window]))
+                for name in self._config.agent.metrics
+            },
+        }
+
+    def _episodes_of(self, update: core.Update) -> episodes_lib.Episodes:
+        played = update.episodes
+        seeds = _environment_seeds(update.seed, len(played.lengths))
+        return episodes_lib.Episodes.of_round(played, self._num_interactions, seeds, update.episode)
+
+
+@functools.lru_cache(maxsize=256)  # A worker's batch of environments has one seed for all of its updates.
+def _environment_seeds(seed: int, size: int) -> np.ndarray:
+    """Returns the seeds of the environments of a batch, int64 [size]."""
+    return np.array([suite.environment_seed(seed, index) for index in range(size)])

@@ -1,0 +1,47 @@
+"""The weights in a run's folder: checkpoints while training goes on, the network alone once it is over."""
+
+from collections.abc import Mapping
+import os
+from pathlib import Path
+
+import torch
+
+from physexp.agents import checkpointing, learning
+
+
+class Weights:
+    """What a run has learned.
+
+    Attributes:
+      checkpointer: writes and reads checkpoints.
+    """
+
+    def __init__(self, folder: Path, agent_path: Path):
+        """Names the folder of a run, and the file in it for the network alone; writes nothing."""
+        self._folder, self._agent_path = folder, agent_path
+        self.checkpointer = checkpointing.Checkpointer(folder / "checkpoints")
+
+    def variables(self, like: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:
+        """Returns the network's variables by name; see `Run.variables`."""
+        if os.path.lexists(self._agent_path):  # A link to nowhere is refused as any other is.
+            return checkpointing.read_agent(self._agent_path, like)
+
+        def accept(tensors, facts):
+            try:
+                checkpointing.check(learning.network_variables(tensors), like)
+            except ValueError as error:
+                raise ValueError(f"the network {error}; put back the run's own, or remove it") from None
+
+        most = 4 * checkpointing.num_bytes(like.values())  # Adam keeps two statistics of each.
+        return self._network(self.checkpointer.latest(accept=accept, most=most))
+
+    def keep_network(self) -> None:
+        """Writes the network of the last checkpoint, in half precision, unless that has been done; see `Run`."""
+        if not self._agent_path.exists():
+            checkpointing.write_agent(self._agent_path, self._network(self.checkpointer.latest()))
+
+    def _network(self, checkpoint) -> dict[str, torch.Tensor]:
+        if checkpoint is None:
+            raise ValueError(f"{self._folder} holds no checkpoint yet; let the training write one")
+        tensors, _ = checkpoint
+        return learning.network_variables(tensors)

@@ -1,0 +1,94 @@
+"""Nothing tells of the hidden property before an interaction, and analysis may choose it: of every task."""
+
+from every_task import NAMES, every_task, load, load_batch
+import numpy as np
+import pytest
+
+from physexp import suite
+
+
+def _drawn(task, seed, count):
+    """Hidden properties of some episodes."""
+    return task.draw(np.full(count, seed), np.arange(count))
+
+
+@every_task
+def test_the_first_observation_is_the_same_whatever_is_hidden(seed, name):
+    """Every reset of a batch in which all answers occur, and after episodes that were played."""
+    rng = np.random.default_rng(seed)
+    size = 32
+    batch = load_batch(name, size, random=seed)
+    firsts, answers = set(), set()
+    for _ in range(3):
+        observation = batch.reset().observation
+        firsts |= {tuple(value[i].tobytes() for value in observation.values()) for i in range(size)}
+        answers |= set(batch.correct_answers.tolist())
+        for _ in range(2):
+            batch.step(rng.integers(batch.task.num_interactions, size=size))
+    assert len(firsts) == 1
+    assert len(answers) > batch.task.num_labels / 2
+    batch.close()
+
+
+@every_task
+def test_an_interaction_tells_something_of_what_is_hidden(seed, name):
+    """Otherwise it would be no experiment: in some environments, random interactions look different."""
+    rng = np.random.default_rng(seed)
+    batch = load_batch(name, 32, random=seed)
+    batch.reset()
+    looks = set()
+    for action in rng.integers(batch.task.num_interactions, size=12):
+        observation = batch.step(np.full(32, action)).observation
+        looks = {tuple(value[i].tobytes() for value in observation.values()) for i in range(32)}
+        if len(looks) > 1:
+            break
+    assert len(looks) > 1
+    batch.close()
+
+
+@every_task
+def test_an_episode_may_be_started_with_a_given_hidden_property(seed, name):
+    batch, single = load_batch(name, 4, random=seed), load(name, random=seed)
+    hidden = _drawn(batch.task, seed + 1, 4)
+    batch.reset(hidden=hidden)
+    np.testing.assert_array_equal(batch.hidden, hidden)
+    np.testing.assert_array_equal(batch.correct_answers, batch.task.answers(hidden))
+    actions = np.random.default_rng(seed).integers(batch.task.num_interactions, size=(5, 4))
+    steps = [batch.step(taken) for taken in actions]
+    for i in range(4):
+        single.reset(hidden=hidden[i])
+        assert single.task.correct_answer == batch.task.answers(hidden)[i]
+        for taken, step in zip(actions, steps, strict=True):
+            observation = single.step(int(taken[i])).observation
+            for key, value in observation.items():
+                assert value.tobytes() == step.observation[key][i].tobytes()
+    single.reset()  # The next episode is drawn again.
+    np.testing.assert_array_equal(single.task.hidden, single.task.draw(np.array([seed]), np.array([4]))[0])
+    batch.close(), single.close()
+
+
+@pytest.mark.parametrize("hidden", [[], np.zeros((7, 9)), None])
+def test_a_hidden_property_of_another_shape_is_refused(hidden):
+    batch = suite.load_batch("which_is_heavier", "features", 2, {"random": 0})
+    if hidden is None:
+        assert batch.reset(hidden=None).first().all()
+        return
+    with pytest.raises(ValueError, match=r"give an array of shape \(2, 4\)"):
+        batch.reset(hidden=hidden)
+
+
+@every_task
+def test_what_a_replay_reveals_names_things_of_the_scene(seed, name):
+    task = load(name, random=seed).task
+    things = {interaction.thing for interaction in task.interactions}
+    for hidden in _drawn(task, seed, 20):
+        revealed = task.reveal(hidden)
+        assert set(revealed.marks) | {thing for pair in revealed.joined for thing in pair} <= things | {
+            f"block_{k}" for k in range(5)
+        }
+    revealed = [task.reveal(hidden) for hidden in _drawn(task, seed, 50)]
+    assert any(one != revealed[0] for one in revealed), "it reveals nothing"
+
+
+def test_every_registered_task_is_among_them():
+    assert {"/".join(names) for names in suite.ALL_TASKS} < set(NAMES)
