@@ -9,8 +9,6 @@ from physexp import suite
 from physexp.agents import acting, core, environment_loop
 from physexp.analysis import domains, terminal
 from physexp.analysis.evaluation import playing
-from physexp.analysis.ideal import playing as ideal_playing
-from physexp.analysis.ideal import towers, which_is_heavier
 from physexp.analysis.training import config as config_lib
 
 _QUIT, _HELP = "q", "?"
@@ -68,7 +66,7 @@ def play(
     observers = _viewers(environment, domain, task, kwargs) if view else []
     rules = _rules(environment)
     show(rules)
-    others, discount = _others(environment, domain, task, kwargs, show)
+    others, discount = _others(domain, task, kwargs, show)
     scores = {"you": Score(), **{name: Score() for name in others}}
     while True:
         outcome = _play_episode(environment, rules, observers, read, show)
@@ -90,9 +88,7 @@ def _viewers(environment: suite.Environment, domain, task, kwargs) -> list[envir
     return [recorder, live.Live(recorder, viewing.Viewer())]
 
 
-def _others(
-    environment: suite.Environment, domain: str, task: str, kwargs: dict[str, Any], show
-) -> tuple[dict[str, core.Actor], float]:
+def _others(domain: str, task: str, kwargs: dict[str, Any], show) -> tuple[dict[str, core.Actor], float]:
     """Returns the players to compare with, and the discount that the trained one knows."""
     others: dict[str, core.Actor] = {}
     discount = domains.find(domain).discount
@@ -104,20 +100,19 @@ def _others(
     else:
         discount = config.agent.discount
         others["trained agent"] = acting.RecurrentActor(network)
-    ideal = _ideal(environment, domain, task, kwargs, discount)
+    ideal = _ideal(domain, task, kwargs, discount)
     if ideal is not None:
         others["ideal experimenter"] = ideal
     return others, discount
 
 
-def _ideal(environment: suite.Environment, domain: str, task: str, kwargs, discount: float) -> core.Actor | None:
+def _ideal(domain: str, task: str, kwargs: dict[str, Any], discount: float) -> core.Actor | None:
     """Returns the ideal experimenter; None where there is none that can play."""
-    if domain == "towers" and not kwargs:  # What it expects to see is of the default control step.
-        return towers.IdealExperimenter(towers.solve(task, 0.0, discount))
-    if domain == "which_is_heavier" and task == "features":
-        solution = which_is_heavier.solve(environment.task.options.difficulty, discount)
-        return ideal_playing.IdealExperimenter(solution, kwargs)
-    return None
+    find = domains.find(domain).ideal
+    try:
+        return None if find is None else find(task, kwargs, discount).actor()
+    except ValueError:
+        return None
 
 
 def _rules(environment: suite.Environment) -> str:

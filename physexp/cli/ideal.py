@@ -1,60 +1,62 @@
 """The command that prints what an ideal experimenter achieves."""
 
+from collections.abc import Sequence
 import dataclasses
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Generic, Literal
 
 import tyro
-from tyro.conf import Positional
+from tyro.conf import OmitArgPrefixes, Positional
 
+from physexp.analysis import domains
+from physexp.cli import options as options_lib
 from physexp.cli import printing
-from physexp.cli.arguments import OptionalFloat, OptionalInt, OptionalTask, Switch
+from physexp.cli.arguments import OptionalFloat, Switch
+
+_IDEALS = {name: domain.ideal for name, domain in domains.DOMAINS.items() if domain.ideal is not None}
+
+
+def _domains_of(words: Sequence[str]) -> list[str]:
+    """Returns the domain that is named, or else all of which an ideal experimenter is known."""
+    return [word for word in words[:1] if word in _IDEALS] or list(_IDEALS)
+
+
+def _options_of(domain_name: str) -> type:
+    return _IDEALS[domain_name].options
 
 
 @dataclasses.dataclass
-class Ideal:
+class Ideal(Generic[options_lib.Options]):
     """Print what the ideal experimenter achieves: no agent's expected return is larger.
 
     Attributes:
-      domain: which_is_heavier (one poke reveals a mass exactly) or towers (physics is known).
-      difficulty: of which_is_heavier: the paper's beta, a number >= 1, the larger the easier; by default 5.
-      blocks: of which_is_heavier: how many blocks; by default 4.
-      task: of towers: the task; by default fist_features.
-      resolution: of towers: the smallest difference that can be observed: in metres for features, in differing pixels
-        for images; by default 0, where every bit counts.
-      discount: the agent's gamma; by default 0.95 for which_is_heavier, 0.98 for towers.
+      options: what can be chosen of it.
+      discount: the agent's gamma; by default the domain's.
       json: print JSON.
     """
 
-    domain: Annotated[Positional[Literal["which_is_heavier", "towers"]], tyro.conf.arg(metavar="DOMAIN")]
-    difficulty: OptionalFloat = None
-    blocks: OptionalInt = None
-    task: OptionalTask = None
-    resolution: OptionalFloat = None
+    domains_of: ClassVar = staticmethod(_domains_of)
+    options_of: ClassVar = staticmethod(_options_of)
+
+    domain: Annotated[
+        Positional[Literal[tuple(_IDEALS)]],  # type: ignore[valid-type]
+        tyro.conf.arg(metavar="DOMAIN", help=f"{' or '.join(_IDEALS)}; --help after it lists its options."),
+    ]
+    options: OmitArgPrefixes[options_lib.Options]
     discount: OptionalFloat = None
     json: Switch = False
 
     def run(self) -> None:
-        if self.domain == "which_is_heavier":
-            from physexp.analysis.ideal import which_is_heavier
+        from physexp import suite
 
-            _refuse(f"ideal {self.domain}", task=self.task, resolution=self.resolution)
-            options = _given(difficulty=self.difficulty, num_blocks=self.blocks, discount=self.discount)
-            summary = which_is_heavier.solve(**options).summary()
-        else:
-            from physexp.analysis.ideal import towers
-
-            _refuse(f"ideal {self.domain}", difficulty=self.difficulty, blocks=self.blocks)
-            options = _given(task=self.task, resolution=self.resolution, discount=self.discount)
-            summary = towers.solve(**options).summary()
-        printing.show(summary, self.json)
-
-
-def _refuse(owner: str, **options: Any) -> None:
-    """Refuses options that were given and that something does not have."""
-    for name in _given(**options):
-        raise ValueError(f"--{name.replace('_', '-')} is not an option of {owner}; leave it out")
-
-
-def _given(**options: Any) -> dict[str, Any]:
-    """The options that were given: the others are None."""
-    return {name: value for name, value in options.items() if value is not None}
+        ideal = _IDEALS[self.domain]
+        defaults = {field.name: field.default for field in dataclasses.fields(ideal.options)}
+        settings: dict[str, Any] = {**defaults, **options_lib.chosen(self.options)}
+        settings = {name: value for name, value in settings.items() if value is not None}
+        tasks = suite.TASKS_BY_DOMAIN[self.domain]
+        task = settings.pop("task", tasks[0])
+        if task not in tasks:
+            raise ValueError(f"task is {task!r}; choose from {', '.join(tasks)}")
+        of_task = {field.name for field in dataclasses.fields(suite.options(self.domain))} & set(settings)
+        task_kwargs = {name: settings.pop(name) for name in sorted(of_task)}
+        discount = domains.find(self.domain).discount if self.discount is None else self.discount
+        printing.show(ideal(task, task_kwargs, discount, **settings).summary(), self.json)

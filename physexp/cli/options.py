@@ -3,11 +3,11 @@
 The domain, and with it the suite, is imported only where the arguments name one.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 import dataclasses
 import inspect
 import re
-from typing import Annotated, Any, TypeVar, get_type_hints
+from typing import Annotated, Any, TypeVar, get_args, get_type_hints
 
 import tyro
 
@@ -44,52 +44,65 @@ def of_agent(words: Sequence[str]) -> list[str]:
     return [domain] if domain in suite.TASKS_BY_DOMAIN else list(suite.TASKS_BY_DOMAIN)
 
 
-def offered(domain_names: Sequence[str]) -> dict[str, dataclasses.Field]:
-    """Returns the options that the command line has of some domains, by name: the field in the first that has it.
+def of_task(domain_name: str) -> type:
+    """Returns the class of a domain's options.
 
     Raises:
       ValueError: for an unknown domain; it lists those that there are.
     """
-    if not domain_names:
-        return {}
     from physexp import suite
 
+    return suite.options(domain_name)
+
+
+def offered(domain_names: Sequence[str], options_of: Callable[[str], type] = of_task) -> dict[str, dataclasses.Field]:
+    """Returns the options that the command line has of some domains, by name: the field in the first that has it.
+
+    Args:
+      domain_names: the domains.
+      options_of: returns the dataclass of a domain's options.
+
+    Raises:
+      ValueError: for an unknown domain; it lists those that there are.
+    """
     found: dict[str, dataclasses.Field] = {}
     for domain_name in domain_names:
-        for field in dataclasses.fields(suite.options(domain_name)):
+        for field in dataclasses.fields(options_of(domain_name)):
             if field.name not in _NOT_OFFERED:
                 found.setdefault(field.name, field)
     return found
 
 
-def make(domain_names: Sequence[str], default: str | None = None) -> type:
+def make(domain_names: Sequence[str], default: str | None = None, options_of: Callable[[str], type] = of_task) -> type:
     """Returns a dataclass of the options of some domains, each None until it is chosen.
 
     Args:
       domain_names: the domains.
       default: what holds where nothing is chosen, in words; None for the domain's own.
+      options_of: as for `offered`.
 
     Raises:
       ValueError: as `offered`.
     """
-    names = offered(domain_names)
+    names = offered(domain_names, options_of)
     if not names:
         return NoOptions
-    from physexp import suite
-
     kinds: dict[str, Any] = {}
     texts: dict[str, str] = {}
     for domain_name in domain_names:
-        options = suite.options(domain_name)
+        options = options_of(domain_name)
         kinds |= get_type_hints(options)
         texts |= _descriptions(options)
     fields = []
     for name, field in names.items():
         shown = config_lib.shown(field.default) if default is None else default
+        (kind,) = set(get_args(kinds[name]) or (kinds[name],)) - {type(None)}
         argument = tyro.conf.arg(
-            metavar=_METAVARS.get(kinds[name]), help=texts.get(name, ""), help_behavior_hint=f"(default: {shown})"
+            metavar=_METAVARS.get(kind),
+            help=texts.get(name, ""),
+            help_behavior_hint="" if default is None and field.default is None else f"(default: {shown})",
         )
-        fields.append((name, Annotated[kinds[name] | None, argument], dataclasses.field(default=None)))
+        fields.append((name, Annotated[kind | None, argument], dataclasses.field(default=None)))
     return dataclasses.make_dataclass("DomainOptions", fields)
 
 

@@ -10,10 +10,14 @@ from trainers import fresh_seed
 
 from physexp import suite
 from physexp.agents import environment_loop
-from physexp.analysis.ideal import towers, trajectories
+from physexp.analysis import domains
+from physexp.analysis.domains import towers
+from physexp.analysis.ideal import branch_and_bound, search, trajectories
+from physexp.suite.domains.towers import PRIOR
+from physexp.suite.engine import declarations
 from physexp.suite.parts import tower
 
-PATTERNS = trajectories.NUM_PATTERNS
+PATTERNS = len(tower.PATTERNS)
 COUNTS = [tower.num_bodies(pattern) for pattern in tower.PATTERNS]
 
 
@@ -25,7 +29,8 @@ class MadeWorld:
 
     def __init__(self, num_actions, tells):
         rules = types.SimpleNamespace(step_limit=26)
-        self.task = types.SimpleNamespace(num_interactions=num_actions, control_timestep=0.1, rules=rules)
+        self.task = types.SimpleNamespace(num_interactions=num_actions, num_labels=5, control_timestep=0.1, rules=rules)
+        self.hidden, self.prior, self.answers = np.arange(PATTERNS), PRIOR, np.array(COUNTS) - 1
         self.steps, self._tells, self._expanded = 0, tells, {()}
         self._num_actions = num_actions
 
@@ -50,24 +55,24 @@ class MadeWorld:
 
 
 def solve(world, objective="return", discount=0.9, resolution=0.5):
-    return towers.solve("fist_features", resolution, discount, objective, trajectories=world)
+    return search.solve(world, resolution, discount, objective)
 
 
 def test_counts_are_uniform_and_patterns_uniform_given_the_count():
-    np.testing.assert_allclose(np.bincount(COUNTS, towers._PRIOR)[1:], 0.2)
-    assert len({round(weight, 12) for weight, count in zip(towers._PRIOR, COUNTS, strict=True) if count == 3}) == 1
+    np.testing.assert_allclose(np.bincount(COUNTS, PRIOR)[1:], 0.2)
+    assert len({round(weight, 12) for weight, count in zip(PRIOR, COUNTS, strict=True) if count == 3}) == 1
 
 
 def test_patterns_are_linked_through_others():
     apart = np.abs(np.arange(PATTERNS)[:, None] - np.arange(PATTERNS)).astype(float)
-    assert [group for _, group in towers.split((0, 1, 2, 5, 6), apart, 1.0)] == [(0, 1, 2), (5, 6)]
-    assert [group for _, group in towers.split((0, 2, 4), apart, 1.0)] == [
+    assert [group for _, group in branch_and_bound.split((0, 1, 2, 5, 6), apart, 1.0, PRIOR)] == [(0, 1, 2), (5, 6)]
+    assert [group for _, group in branch_and_bound.split((0, 2, 4), apart, 1.0, PRIOR)] == [
         (0,),
         (2,),
         (4,),
     ]  # 1 and 3 are known not to be.
-    chances = [chance for chance, _ in towers.split(tuple(range(PATTERNS)), apart, 0.0)]
-    np.testing.assert_allclose(chances, towers._PRIOR)
+    chances = [chance for chance, _ in branch_and_bound.split(tuple(range(PATTERNS)), apart, 0.0, PRIOR)]
+    np.testing.assert_allclose(chances, PRIOR)
 
 
 def test_an_action_that_tells_the_count_is_taken_once():
@@ -113,7 +118,7 @@ def test_a_guess_is_made_when_asking_on_costs_more():
 
     asking = solve(MadeWorld(2, useful))
     assert asking.value == pytest.approx(0.9 * (3 / 5 + 2 / 5 * 0.9))
-    guessing = towers.solve("fist_features", 0.5, 0.9, max_depth=3, trajectories=MadeWorld(2, useless))
+    guessing = search.solve(MadeWorld(2, useless), 0.5, 0.9, max_depth=3)
     assert guessing.value == pytest.approx(0.9 * 0.6)
     assert guessing.summary()["accuracy"] == pytest.approx(0.8)
     # Nobody has looked further than three actions, so more might be possible, and that is said.
@@ -121,16 +126,14 @@ def test_a_guess_is_made_when_asking_on_costs_more():
 
 
 def test_without_any_use_of_acting_the_answer_is_a_guess_at_once():
-    solution = towers.solve(
-        "fist_features", 0.5, 0.9, max_depth=2, trajectories=MadeWorld(2, lambda sequence: [0] * PATTERNS)
-    )
+    solution = search.solve(MadeWorld(2, lambda sequence: [0] * PATTERNS), 0.5, 0.9, max_depth=2)
     # Right in one case of five: 2/5 - 1. Acting only discounts it, which for a loss is better: 0.9^2 * (-0.6) = -0.486.
     assert solution.value == pytest.approx(0.9**2 * -0.6)
 
 
 @pytest.fixture(scope="module", params=["direct_features", "fist_features"])
 def world(request):
-    return request.param, trajectories.Trajectories(request.param)
+    return request.param, towers.trajectories(request.param)
 
 
 def test_who_sees_every_bit_knows_the_count_with_the_first_touch(world):
@@ -138,7 +141,7 @@ def test_who_sees_every_bit_knows_the_count_with_the_first_touch(world):
     # Pushes touch at once; the fist needs two steps of 0.1 m to cross the 0.17 m to the tower.
     needed = {"direct_features": 1, "fist_features": 2}[task]
     for objective, value in (("return", 0.98**needed), ("time", needed)):
-        solution = towers.solve(task, 0.0, 0.98, objective, trajectories=cache)
+        solution = search.solve(cache, 0.0, 0.98, objective)
         assert solution.value == pytest.approx(value) and solution.bound == pytest.approx(value)
 
 
@@ -146,7 +149,7 @@ def test_a_coarser_eye_never_sees_more(world):
     task, cache = world
     values = []
     for resolution in (0.0, 0.001, 0.003):
-        solution = towers.solve(task, resolution, 0.98, trajectories=cache)
+        solution = search.solve(cache, resolution, 0.98)
         assert solution.bound == pytest.approx(solution.value)
         values.append(solution.value)
     assert values == sorted(values, reverse=True)
@@ -154,10 +157,10 @@ def test_a_coarser_eye_never_sees_more(world):
 
 def test_in_the_real_environment_it_is_always_right_and_takes_as_long_as_predicted(world):
     task, cache = world
-    solution = towers.solve(task, 0.003, 0.98, trajectories=cache)
+    solution = search.solve(cache, 0.003, 0.98)
     seed = fresh_seed()
     environment = suite.load("towers", task, task_kwargs={"random": seed})
-    loop = environment_loop.EnvironmentLoop(environment, towers.IdealExperimenter(solution))
+    loop = environment_loop.EnvironmentLoop(environment, solution.actor())
     outcomes = solution.outcomes()
     for _ in range(25):
         episode = loop.run_episode()
@@ -167,7 +170,7 @@ def test_in_the_real_environment_it_is_always_right_and_takes_as_long_as_predict
 
 
 def test_the_towers_look_alike_until_they_are_touched():
-    cache = trajectories.Trajectories("fist_features")
+    cache = towers.trajectories("fist_features")
     cache.expand([(), (1,)])  # Action 1 moves the fist away.
     assert not cache.apart((1, 1)).any()
     # Four sequences of one action and four of two, replayed from the start, for 16 patterns each.
@@ -179,53 +182,82 @@ def test_distances_are_the_largest_of_positions_or_the_number_of_pixels():
     positions[1, 2] = [0.03, 0.04, 0]
     fist = np.zeros((2, 3))
     fist[1] = [0, 0, 0.01]
-    np.testing.assert_allclose(
-        trajectories.distances({"positions": positions, "fist_position": fist}), [[0, 0.05], [0.05, 0]]
-    )
+    readings = {
+        "positions": declarations.Reading([], (5, 3), components=("x", "y", "z")),
+        "fist_position": declarations.Reading([], (3,), components=("x", "y", "z")),
+        "angles": declarations.Reading([], (3,), unit="rad"),
+    }
+    seen = {"positions": positions, "fist_position": fist}
+    np.testing.assert_allclose(trajectories.distances(seen, readings), [[0, 0.05], [0.05, 0]])
+    np.testing.assert_allclose(trajectories.distances({"angles": fist * [3, 3, 3]}, readings), [[0, 0.03], [0.03, 0]])
     pixels = np.zeros((2, 84, 84, 3), np.uint8)
     pixels[1, 3, 4] = 7
     pixels[1, 9, 9, 2] = 1
-    np.testing.assert_array_equal(trajectories.distances({"pixels": pixels}), [[0, 2], [2, 0]])
+    np.testing.assert_array_equal(trajectories.distances({"pixels": pixels}, readings), [[0, 2], [2, 0]])
 
 
 def test_from_pixels_the_first_touch_tells_as_well():
-    solution = towers.solve("direct_pixels", 0.0, 0.98)
+    solution = domains.find("towers").ideal("direct_pixels", {}, 0.98)
     assert solution.value == pytest.approx(solution.bound)
     seed = fresh_seed()
     environment = suite.load("towers", "direct_pixels", task_kwargs={"random": seed})
-    episodes = environment_loop.EnvironmentLoop(environment, towers.IdealExperimenter(solution)).run(10)
+    episodes = environment_loop.EnvironmentLoop(environment, solution.actor()).run(10)
     assert all(episode["episode_return"] == 1 for episode in episodes)
 
 
 def test_the_summary_can_be_written_as_json_even_where_the_count_cannot_be_known():
     summary = solve(MadeWorld(1, lambda sequence: COUNTS)).summary()
     assert json.loads(json.dumps(summary))["mean_seconds"] == pytest.approx(0.1)
-    blind = towers.solve(
-        "fist_features", 0.5, objective="time", max_depth=2, trajectories=MadeWorld(1, lambda sequence: [0] * PATTERNS)
-    )
+    blind = search.solve(MadeWorld(1, lambda sequence: [0] * PATTERNS), 0.5, 0.98, "time", max_depth=2)
     assert json.loads(json.dumps(blind.summary(), allow_nan=False))["value"] is None
 
 
 def test_an_answer_must_come_within_the_time_limit():
     # Two actions are allowed and the fist needs two to touch: only one is left for it, then a guess. It is right in one
     # case of five, -0.6; acting before it discounts the loss.
-    solution = towers.solve("fist_features", 0.0, 0.98, task_kwargs={"time_limit": 0.2})
+    solution = domains.find("towers").ideal("fist_features", {"time_limit": 0.2}, 0.98)
     assert solution.value == pytest.approx(0.98 * -0.6) and solution.bound == pytest.approx(solution.value)
     environment = suite.load("towers", "fist_features", task_kwargs={"random": fresh_seed(), "time_limit": 0.2})
-    episodes = environment_loop.EnvironmentLoop(environment, towers.IdealExperimenter(solution)).run(5)
+    episodes = environment_loop.EnvironmentLoop(environment, solution.actor()).run(5)
     assert all(episode["episode_length"] == 2 for episode in episodes)
 
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("features",), "task is 'features'; choose from direct_features"),
-        (("fist_features", -1.0), "resolution is -1.0; give a finite number >= 0"),
-        (("fist_features", math.inf), "resolution is inf; give a finite number >= 0"),
-        (("fist_features", 0.0, 0.0), "discount is 0.0; give a number in"),
-        (("fist_features", 0.0, 0.9, "fame"), "objective is 'fame'; choose from return, time"),
+        ((-1.0, 0.9), "resolution is -1.0; give a finite number >= 0"),
+        ((math.inf, 0.9), "resolution is inf; give a finite number >= 0"),
+        ((0.0, 0.0), "discount is 0.0; give a number in"),
+        ((0.0, 0.9, "fame"), "objective is 'fame'; choose from return, time"),
     ],
 )
 def test_what_makes_no_sense_is_refused(arguments, message):
     with pytest.raises(ValueError, match=message):
-        towers.solve(*arguments)
+        search.solve(MadeWorld(1, lambda sequence: COUNTS), *arguments)
+
+
+def test_a_task_that_there_is_not_is_refused_with_those_that_there_are():
+    with pytest.raises(ValueError, match="task_name is 'features'; tasks of towers: direct_features"):
+        domains.find("towers").ideal("features", {}, 0.98)
+
+
+def test_what_can_be_believed_of_a_recorded_episode_is_what_its_observations_leave_possible(world):
+    task, cache = world
+    touch = {"direct_features": [0], "fist_features": [0, 0]}[task]
+    num_interactions = cache.task.num_interactions
+    solution = search.solve(cache, 0.0, 0.98)
+    for pattern in range(PATTERNS):
+        actions = np.array([*touch, num_interactions + 2])
+        found = solution.beliefs(types.SimpleNamespace(hidden=np.array(pattern), actions=actions))
+        before = np.full((len(touch), 5), 0.2)  # Nothing is known before the touch, and all after it.
+        known = np.eye(5)[COUNTS[pattern] - 1]
+        np.testing.assert_allclose(found, [*before, known, known], atol=1e-12)
+    # An observer to whom nothing looks different never learns.
+    blind = search.solve(cache, 10.0, 0.98).beliefs(types.SimpleNamespace(hidden=np.array(3), actions=actions))
+    np.testing.assert_allclose(blind, 0.2)
+
+
+def test_an_episode_with_something_else_hidden_is_refused():
+    solution = search.solve(MadeWorld(1, lambda sequence: COUNTS), 0.5, 0.98)
+    with pytest.raises(ValueError, match="hidden is 16, which is none of the hypotheses"):
+        solution.beliefs(types.SimpleNamespace(hidden=16, actions=np.zeros(0, int)))

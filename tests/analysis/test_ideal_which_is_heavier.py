@@ -1,6 +1,7 @@
 """The ideal experimenter of Which is Heavier, against hand calculation, brute force and the real environment."""
 
 import math
+import types
 
 import numpy as np
 import pytest
@@ -9,9 +10,18 @@ from trainers import fresh_seed
 
 from physexp import suite
 from physexp.agents import environment_loop
-from physexp.analysis.ideal import playing, regret
-from physexp.analysis.ideal import which_is_heavier as ideal
+from physexp.analysis import domains
+from physexp.analysis.ideal import calibration, odd_one_out, regret
 from physexp.suite.domains import which_is_heavier
+from physexp.suite.engine import priors
+
+
+def posterior(masses, difficulty):
+    return odd_one_out.posterior(masses, priors.OddOneOut(masses.shape[1], difficulty))
+
+
+def solve(difficulty, discount, blocks=4):
+    return odd_one_out.solve(priors.OddOneOut(blocks, difficulty), discount)
 
 
 def draw(generator, count, difficulty, blocks=4):
@@ -23,32 +33,32 @@ def draw(generator, count, difficulty, blocks=4):
 
 
 def test_before_any_poke_all_blocks_are_equally_likely():
-    np.testing.assert_allclose(ideal.posterior(np.full((1, 4), np.nan), 3.0), np.full((1, 4), 0.25))
+    np.testing.assert_allclose(posterior(np.full((1, 4), np.nan), 3.0), np.full((1, 4), 0.25))
 
 
 def test_with_all_blocks_known_the_heaviest_is_it():
     masses = np.array([[0.2, 0.9, 0.91, 0.1]])
-    np.testing.assert_array_equal(ideal.posterior(masses, 3.0), [[0, 0, 1, 0]])
+    np.testing.assert_array_equal(posterior(masses, 3.0), [[0, 0, 1, 0]])
 
 
 def test_two_uniform_blocks_are_judged_by_the_known_one_alone():
     # Difficulty 1 makes every mass uniform: the other block is lighter than 0.7 with probability 0.7.
-    np.testing.assert_allclose(ideal.posterior(np.array([[0.7, np.nan]]), 1.0), [[0.7, 0.3]])
+    np.testing.assert_allclose(posterior(np.array([[0.7, np.nan]]), 1.0), [[0.7, 0.3]])
 
 
 def test_a_block_never_poked_can_be_the_best_answer():
     # Two blocks, difficulty 2, mass 0.3 seen: ratio r = 0.3 / 0.7 = 3/7, so it is the heavy one with probability
     # (3/7) / (3/7 + 1) = 0.3, and heaviest with 0.3 * (1 - 0.7^2) + 0.7 * 0.3^2 = 0.153 + 0.063 = 0.216.
-    posterior = ideal.posterior(np.array([[0.3, np.nan]]), 2.0)
-    np.testing.assert_allclose(posterior, [[0.216, 0.784]])
-    answer, poke = ideal.solve(2.0, 0.5, 2).values(np.array([[0.3, np.nan]]))
+    found = posterior(np.array([[0.3, np.nan]]), 2.0)
+    np.testing.assert_allclose(found, [[0.216, 0.784]])
+    answer, poke = solve(2.0, 0.5, 2).values(np.array([[0.3, np.nan]]))
     assert answer[0] == pytest.approx(2 * 0.784 - 1)
     assert poke[0] == pytest.approx(0.5)  # Nothing is left to find out after it.
-    assert ideal.solve(2.0, 0.5, 2).actions(np.array([[0.3, np.nan]])) == [2 + 1]
+    assert solve(2.0, 0.5, 2).actions(np.array([[0.3, np.nan]])) == [2 + 1]
 
 
 def test_the_posterior_depends_on_every_mass_seen():
-    lone, pair = (ideal.posterior(np.array([[0.5, other, np.nan, np.nan]]), 3.0)[0, 0] for other in (0.1, 0.45))
+    lone, pair = (posterior(np.array([[0.5, other, np.nan, np.nan]]), 3.0)[0, 0] for other in (0.1, 0.45))
     assert abs(lone - pair) > 0.01
 
 
@@ -58,7 +68,7 @@ def test_the_posterior_is_what_is_found_among_many_drawn_masses(difficulty):
     masses, _ = draw(generator, 400_000, difficulty)
     known = masses.copy()
     known[:, 2:] = np.nan
-    likely = ideal.posterior(known, difficulty)
+    likely = posterior(known, difficulty)
     np.testing.assert_allclose(likely.sum(axis=1), 1)
     truth = np.eye(4)[masses.argmax(axis=1)]
     for block in range(4):  # Where it is said to be likely with about p, it is the heaviest in a share p.
@@ -73,7 +83,7 @@ def test_the_value_for_two_uniform_blocks_is_the_integral_done_by_hand():
     # After one poke of mass m the best answer is right with probability max(m, 1 - m); poking on is worth g = 0.8.
     # So the value is 0.8 * integral of max(2 max(m, 1 - m) - 1, 0.8) = 0.8 * 2 * (0.4 * 0.8 + integral of 2m - 1 from
     # 0.9 to 1) = 1.6 * (0.32 + 0.09) = 0.656.
-    assert ideal.solve(1.0, 0.8, 2).value == pytest.approx(0.656, abs=1e-4)
+    assert solve(1.0, 0.8, 2).value == pytest.approx(0.656, abs=1e-4)
 
 
 def test_the_value_for_two_blocks_is_the_integral_done_numerically():
@@ -87,53 +97,53 @@ def test_the_value_for_two_blocks_is_the_integral_done_numerically():
         return density * max(2 * max(right, 1 - right) - 1, discount)
 
     expected = discount * integrate.quad(gain, 0, 1, limit=400)[0]
-    assert ideal.solve(difficulty, discount, 2).value == pytest.approx(expected, abs=1e-4)
+    assert solve(difficulty, discount, 2).value == pytest.approx(expected, abs=1e-4)
 
 
 def test_without_a_cost_of_information_all_is_found_out():
-    solution = ideal.solve(3.0, 1.0)
+    solution = solve(3.0, 1.0)
     assert solution.value == pytest.approx(1.0, abs=1e-6)
     assert solution.summary()["accuracy"] > 0.9999
 
 
 def test_when_information_costs_nearly_everything_nothing_is_worth_much():
     # A guess is worth 2/4 - 1 = -0.5, poking once at most 0.1.
-    solution = ideal.solve(5.0, 0.1)
+    solution = solve(5.0, 0.1)
     assert 0 < solution.value < 0.1
 
 
 def test_with_ever_easier_questions_one_heavy_block_is_looked_for():
     # It is found first, second, or else (known without poking the fourth) after three pokes: 1/4, 1/4, 1/2.
-    histogram = ideal.solve(200.0, 0.95).summary()["histogram"]
+    histogram = solve(200.0, 0.95).summary()["histogram"]
     assert [histogram[pokes] for pokes in range(5)] == pytest.approx([0, 0.25, 0.25, 0.5, 0], abs=2e-3)
     # 0.95 / 4 + 0.95^2 / 4 + 0.95^3 / 2
-    assert ideal.solve(200.0, 0.95).value == pytest.approx(0.8918125, abs=1e-3)
+    assert solve(200.0, 0.95).value == pytest.approx(0.8918125, abs=1e-3)
 
 
 @pytest.mark.parametrize(("difficulty", "discount", "blocks"), [(3.0, 0.95, 4), (5.0, 0.99, 4), (10.0, 0.9, 6)])
 def test_what_simulated_episodes_earn_is_the_value(difficulty, discount, blocks):
     generator = np.random.default_rng(fresh_seed())
     masses, _ = draw(generator, 200_000, difficulty, blocks)
-    solution = ideal.solve(difficulty, discount, blocks)
+    solution = solve(difficulty, discount, blocks)
     pokes, right = solution.play(masses)
     returns = discount**pokes * np.where(right, 1, -1)
     assert abs(returns.mean() - solution.value) < 4.5 * returns.std() / math.sqrt(len(returns)) + 1e-4
 
 
 def test_a_finer_grid_changes_little(monkeypatch):
-    coarse = ideal.solve(3.0, 0.95).value
-    ideal.solve.cache_clear()
-    monkeypatch.setattr(ideal, "_HEAVIEST_NODES", 800)
-    monkeypatch.setattr(ideal, "_RATIO_NODES", 65)
-    monkeypatch.setattr(ideal, "_QUADRATURE_NODES", 96)
-    assert abs(ideal.solve(3.0, 0.95).value - coarse) < 1e-4
-    ideal.solve.cache_clear()
+    coarse = solve(3.0, 0.95).value
+    odd_one_out._go_back.cache_clear()
+    monkeypatch.setattr(odd_one_out, "_LARGEST_NODES", 800)
+    monkeypatch.setattr(odd_one_out, "_RATIO_NODES", 65)
+    monkeypatch.setattr(odd_one_out, "_QUADRATURE_NODES", 96)
+    assert abs(solve(3.0, 0.95).value - coarse) < 1e-4
+    odd_one_out._go_back.cache_clear()
 
 
 def test_no_rule_of_thumb_earns_more():
     generator = np.random.default_rng(fresh_seed())
     masses, _ = draw(generator, 200_000, 3.0)
-    value = ideal.solve(3.0, 0.95).value
+    value = solve(3.0, 0.95).value
     for threshold in np.linspace(0.5, 1.0, 11):  # Stop at the first block heavier than a threshold.
         heavy = masses > threshold
         pokes = np.where(heavy.any(axis=1), heavy.argmax(axis=1) + 1, 4)
@@ -145,27 +155,27 @@ def test_no_rule_of_thumb_earns_more():
 @pytest.mark.parametrize("control_timestep", [0.1, 0.05])
 def test_it_reads_masses_from_heights_in_the_real_environment(control_timestep):
     seed = fresh_seed()
-    mass_of = playing.calibrate({"control_timestep": control_timestep})
+    mass_of = calibration.calibrate("which_is_heavier", "features", "heights", {"control_timestep": control_timestep})
     environment = suite.load(
         "which_is_heavier", "features", task_kwargs={"random": seed, "control_timestep": control_timestep}
     )
     for episode in range(20):
         environment.reset()
         block = episode % 4
-        height = environment.step(block).observation["heights"][block]
-        assert mass_of(height) == pytest.approx(environment.task.hidden[block], abs=1e-4)
+        observation = environment.step(block).observation
+        assert mass_of(observation, block) == pytest.approx(environment.task.hidden[block], abs=1e-4)
 
 
 def test_a_poke_so_long_that_blocks_reach_the_ceiling_is_refused():
-    with pytest.raises(ValueError, match="control_timestep is 0.5 s, in which a light block reaches the ceiling"):
-        playing.calibrate({"control_timestep": 0.5})
+    with pytest.raises(ValueError, match="control_timestep is 0.5 s, after which things .* look the same; give a sh"):
+        calibration.calibrate("which_is_heavier", "features", "heights", {"control_timestep": 0.5})
 
 
 def test_in_the_real_environment_it_does_what_it_does_without_physics():
     seed = fresh_seed()
-    solution = ideal.solve(3.0, 0.95)
+    solution = domains.find("which_is_heavier").ideal("features", {"difficulty": 3.0}, 0.95)
     environment = suite.load("which_is_heavier", "features", task_kwargs={"random": seed, "difficulty": 3.0})
-    loop = environment_loop.EnvironmentLoop(environment, playing.IdealExperimenter(solution))
+    loop = environment_loop.EnvironmentLoop(environment, solution.actor())
     episodes = loop.run(300)
     masses = which_is_heavier.draw_masses(np.full(300, seed), np.arange(300), 3.0)
     pokes, right = solution.play(masses)
@@ -189,7 +199,7 @@ def random_episodes(generator, count, difficulty):
 
 def test_the_costs_of_mistakes_add_up_to_the_gap():
     generator = np.random.default_rng(fresh_seed())
-    solution = ideal.solve(3.0, 0.9)
+    solution = solve(3.0, 0.9)
     masses, actions = random_episodes(generator, 60_000, 3.0)
     right = np.array([taken[-1] - 4 == row.argmax() for taken, row in zip(actions, masses, strict=True)])
     returns = 0.9 ** np.array([len(taken) - 1 for taken in actions]) * np.where(right, 1, -1)
@@ -201,7 +211,7 @@ def test_the_costs_of_mistakes_add_up_to_the_gap():
 
 
 def test_each_mistake_is_counted_under_its_name():
-    solution = ideal.solve(3.0, 0.95)
+    solution = solve(3.0, 0.95)
     masses = np.array([[0.5, 0.9, 0.1, 0.2]] * 5)
     actions = [
         np.array([0, 1, 2, 3, 5]),  # Poked all; may have poked too much, but answered right.
@@ -219,15 +229,32 @@ def test_each_mistake_is_counted_under_its_name():
 
 
 @pytest.mark.parametrize(
-    ("kwargs", "message"),
+    ("arguments", "message"),
     [
-        ({"difficulty": 0.5}, "difficulty is 0.5; give a number in .1, 1e6."),
-        ({"difficulty": math.nan}, "difficulty is nan; give a number in .1, 1e6."),
-        ({"discount": 0.0}, "discount is 0.0; give a number in"),
-        ({"discount": 1.5}, "discount is 1.5; give a number in"),
-        ({"num_blocks": 1}, "num_blocks is 1; give an integer >= 2 and <= 20"),
+        ((0.5, 0.95), "difficulty is 0.5; give a number in .1, 1e.06."),
+        ((math.nan, 0.95), "difficulty is nan; give a number in .1, 1e.06."),
+        ((3.0, 0.0), "discount is 0.0; give a number in"),
+        ((3.0, 1.5), "discount is 1.5; give a number in"),
+        ((3.0, 0.95, 1), "num_things is 1; give an integer >= 2 and <= 20"),
     ],
 )
-def test_what_makes_no_sense_is_refused(kwargs, message):
+def test_what_makes_no_sense_is_refused(arguments, message):
     with pytest.raises(ValueError, match=message):
-        ideal.solve(**kwargs)
+        solve(*arguments)
+
+
+def test_from_images_and_of_more_blocks_there_is_a_value_but_nobody_who_plays():
+    find = domains.find("which_is_heavier").ideal
+    for solution in (find("pixels", {}, 0.95), find("features", {}, 0.95, blocks=6)):
+        assert 0.8 < solution.value == solution.bound
+        with pytest.raises(ValueError, match="reads values from features, not from images"):
+            solution.actor()
+
+
+def test_what_can_be_believed_of_a_recorded_episode_is_the_posterior_of_what_was_poked():
+    hidden = np.array([0.3, 0.8, 0.1, 0.2])
+    episode = types.SimpleNamespace(hidden=hidden, actions=np.array([0, 0, 1, 4 + 1]))
+    found = solve(3.0, 0.95).beliefs(episode)
+    nobody, first, second = np.full((3, 4), np.nan)
+    first[0], second[:2] = 0.3, [0.3, 0.8]
+    np.testing.assert_array_equal(found, posterior(np.array([nobody, first, first, second, second]), 3.0))

@@ -7,7 +7,6 @@ import sys
 from physexp.analysis.bench import measuring
 from physexp.analysis.data import records
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions, ideal_gap
-from physexp.analysis.ideal import which_is_heavier as ideal
 from physexp.analysis.reproduction import sweep
 
 RETURN = {3.0: 0.79, 5.0: 0.83, 10.0: 0.86}  # Mean discounted return in the median of the better half of the agents.
@@ -51,11 +50,11 @@ def _reached(results: base.Results, condition) -> Iterator[dict]:
     }
     reached = ideal_gap.median_of_top_half
     name = frame.condition.iloc[0]
-    if condition.domain == "towers":
+    if condition.task in SUCCESS:
         yield measuring.row(f"right answers: {name}", reached(success), "", SUCCESS[condition.task], **absolute)
         return
     difficulty = condition.task_kwargs["difficulty"]
-    best = ideal.solve(difficulty, condition.agent.discount).value
+    best = conditions.ideal(condition).value
     yield measuring.row(f"return: {name}", reached(returns), "", RETURN[difficulty], **absolute)
     yield measuring.row(
         f"return / ideal experimenter's: {name}",

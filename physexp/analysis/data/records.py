@@ -1,48 +1,62 @@
 """Records of played episodes: tidy tables, one row an episode, in Parquet files."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pyarrow
 
+from physexp.analysis import domains
 from physexp.analysis.data import episodes, provenance, tables
+from physexp.analysis.domains import base
 from physexp.analysis.training import config as config_lib
-from physexp.suite.domains import which_is_heavier
 
-SCHEMA = pyarrow.schema(
-    [
-        ("domain", pyarrow.string()),
-        ("task", pyarrow.string()),
-        ("difficulty", pyarrow.float32()),  # The paper's beta; null for towers.
-        ("discount", pyarrow.float32()),  # That the agent was trained with.
-        ("training_seed", pyarrow.int64()),
-        ("interaction", pyarrow.string()),  # Learned or random.
-        ("control_timestep", pyarrow.float32()),  # s
-        ("seed", pyarrow.int64()),  # Of the environment: with `episode`, it rebuilds the episode.
-        ("episode", pyarrow.int64()),
-        ("masses", pyarrow.list_(pyarrow.float32())),  # On the paper's scale, [0, 1]; null for towers.
-        ("mass_gap", pyarrow.float32()),  # Between the two heaviest blocks.
-        ("pattern", pyarrow.int8()),  # Of the glue, an index in `tower.PATTERNS`; null for Which is Heavier.
-        ("actions", pyarrow.list_(pyarrow.int8())),
-        ("answer", pyarrow.int8()),  # The right label.
-        ("label", pyarrow.int8()),  # The label given, -1 when time ran out.
-        ("reward", pyarrow.float32()),
-        ("length", pyarrow.int16()),  # Actions, the label among them.
-        ("interactions", pyarrow.int16()),
-        ("time", pyarrow.float32()),  # Of interaction before the label, s.
-    ]
-)
+_HEAD = [
+    ("domain", pyarrow.string()),
+    ("task", pyarrow.string()),
+    ("difficulty", pyarrow.float32()),  # Null where none was chosen.
+    ("discount", pyarrow.float32()),  # That the agent was trained with.
+    ("training_seed", pyarrow.int64()),
+    ("interaction", pyarrow.string()),  # Learned or random.
+    ("control_timestep", pyarrow.float32()),  # s
+    ("seed", pyarrow.int64()),  # Of the environment: with `episode`, it rebuilds the episode.
+    ("episode", pyarrow.int64()),
+]
+_TAIL = [
+    ("actions", pyarrow.list_(pyarrow.int8())),
+    ("answer", pyarrow.int8()),  # The right label.
+    ("label", pyarrow.int8()),  # The label given, -1 when time ran out.
+    ("reward", pyarrow.float32()),
+    ("length", pyarrow.int16()),  # Actions, the label among them.
+    ("interactions", pyarrow.int16()),
+    ("time", pyarrow.float32()),  # Of interaction before the label, s.
+]
 
-# Hardly a mass comes twice: bytes of one rank side by side, without a dictionary, are a third smaller.
-_VARIED = ["masses.list.element", "mass_gap"]
-_REPEATED = ["actions.list.element", *(name for name in SCHEMA.names if name not in ("masses", "mass_gap"))]
+
+def _field(column: base.Column) -> tuple[str, pyarrow.DataType]:
+    kind = pyarrow.type_for_alias(column.type)
+    return column.name, pyarrow.list_(kind) if column.is_list else kind
+
+
+_COLUMNS = {column.name: column for domain in domains.DOMAINS.values() for column in domain.columns}
+_EVERYWHERE = [column for column in _COLUMNS.values() if column.is_everywhere]
+
+SCHEMA = pyarrow.schema([*_HEAD, *map(_field, _EVERYWHERE), *_TAIL])
+"""The columns of every file; those of domains are null for others."""
+
+
+def schema(domain_name: str) -> pyarrow.Schema:
+    """Returns the columns of a file with episodes of a domain: those of every file, and then its own."""
+    own = [pyarrow.field(*_field(column)) for column in domains.find(domain_name).columns if not column.is_everywhere]
+    return pyarrow.schema([*SCHEMA, *own])
+
+
+_SCHEMAS = [SCHEMA, *map(schema, domains.DOMAINS)]
 
 
 def table(
     played: episodes.Episodes, config: config_lib.TrainConfig, interaction: str, control_timestep: float
 ) -> pyarrow.Table:
-    """Returns the rows of some episodes, as `SCHEMA` has them.
+    """Returns the rows of some episodes, as `schema` has them.
 
     Args:
       played: the episodes.
@@ -51,7 +65,7 @@ def table(
       control_timestep: time between actions, s.
     """
     return played.table(
-        SCHEMA,
+        schema(config.domain),
         domain=config.domain,
         task=config.task,
         difficulty=config.task_kwargs.get("difficulty"),
@@ -60,17 +74,19 @@ def table(
         interaction=interaction,
         control_timestep=control_timestep,
         time=played.interactions * control_timestep,
-        **_hidden_columns(played.hidden),
+        **{column.name: None for column in _EVERYWHERE} | _filled(domains.find(config.domain), played.hidden),
     )
 
 
-def _hidden_columns(hidden) -> dict[str, Any]:
-    """Returns the columns that say what was hidden, null for those of the other domain."""
-    if hidden.ndim != 2:
-        return {"masses": None, "mass_gap": None, "pattern": hidden}
-    masses = episodes.lists(hidden.astype(np.float32).ravel(), np.full(len(hidden), hidden.shape[1]))
-    gaps = which_is_heavier.mass_gaps(hidden).astype(np.float32)
-    return {"masses": masses, "mass_gap": gaps, "pattern": None}
+def _filled(domain: base.Domain, hidden: np.ndarray) -> dict[str, np.ndarray | pyarrow.Array]:
+    """Returns the domain's own columns, of hidden properties, [N, ...]."""
+    filled = domain.fill(hidden)
+    found: dict[str, np.ndarray | pyarrow.Array] = {}
+    for column in domain.columns:
+        values = np.asarray(filled[column.name]).astype(pyarrow.type_for_alias(column.type).to_pandas_dtype())
+        is_list = column.is_list
+        found[column.name] = episodes.lists(values.ravel(), np.full(*values.shape)) if is_list else values
+    return found
 
 
 def write(path: Path, rows: pyarrow.Table) -> None:
@@ -81,8 +97,18 @@ def write(path: Path, rows: pyarrow.Table) -> None:
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     stamped = rows.replace_schema_metadata({"commit": provenance.commit()})
+    # Of what hardly comes twice, bytes of one rank side by side, without a dictionary, are a third smaller.
+    packed: dict[bool, list[str]] = {True: [], False: []}
+    for field in rows.schema:
+        is_varied = field.name in _COLUMNS and _COLUMNS[field.name].is_varied
+        packed[is_varied].append(f"{field.name}.list.element" if pyarrow.types.is_list(field.type) else field.name)
     tables.write(
-        path, stamped, compression="zstd", compression_level=9, use_dictionary=_REPEATED, use_byte_stream_split=_VARIED
+        path,
+        stamped,
+        compression="zstd",
+        compression_level=9,
+        use_dictionary=packed[False],
+        use_byte_stream_split=packed[True],
     )
 
 
@@ -101,7 +127,7 @@ def read(paths: list[Path], columns: list[str] | None = None):
 
     frames = []
     for path in paths:
-        rows = tables.read(path, SCHEMA, columns)
+        rows = tables.read(path, _SCHEMAS, columns)
         commit = (rows.schema.metadata or {}).get(b"commit", b"unknown").decode("ascii", "replace")
         frames.append(rows.to_pandas().assign(commit=commit))
     return pandas.concat(frames, ignore_index=True)

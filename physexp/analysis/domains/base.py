@@ -1,12 +1,60 @@
 """What the analysis knows of a domain, as data. Imports nothing heavy, since the command line is made from it."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 import dataclasses
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from physexp.agents import config as agent_config
 from physexp.agents.a3c import config as a3c
 from physexp.agents.ppo import config as ppo
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from physexp.analysis.ideal import base as ideal
+
+
+@dataclasses.dataclass(frozen=True)
+class Column:
+    """A column of stored episodes, which a domain has for what is hidden.
+
+    Attributes:
+      name: the column's name.
+      type: Arrow's name of the type of its values.
+      is_list: whether each episode has a list of values.
+      is_varied: whether hardly a value comes twice, which is how it is packed.
+      is_everywhere: whether files with episodes of other domains have the column too, null, before the reward. It is
+        kept for files that were written so; a column of a new domain is only in its own files, as the last.
+    """
+
+    name: str
+    type: str
+    is_list: bool = False
+    is_varied: bool = False
+    is_everywhere: bool = False
+
+
+@dataclasses.dataclass(frozen=True)
+class Ideal:
+    """How to find the ideal experimenter of a domain's tasks. Calling it solves.
+
+    Attributes:
+      solve: returns the `Solution` of a task, its `task_kwargs` and a discount, with further options by name; raises
+        ValueError for a value that makes no sense.
+      options: a dataclass of what the command line lets choose, with its defaults: `task`, options of the domain, and
+        further options of `solve`.
+    """
+
+    solve: "Callable[..., ideal.Solution]"
+    options: type
+
+    def __call__(self, task: str, task_kwargs: Mapping[str, Any], discount: float, **options: Any) -> "ideal.Solution":
+        return self.solve(task, task_kwargs, discount, **options)
+
+
+def nothing(hidden: "np.ndarray") -> "Mapping[str, np.ndarray]":
+    """Returns the columns of a domain that has none of its own."""
+    return {}
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -19,12 +67,18 @@ class Domain:
       presets: by task and algorithm, the configuration to train with where nothing else is asked for. A task or an
         algorithm that is not there has the algorithm's defaults, with the domain's discount.
       labels: by task, the short name of a condition, in which `{option}` stands for an option's value.
+      ideal: how to find the ideal experimenter; None where none is known.
+      columns: the domain's own columns of stored episodes.
+      fill: returns these columns by name, [N] or [N, K] for lists, of hidden properties, [N, ...].
     """
 
     name: str
     discount: float = agent_config.AgentConfig.discount
     presets: Mapping[str, Mapping[str, agent_config.AgentConfig]] = dataclasses.field(default_factory=dict)
     labels: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    ideal: Ideal | None = None
+    columns: tuple[Column, ...] = ()
+    fill: "Callable[[np.ndarray], Mapping[str, np.ndarray]]" = nothing
 
     def label(self, task: str, task_kwargs: Mapping[str, Any]) -> str:
         """Returns the short name of a task with these options; domain and task where it has no other."""

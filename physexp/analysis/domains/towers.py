@@ -1,9 +1,14 @@
-"""Towers, as the analysis sees it: presets of its agents, and the paper's names of its conditions."""
+"""Towers, as the analysis sees it: presets, the paper's names of conditions, its ideal, its columns."""
+
+from collections.abc import Mapping
+import dataclasses
+from typing import Any
 
 from physexp.agents.a3c import config as a3c
 from physexp.agents.ppo import config as ppo
 from physexp.analysis.domains import base
 
+_NAME = "towers"
 _DISCOUNT = 0.98
 _NUM_LABELS = 5
 
@@ -69,9 +74,44 @@ _PPO = {
     "fist_pixels": _ppo("fist_pixels", 5e-5, 1.0),
 }
 
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class IdealOptions:
+    """What can be chosen of the ideal experimenter, who knows the physics.
+
+    Attributes:
+      task: the task.
+      resolution: the smallest difference that can be observed: in metres for features, in differing pixels for images;
+        at 0 every bit counts.
+    """
+
+    task: str = "fist_features"
+    resolution: float = 0.0
+
+
+def trajectories(task: str, task_kwargs: Mapping[str, Any] | None = None):
+    """Returns the `Trajectories` of all glue patterns in a task of the towers."""
+    import numpy as np
+
+    from physexp.analysis.ideal import trajectories as trajectories_lib
+    from physexp.suite.domains import towers
+
+    return trajectories_lib.Trajectories(_NAME, task, np.arange(len(towers.PRIOR)), towers.PRIOR, task_kwargs)
+
+
+def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolution: float = IdealOptions.resolution):
+    """Returns the ideal experimenter, an observer of some resolution."""
+    from physexp.analysis.ideal import search
+
+    return search.solve(trajectories(task, task_kwargs), resolution, discount)
+
+
 DOMAIN = base.Domain(
-    name="towers",
+    name=_NAME,
     discount=_DISCOUNT,
     presets={task: {"a3c": _A3C[task], "ppo": _PPO[task]} for task in _A3C},
     labels={"direct_features": "D-F", "direct_pixels": "D-P", "fist_features": "F-F", "fist_pixels": "F-P"},
+    ideal=base.Ideal(_solve, IdealOptions),
+    columns=(base.Column("pattern", "int8", is_everywhere=True),),  # An index in `tower.PATTERNS`.
+    fill=lambda hidden: {"pattern": hidden},
 )

@@ -1,8 +1,14 @@
-"""Which is Heavier, as the analysis sees it: presets of its agents, and the paper's names of its conditions."""
+"""Which is Heavier, as the analysis sees it: presets, the paper's names of conditions, its ideal, its columns."""
+
+from collections.abc import Mapping
+import dataclasses
+import functools
+from typing import Any
 
 from physexp.agents.a3c import config as a3c
 from physexp.analysis.domains import base
 
+_NAME = "which_is_heavier"
 _DISCOUNT = 0.95
 
 _FEATURES = a3c.A3CConfig(discount=_DISCOUNT, envs_per_worker=128, trace=0.98, observation_scale=80.0)
@@ -11,12 +17,54 @@ _PIXELS = a3c.A3CConfig(
     discount=_DISCOUNT, frames=500_000, envs_per_worker=64, learning_rate=1e-3, trace=0.9, observation_scale=8.0
 )
 
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class IdealOptions:
+    """What can be chosen of the ideal experimenter, to whom one poke reveals a mass exactly.
+
+    Attributes:
+      difficulty: the paper's beta, a number >= 1, the larger the easier; by default the task's.
+      blocks: how many blocks; by default the task's.
+    """
+
+    difficulty: float | None = None
+    blocks: int | None = None
+
+
+def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks: int | None = None):
+    """Returns the ideal experimenter; with another number of blocks than the task's it cannot play."""
+    from physexp import suite
+    from physexp.analysis.ideal import calibration, odd_one_out
+    from physexp.suite.domains import which_is_heavier
+    from physexp.suite.engine import checks
+
+    prior = which_is_heavier.prior(which_is_heavier.Options(**task_kwargs).difficulty)
+    if blocks is not None:
+        prior = dataclasses.replace(prior, num_things=checks.integer("blocks", blocks, 2, odd_one_out.MOST_THINGS))
+    can_read = "features" in suite.tags(_NAME, task) and blocks is None
+    find_read = functools.partial(calibration.calibrate, _NAME, task, "heights", dict(task_kwargs))
+    return odd_one_out.solve(prior, discount, find_read if can_read else None)
+
+
+def _fill(hidden):
+    """Returns masses, on the paper's scale, and by how much the heaviest block is heavier than the second."""
+    from physexp.suite.domains import which_is_heavier
+
+    return {"masses": hidden, "mass_gap": which_is_heavier.mass_gaps(hidden)}
+
+
 DOMAIN = base.Domain(
-    name="which_is_heavier",
+    name=_NAME,
     discount=_DISCOUNT,
     presets={
         "features": {"a3c": _FEATURES, "ppo": base.ppo_like(_FEATURES, frames=1_500_000, learning_rate=3e-3)},
         "pixels": {"a3c": _PIXELS, "ppo": base.ppo_like(_PIXELS, learning_rate=5e-4, num_environments=64)},
     },
     labels={"features": "{difficulty:g}-F", "pixels": "{difficulty:g}-P"},
+    ideal=base.Ideal(_solve, IdealOptions),
+    columns=(
+        base.Column("masses", "float32", is_list=True, is_varied=True, is_everywhere=True),
+        base.Column("mass_gap", "float32", is_varied=True, is_everywhere=True),
+    ),
+    fill=_fill,
 )

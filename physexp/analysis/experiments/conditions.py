@@ -61,6 +61,23 @@ def observations(config: config_lib.TrainConfig) -> str:
     return kind
 
 
+def ideal(config: config_lib.TrainConfig):
+    """Returns the ideal experimenter of a condition: the `Solution` that no agent trained so can beat.
+
+    Raises:
+      ValueError: if none is known.
+    """
+    find = domains.find(config.domain).ideal
+    if find is None:
+        raise ValueError(f"no ideal experimenter of {config.domain} is known")
+    return find(config.task, config.task_kwargs, config.agent.discount)
+
+
+def heavier_ideal(difficulty: float, discount: float = which_is_heavier.DOMAIN.discount):
+    """Returns the ideal experimenter of Which is Heavier at a difficulty and a discount, a `Solution`."""
+    return ideal(heavier(difficulty, "features", 1, discount))
+
+
 def label(domain: str, task: str, **task_kwargs: Any) -> str:
     """Returns the paper's name of a condition: 10-F is difficulty 10 from features, D-P direct actuation from pixels.
 

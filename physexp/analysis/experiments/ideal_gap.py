@@ -6,9 +6,17 @@ from physexp.analysis.data import estimates, records
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions, ideal_towers
 from physexp.analysis.ideal import regret
-from physexp.analysis.ideal import which_is_heavier as ideal
 
 CONDITIONS = (*conditions.HEAVIER, *conditions.TOWERS)
+_WORDS = {
+    "again": "poked a block that was known",
+    "needless": "poked another block when answering was better",
+    "early": "answered when another poke was better",
+    "against": "gave another answer than the likeliest",
+    "timeout": "never answered",
+}
+"""What the kinds of `regret.KINDS` are in this domain."""
+
 LEAST = {3.0: 0.95, 5.0: 0.97, 10.0: 0.97}  # Share of the ideal's return that feature agents are to reach.
 
 
@@ -36,11 +44,7 @@ def load(results: base.Results):
                     "return_error": returns.std(ddof=1) / np.sqrt(len(returns)),
                     "accuracy": (episodes.reward > 0).mean(),
                     "interactions": episodes.interactions.mean(),
-                    **(
-                        _of_heavier(condition, episodes)
-                        if condition.domain == "which_is_heavier"
-                        else _of_towers(towers[condition.task])
-                    ),
+                    **_ideal_of(condition, episodes, towers),
                 }
             )
     if not rows:
@@ -50,25 +54,20 @@ def load(results: base.Results):
     return frame
 
 
-def _of_heavier(condition, episodes) -> dict[str, float]:
-    solution = ideal.solve(condition.task_kwargs["difficulty"], condition.agent.discount)
-    summary = solution.summary()
-    masses = np.stack(episodes.masses.to_numpy()).astype(float)
-    costs = regret.regrets(solution, masses, list(episodes.actions), (episodes.label < 0).to_numpy())
+def _ideal_of(condition, episodes, stored: dict[str, list[dict]]) -> dict[str, float]:
+    """The ideal's figures, kept with the results or else computed, and then what the agent's mistakes cost, by kind."""
+    if condition.task in stored:
+        summary, costs = ideal_towers.best(stored[condition.task]), {}
+    else:
+        solution = conditions.ideal(condition)
+        summary = solution.summary()
+        masses = np.stack(episodes.masses.to_numpy()).astype(float)
+        costs = regret.regrets(solution, masses, list(episodes.actions), (episodes.label < 0).to_numpy())
     return {
         "ideal_return": summary["value"],
         "ideal_accuracy": summary["accuracy"],
         "ideal_interactions": summary["mean_interactions"],
         **{kind: float(cost.mean()) for kind, cost in costs.items()},
-    }
-
-
-def _of_towers(rows: list[dict]) -> dict[str, float]:
-    summary = ideal_towers.best(rows)
-    return {
-        "ideal_return": summary["value"],
-        "ideal_accuracy": summary["accuracy"],
-        "ideal_interactions": summary["mean_interactions"],
     }
 
 
@@ -142,7 +141,7 @@ def _draw_costs(axes, frame) -> None:
     means = heavier.groupby("condition", sort=False)[list(regret.KINDS)].mean()
     ticks = [conditions.tick(name) for name in means.index]
     base_of_bar = np.zeros(len(means))
-    for number, (kind, words) in enumerate(regret.KINDS.items()):
+    for number, (kind, words) in enumerate(_WORDS.items()):
         if (means[kind] > 1e-4).any():
             axes.bar(
                 ticks,

@@ -5,8 +5,9 @@ import json
 from typing import Any
 
 from physexp.agents import files
+from physexp.analysis.domains import towers
 from physexp.analysis.experiments import base, conditions
-from physexp.analysis.ideal import towers
+from physexp.analysis.ideal import search
 
 # How coarsely the observer sees: metres for features, differing pixels for images.
 RESOLUTIONS = {"features": (0.0, 0.001, 0.003, 0.01, 0.03), "pixels": (0.0, 10.0, 30.0, 100.0)}
@@ -20,12 +21,12 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
             report(f"searching for the ideal experimenter of {condition.task}")
             path.parent.mkdir(parents=True, exist_ok=True)
             resolutions = RESOLUTIONS[conditions.observations(condition)]
-            rows = towers.curve(condition.task, resolutions, condition.agent.discount)
+            rows = search.curve(towers.trajectories(condition.task), resolutions, condition.agent.discount)
             files.write_atomically(path, (json.dumps(rows, indent=1) + "\n").encode())
 
 
 def read(results: base.Results) -> dict[str, list[dict]]:
-    """By task, the summaries of `towers.curve`.
+    """By task, the summaries of `search.curve`.
 
     Raises:
       ValueError: if they have not been computed, or a file is damaged.
@@ -42,7 +43,7 @@ def read(results: base.Results) -> dict[str, list[dict]]:
 
 
 def _is_summary(row: Any) -> bool:
-    """Whether this is a summary as `towers.curve` gives them, with what figures and claims take from it."""
+    """Whether this is a summary as `search.curve` gives them, with what figures and claims take from it."""
     needed = ("resolution", "accuracy", "mean_interactions", "mean_seconds")
     return (
         isinstance(row, dict)

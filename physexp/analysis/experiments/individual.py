@@ -5,7 +5,6 @@ import numpy as np
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions
-from physexp.analysis.ideal import which_is_heavier as ideal
 from physexp.suite.domains import which_is_heavier
 
 _SHOWN = 4000  # Episodes drawn as dots.
@@ -93,7 +92,7 @@ def _ideal_means(beta: float):
     """The ideal experimenter's mean pokes for mass gaps in the bins."""
     seeds, episodes = np.full(50_000, 1), np.arange(50_000)
     masses = which_is_heavier.draw_masses(seeds, episodes, beta)
-    pokes, _ = ideal.solve(beta, conditions.PATIENT_DISCOUNT).play(masses)
+    pokes, _ = conditions.heavier_ideal(beta, conditions.PATIENT_DISCOUNT).play(masses)
     bins = np.digitize(which_is_heavier.mass_gaps(masses), _BINS[1:-1])
     return (_BINS[1:] + _BINS[:-1]) / 2, [pokes[bins == b].mean() for b in range(len(_BINS) - 1)]
 

@@ -3,7 +3,6 @@
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions, learning
-from physexp.analysis.ideal import which_is_heavier as ideal
 
 
 def find_claims(frame) -> list[claims.Claim]:
@@ -43,7 +42,7 @@ def find_claims(frame) -> list[claims.Claim]:
 def draw(frame):
     """A panel for each kind of observation."""
     curves = learning.smoothed(frame)
-    accuracies = [ideal.solve(beta).summary()["accuracy"] for beta in conditions.DIFFICULTIES]
+    accuracies = [conditions.heavier_ideal(beta).summary()["accuracy"] for beta in conditions.DIFFICULTIES]
     kinds = [kind for kind in conditions.OBSERVATIONS if (frame.task == kind).any()]
     figure, panels = figures.new(columns=len(kinds), sharey=True, squeeze=False)
     for axes, kind in zip(panels[0], kinds, strict=True):

@@ -5,7 +5,6 @@ import numpy as np
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions
-from physexp.analysis.ideal import which_is_heavier as ideal
 
 _ALL_BLOCKS = 4
 _LONGEST = 10  # Interactions shown.
@@ -81,7 +80,7 @@ def draw(frame):
             alpha=0.75,
             label="agents",
         )
-        solution = ideal.solve(beta).summary()
+        solution = conditions.heavier_ideal(beta).summary()
         best = np.zeros(len(bins))
         best[: len(solution["histogram"])] = list(solution["histogram"].values())
         axes.stairs(best, np.arange(len(bins) + 1) - 0.5, color=figures.GREY, linewidth=1.3, label="ideal")

@@ -3,7 +3,6 @@
 import functools
 
 from physexp.analysis.experiments import base, claims, conditions, randomized
-from physexp.analysis.ideal import which_is_heavier as ideal
 
 _NAMES = [
     conditions.label("which_is_heavier", kind, difficulty=beta)
@@ -36,7 +35,7 @@ def find_claims(frame) -> list[claims.Claim]:
 def _ideal() -> dict[str, tuple[float, float]]:
     found = {}
     for beta in conditions.DIFFICULTIES:
-        summary = ideal.solve(beta).summary()
+        summary = conditions.heavier_ideal(beta).summary()
         for kind in conditions.OBSERVATIONS:
             found[conditions.label("which_is_heavier", kind, difficulty=beta)] = (
                 summary["mean_interactions"],

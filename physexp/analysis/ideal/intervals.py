@@ -5,12 +5,14 @@ the last test tells nothing. What is known is thus an interval of labels, and th
 back from the last step, over all intervals. What an interval is worth is kept times its probability: then parts add up.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 import dataclasses
 from typing import Any
 
 import numpy as np
 
+from physexp.agents import core
+from physexp.analysis.ideal import base
 from physexp.suite.engine import checks, rules
 
 _TIE = 1e-12  # Returns that differ by less are equal: the shorter way is taken.
@@ -73,6 +75,22 @@ class Solution:
         weights = np.where(possible, self.prior, 0.0)
         return weights / weights.sum(axis=-1, keepdims=True)
 
+    def actor(self) -> core.Actor:
+        """Returns an actor that takes a test as passed where what is observed has changed."""
+        return _Player(self)
+
+    def beliefs(self, episode: base.Episode) -> np.ndarray:
+        """Returns the posterior at the start and after each action of an episode, float64 [T + 1, L]."""
+        low, high = [0], [len(self.prior) - 1]
+        for step, action in enumerate(episode.actions):
+            before, after = ({name: seen[t] for name, seen in episode.observations.items()} for t in (step, step + 1))
+            least, most = low[-1], high[-1]
+            if action < len(self.prior):
+                least, most = map(int, narrow(least, most, int(action), has_changed(before, after)))
+            low.append(least)
+            high.append(most)
+        return self.posterior(np.array(low), np.array(high))
+
     def play(self, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Plays episodes without physics.
 
@@ -108,6 +126,35 @@ class Solution:
         }
 
 
+class _Player(core.Actor):
+    """Plays a solution."""
+
+    def __init__(self, solution: Solution):
+        self._solution = solution
+
+    def observe_first(self, timestep):
+        self._low, self._high, self._step = 0, len(self._solution.prior) - 1, 0
+        self._seen = timestep.observation
+
+    def select_action(self, observation) -> int:
+        return int(self._solution.actions(self._low, self._high, self._step))
+
+    def observe(self, action, next_timestep):
+        if next_timestep.last():
+            return
+        passed = has_changed(self._seen, next_timestep.observation)
+        self._low, self._high = map(int, narrow(self._low, self._high, action, passed))
+        self._seen, self._step = next_timestep.observation, self._step + 1
+
+    def update(self):
+        """Does nothing: it knows all that can be known."""
+
+
+def has_changed(before: Mapping[str, np.ndarray], after: Mapping[str, np.ndarray]) -> bool:
+    """Returns whether two observations differ, which says that the test between them was passed."""
+    return any(not np.array_equal(seen, after[name]) for name, seen in before.items())
+
+
 def solve(prior: Sequence[float] | np.ndarray, discount: float, step_limit: int) -> Solution:
     """Finds the best policy, exactly.
 
@@ -124,8 +171,7 @@ def solve(prior: Sequence[float] | np.ndarray, discount: float, step_limit: int)
     chances = np.asarray(prior, np.float64)
     if chances.ndim != 1 or len(chances) < 2 or not (chances >= 0).all() or abs(chances.sum() - 1) > 1e-9:
         raise ValueError(f"prior is {checks.shown(prior)}; give two or more probabilities whose sum is 1")
-    if not (checks.number("discount", discount, 0, "the agent's gamma", strictly=True) <= 1):
-        raise ValueError(f"discount is {checks.shown(discount)}; give a number in (0, 1]")
+    discount = base.check_discount(discount)
     steps = checks.integer("step_limit", step_limit, 1, 100_000)
     size = len(chances)
     answer, labels, mass = _answers(chances)
@@ -139,7 +185,7 @@ def solve(prior: Sequence[float] | np.ndarray, discount: float, step_limit: int)
         length = np.where(testing, lengths.min(axis=0), 0.0)
         best = np.maximum(answer, test.max(axis=0))
         at_random = np.maximum(answer, discount * _after(at_random).mean(axis=0))
-    return Solution(chances, float(discount), steps, float(best[0, -1]), float(at_random[0, -1]), policy)
+    return Solution(chances, discount, steps, float(best[0, -1]), float(at_random[0, -1]), policy)
 
 
 def _answers(prior: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -1,4 +1,4 @@
-"""What an agent's actions cost against the ideal experimenter of Which is Heavier, action by action.
+"""What an agent's actions cost against the ideal experimenter of things of which one is different, action by action.
 
 Expected discounted return is the ideal's value minus the expected sum of what each action was worse than the best one,
 given what was known then: discount^t (V - Q(action)). So the gap to the ideal splits into kinds of mistakes.
@@ -8,51 +8,47 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from physexp.analysis.ideal import which_is_heavier
+from physexp.analysis.ideal import odd_one_out
 
-KINDS = {
-    "again": "poked a block that was known",
-    "needless": "poked another block when answering was better",
-    "early": "answered when another poke was better",
-    "against": "gave another answer than the likeliest",
-    "timeout": "never answered",
-}
+KINDS = ("again", "needless", "early", "against", "timeout")
+"""Touched a thing that was known; touched another when answering was better; answered when another touch was better;
+gave another answer than the likeliest; never answered."""
 
 
 def regrets(
-    solution: which_is_heavier.Solution, masses: np.ndarray, actions: Sequence[np.ndarray], out_of_time: np.ndarray
+    solution: odd_one_out.Solution, values: np.ndarray, actions: Sequence[np.ndarray], out_of_time: np.ndarray
 ) -> dict[str, np.ndarray]:
-    """What each episode's mistakes cost.
+    """Returns what each episode's mistakes cost.
 
     Args:
       solution: the ideal experimenter.
-      masses: of the blocks, on the paper's scale, float64 [N, num_blocks].
+      values: of the things, float64 [N, K].
       actions: the actions of each episode, N arrays int64 [length].
       out_of_time: whether an episode ended unanswered, bool [N].
 
     Returns:
       For each of `KINDS` the discounted cost, float64 [N].
     """
-    size, blocks = masses.shape
+    size, num_things = values.shape
     cost = {kind: np.zeros(size) for kind in KINDS}
-    known = np.full(masses.shape, np.nan)
+    known = np.full(values.shape, np.nan)
     lengths = np.array([len(taken) for taken in actions])
     for t in range(lengths.max(initial=0)):
         rows = np.flatnonzero(lengths > t)
         taken = np.array([actions[int(row)][t] for row in rows])
-        answer, poke = solution.values(known[rows])
-        best, factor = np.maximum(answer, poke), solution.discount**t
-        poking = taken < blocks
-        last = poking & out_of_time[rows] & (lengths[rows] == t + 1)
+        answer, touch = solution.values(known[rows])
+        best, factor = np.maximum(answer, touch), solution.discount**t
+        touching = taken < num_things
+        last = touching & out_of_time[rows] & (lengths[rows] == t + 1)
         cost["timeout"][rows[last]] += factor * (best[last] + 1)  # Its reward is that of a wrong answer.
         again = np.zeros(len(rows), bool)
-        again[poking] = ~np.isnan(known[rows[poking], taken[poking]])
-        repeated, fresh = poking & again & ~last, poking & ~again & ~last
+        again[touching] = ~np.isnan(known[rows[touching], taken[touching]])
+        repeated, fresh = touching & again & ~last, touching & ~again & ~last
         cost["again"][rows[repeated]] += factor * (1 - solution.discount) * best[repeated]
-        cost["needless"][rows[fresh]] += factor * (best - poke)[fresh]
-        chances = which_is_heavier.posterior(known[rows[~poking]], solution.difficulty)
-        given = 2 * chances[np.arange(len(chances)), taken[~poking] - blocks] - 1
-        cost["early"][rows[~poking]] += factor * (best - answer)[~poking]
-        cost["against"][rows[~poking]] += factor * (answer[~poking] - given)
-        known[rows[poking], taken[poking]] = masses[rows[poking], taken[poking]]
+        cost["needless"][rows[fresh]] += factor * (best - touch)[fresh]
+        chances = odd_one_out.posterior(known[rows[~touching]], solution.prior)
+        given = 2 * chances[np.arange(len(chances)), taken[~touching] - num_things] - 1
+        cost["early"][rows[~touching]] += factor * (best - answer)[~touching]
+        cost["against"][rows[~touching]] += factor * (answer[~touching] - given)
+        known[rows[touching], taken[touching]] = values[rows[touching], taken[touching]]
     return cost

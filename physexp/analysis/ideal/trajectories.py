@@ -1,52 +1,64 @@
-"""What the 16 towers look like after sequences of actions: simulated when asked for, and remembered."""
+"""What is seen of finitely many hypotheses after sequences of actions: simulated when asked for, and remembered."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+import functools
 from typing import Any
 
 import numpy as np
 
 from physexp import suite
-from physexp.suite.parts import tower
+from physexp.suite.engine import declarations
 
-NUM_PATTERNS = len(tower.PATTERNS)
 _SEQUENCES = 32  # Simulated side by side.
 
 Actions = tuple[int, ...]  # A sequence of interaction actions.
 
 
 class Trajectories:
-    """How far apart the towers look under sequences of actions.
+    """How far apart H hypotheses about what is hidden look under sequences of actions.
 
-    Physics is deterministic: a glue pattern and a sequence of actions make one trajectory.
+    Physics is deterministic: a hypothesis and a sequence of actions make one trajectory.
 
     Attributes:
       task: what is played, a `QuestionTask`.
+      hidden: the hypotheses: all values that the hidden property can have, [H, ...].
+      prior: their probabilities, float64 [H].
+      answers: the right label of each, int64 [H].
       steps: control steps simulated so far.
     """
 
-    def __init__(self, task_name: str, task_kwargs: Mapping[str, Any] | None = None, num_threads: int = 2):
+    def __init__(
+        self,
+        domain_name: str,
+        task_name: str,
+        hidden: np.ndarray,
+        prior: np.ndarray,
+        task_kwargs: Mapping[str, Any] | None = None,
+        num_threads: int = 2,
+    ):
         """Prepares the simulations.
 
         Args:
-          task_name: a task of the towers.
-          task_kwargs: as for `suite.load`.
+          domain_name, task_name, task_kwargs: as for `suite.load`.
+          hidden, prior: as above.
           num_threads: threads that simulate.
 
         Raises:
-          ValueError: for an unknown task or a bad keyword argument.
+          ValueError: for an unknown name or a bad keyword argument.
         """
-        kwargs = {**(task_kwargs or {}), "random": 0}
-        self._batch = suite.load_batch("towers", task_name, NUM_PATTERNS * _SEQUENCES, kwargs, num_threads)
-        self.task = self._batch.task
+        self.task = suite.load_task(domain_name, task_name, {**(task_kwargs or {}), "random": 0})
+        self.hidden, self.prior = np.asarray(hidden), np.asarray(prior, float)
+        self.answers = self.task.answers(self.hidden)
         self.steps = 0
-        self._apart: dict[Actions, np.ndarray] = {(): np.zeros((NUM_PATTERNS, NUM_PATTERNS))}
+        self._num_threads = num_threads
+        self._apart: dict[Actions, np.ndarray] = {(): np.zeros((len(self.hidden), len(self.hidden)))}
 
     def is_expanded(self, sequence: Actions) -> bool:
-        """Whether what follows a sequence has been simulated."""
+        """Returns whether what follows a sequence has been simulated."""
         return (*sequence, 0) in self._apart
 
     def apart(self, sequence: Actions) -> np.ndarray:
-        """How far apart the towers have looked at most so far, [16, 16]; of a sequence that has been simulated."""
+        """Returns how far apart the hypotheses have looked at most so far, [H, H]; of a sequence that was simulated."""
         return self._apart[sequence]
 
     def expand(self, sequences: Sequence[Actions]) -> None:
@@ -54,38 +66,64 @@ class Trajectories:
         actions = range(self.task.num_interactions)
         longer = [(*sequence, action) for sequence in sequences for action in actions]
         for sequence, observation in zip(longer, self.observe(longer), strict=True):
-            self._apart[sequence] = np.maximum(self._apart[sequence[:-1]], distances(observation))
+            self._apart[sequence] = np.maximum(self._apart[sequence[:-1]], self.distances(observation))
 
     def observe(self, sequences: Sequence[Actions]) -> list[dict[str, np.ndarray]]:
-        """What is seen at the end of each sequence: arrays with a leading axis of the 16 patterns."""
+        """Returns what is seen at the end of each sequence: arrays with a leading axis [H]."""
         found: dict[Actions, dict[str, np.ndarray]] = {}
         for length in {len(sequence) for sequence in sequences}:
             alike = [sequence for sequence in sequences if len(sequence) == length]
             for start in range(0, len(alike), _SEQUENCES):
-                found.update(self._play(alike[start : start + _SEQUENCES]))
+                chosen = alike[start : start + _SEQUENCES]
+                *_, last = self._play(chosen)
+                for number, sequence in enumerate(chosen):
+                    its = slice(len(self.hidden) * number, len(self.hidden) * (number + 1))
+                    found[sequence] = {name: value[its].copy() for name, value in last.items()}
         return [found[sequence] for sequence in sequences]
 
-    def _play(self, sequences: list[Actions]):
-        """Plays sequences of one length side by side, each in 16 environments."""
-        rows = np.arange(NUM_PATTERNS * len(sequences))
-        self._batch.reset(rows, hidden=rows % NUM_PATTERNS)
+    def follow(self, sequence: Actions) -> Iterator[np.ndarray]:
+        """Returns how far apart the hypotheses have looked at most after each action of a sequence, [H, H] each."""
+        apart = self._apart[()]
+        for observation in self._play([sequence]) if sequence else ():
+            apart = np.maximum(apart, self.distances(observation))
+            yield apart
+
+    def distances(self, observation: Mapping[str, np.ndarray]) -> np.ndarray:
+        """Returns how far apart observations of the task are, as `distances`."""
+        return distances(observation, self.task.readings)
+
+    @functools.cached_property
+    def _batch(self) -> suite.BatchEnvironment:
+        return suite.BatchEnvironment(self.task, len(self.hidden) * _SEQUENCES, self._num_threads)
+
+    def _play(self, sequences: Sequence[Actions]) -> Iterator[Mapping[str, np.ndarray]]:
+        """Plays sequences of one length side by side, each for all hypotheses; returns what is seen after each step."""
+        size = len(self.hidden)
+        rows = np.arange(size * len(sequences))
+        self._batch.reset(rows, hidden=self.hidden[rows % size])
         for actions in np.array(sequences).T:
-            timestep = self._batch.step(np.repeat(actions, NUM_PATTERNS), rows)
+            timestep = self._batch.step(np.repeat(actions, size), rows)
             self.steps += len(rows)
-        if self._batch.num_divergences:
-            raise RuntimeError("the simulation of a tower diverged; nothing can be said about what can be told apart")
-        for number, sequence in enumerate(sequences):
-            its = slice(NUM_PATTERNS * number, NUM_PATTERNS * (number + 1))
-            yield sequence, {name: value[its].copy() for name, value in timestep.observation.items()}
+            if self._batch.num_divergences:
+                raise RuntimeError("the simulation diverged; nothing can be said about what can be told apart")
+            yield timestep.observation
 
 
-def distances(observation: Mapping[str, np.ndarray]) -> np.ndarray:
-    """How far apart observations are, pairwise: [N, N] for arrays with a leading axis N.
+def distances(observation: Mapping[str, np.ndarray], readings: Mapping[str, declarations.Reading]) -> np.ndarray:
+    """Returns how far apart observations are, pairwise: [N, N] for arrays with a leading axis N.
 
-    Features: the largest distance between positions of the same thing, m. Images: how many pixels differ.
+    Features: the largest distance between what was read of the same thing, in the reading's unit. Images: how many
+    pixels differ.
+
+    Args:
+      observation: arrays by name, [N, ...].
+      readings: the task's; what is not among them is an image.
     """
-    if "pixels" in observation:
-        images = observation["pixels"]
-        return np.array([(image != images).any(axis=-1).sum(axis=(1, 2)) for image in images], float)
-    positions = np.concatenate([value.reshape(len(value), -1, 3) for value in observation.values()], axis=1)
-    return np.linalg.norm(positions[:, None].astype(float) - positions, axis=-1).max(axis=-1)
+    found = []
+    for name, values in observation.items():
+        if name in readings:
+            points = values.reshape(len(values), -1, max(1, len(readings[name].components))).astype(float)
+            found.append(np.linalg.norm(points[:, None] - points, axis=-1).max(axis=-1))
+        else:
+            found.append(np.array([(image != values).any(axis=-1).sum(axis=(1, 2)) for image in values], float))
+    return np.max(found, axis=0)

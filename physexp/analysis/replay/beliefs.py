@@ -1,10 +1,11 @@
 """What could be believed: by an agent, and by an ideal experimenter that has seen the same."""
 
+import functools
+
 import numpy as np
 
-from physexp.analysis.ideal import which_is_heavier as ideal
+from physexp.analysis import domains
 from physexp.analysis.replay import recording
-from physexp.suite.domains import which_is_heavier
 
 
 def of_policy(policies: np.ndarray, num_interactions: int) -> np.ndarray:
@@ -13,19 +14,14 @@ def of_policy(policies: np.ndarray, num_interactions: int) -> np.ndarray:
     return answers / answers.sum(axis=1, keepdims=True)
 
 
-def _heaviest(episode: recording.Episode) -> np.ndarray:
-    """Returns how likely each block is the heaviest, to who has seen what the pokes reveal: [T + 1, num_blocks]."""
-    known = np.full((len(episode.actions) + 1, len(episode.hidden)), np.nan)
-    for step, action in enumerate(episode.actions):
-        if action < len(episode.hidden):
-            known[step + 1 :, action] = episode.hidden[action]
-    difficulty = episode.task_kwargs.get("difficulty", which_is_heavier.Options.difficulty)
-    return ideal.posterior(known, difficulty)
-
-
-_IDEAL = {"which_is_heavier": _heaviest}
-
-
 def of_ideal(episode: recording.Episode) -> np.ndarray | None:
     """Returns what an ideal experimenter would believe in an episode of T actions, [T + 1, L], where that is known."""
-    return _IDEAL[episode.domain](episode) if episode.domain in _IDEAL else None
+    solution = _ideal(episode.domain, episode.task, tuple(sorted(episode.task_kwargs.items())))
+    return None if solution is None else solution.beliefs(episode)
+
+
+@functools.lru_cache(maxsize=4)
+def _ideal(domain_name: str, task: str, task_kwargs: tuple):
+    """Returns the ideal experimenter of a task, which may keep a simulation; what it believes has no discount."""
+    domain = domains.find(domain_name)
+    return None if domain.ideal is None else domain.ideal(task, dict(task_kwargs), domain.discount)

@@ -6,7 +6,7 @@ from dm_control.utils import containers
 import numpy as np
 
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import checks, declarations, seeding, senses, task
+from physexp.suite.engine import checks, declarations, priors, senses, task
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, block
 
@@ -32,7 +32,6 @@ FLOOR, CEILING = -0.01, 0.4  # m, displacements from rest at which the rail ends
 HIGHEST = CEILING + 2 * POKE_FORCE / DAMPING * PHYSICS_TIMESTEP
 
 _ROOM = dict(mat_size=[0.36, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.28], fovy=14.5)
-_MAX_DRAWS = 16
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -129,11 +128,13 @@ def kilograms(masses):
     return LIGHTEST + (HEAVIEST - LIGHTEST) * masses
 
 
-def draw_masses(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
-    """Masses of some episodes (paper, Section 5.1), float64 [N, 4] in [0, 1].
+def prior(difficulty: float) -> priors.OddOneOut:
+    """Returns what masses are drawn from: Beta(difficulty, 1) for one block, Beta(1, difficulty) for the others."""
+    return priors.OddOneOut(NUM_BLOCKS, difficulty)
 
-    One block, drawn uniformly, is from Beta(difficulty, 1), the others from Beta(1, difficulty). Both have inverse
-    distribution functions in closed form: u^(1 / difficulty) and 1 - (1 - u)^(1 / difficulty).
+
+def draw_masses(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
+    """Returns the masses of some episodes (paper, Section 5.1), float64 [N, 4] in [0, 1].
 
     Args:
       seeds, episodes: environment seeds and episode indices, int64 [N].
@@ -142,28 +143,12 @@ def draw_masses(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> n
     Raises:
       RuntimeError: if the two heaviest blocks tie in every one of many draws.
     """
-    masses = masses_from(seeding.uniforms(seeds, episodes, NUM_BLOCKS + 1), difficulty)
-    for attempt in range(1, _MAX_DRAWS):
-        tied = mass_gaps(masses) == 0
-        if not tied.any():
-            return masses
-        again = seeding.uniforms(seeds[tied], episodes[tied], NUM_BLOCKS + 1, attempt)
-        masses[tied] = masses_from(again, difficulty)
-    raise RuntimeError(f"difficulty {difficulty} makes blocks tie in {_MAX_DRAWS} draws; choose one closer to 1")
+    return prior(difficulty).draw(seeds, episodes)
 
 
 def mass_gaps(masses: np.ndarray) -> np.ndarray:
-    """By how much the heaviest block is heavier than the second, [N], of masses [N, num_blocks] in [0, 1]."""
-    two_heaviest = np.partition(masses, -2, axis=1)[:, -2:]
-    return two_heaviest[:, 1] - two_heaviest[:, 0]
-
-
-def masses_from(draws: np.ndarray, difficulty: float) -> np.ndarray:
-    """Masses [N, B] of B blocks from numbers [N, B + 1], uniform in (0, 1): the first chooses the heavy block."""
-    masses = -np.expm1(np.log1p(-draws[:, 1:]) / difficulty)
-    rows, heavy = np.arange(len(draws)), (draws[:, 0] * masses.shape[1]).astype(np.int64)
-    masses[rows, heavy] = np.exp(np.log(draws[rows, 1 + heavy]) / difficulty)
-    return masses
+    """Returns by how much the heaviest block is heavier than the second, [N], of masses [N, 4] in [0, 1]."""
+    return priors.gaps(masses)
 
 
 @SUITE.add("features")
