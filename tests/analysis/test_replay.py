@@ -311,7 +311,7 @@ def test_the_effects_that_are_shown_are_those_of_the_physics(domain, task):
 
 def test_the_ideal_posterior_beside_an_agent_follows_its_pokes():
     episode, _, _ = record("which_is_heavier", "features")
-    posteriors = beliefs.IDEAL[episode.domain](episode)
+    posteriors = beliefs.of_ideal(episode)
     assert posteriors.shape == (7, 4)
     np.testing.assert_allclose(posteriors[0], 0.25)  # Nothing is known yet.
     np.testing.assert_allclose(posteriors.sum(axis=1), 1)
