@@ -46,15 +46,15 @@ class Frame:
 
 
 def recorded(name: str) -> recording.Episode:
-    """The episode that a picture shows."""
+    """Returns the episode that a picture shows."""
     target, seed, index = EPISODES[name]
     network, config = playing.find_agent(target)
     return recording.reenact(network, config, seed, index, None)
 
 
 def frames(episode: recording.Episode) -> list[Frame]:
-    """What is shown of an episode: each decision, what it brings, and the verdict."""
-    task = suite.load_task(episode.domain, episode.task, episode.task_kwargs)
+    """Returns what is shown of an episode: each decision, what it brings, and the verdict."""
+    task = episode.declared
     belief, substeps, found = beliefs.of_policy(episode.policies, task.num_interactions), task.options.substeps, []
     for step, action in enumerate(episode.actions):
         said, start = f"step {step + 1}: {task.action_names[action]}", step * substeps
@@ -69,20 +69,17 @@ def frames(episode: recording.Episode) -> list[Frame]:
 
 
 def scenes(episode: recording.Episode, substeps: Sequence[int]) -> Iterator[np.ndarray]:
-    """Images at some physics steps, uint8 [SCENE, SCENE, 3]."""
+    """Yields images at some physics steps, uint8 [SCENE, SCENE, 3]."""
     environment = suite.load(episode.domain, episode.task, task_kwargs={**episode.task_kwargs, "random": episode.seed})
     environment.task.next_episode = episode.episode
     environment.reset()
-    model = environment.task.apparatus.model
-    moving = [geom for geom in range(model.ngeom) if model.body_weldid[model.geom_bodyid[geom]] != 0]
-    renderer = rendering.Renderer(model, size=2 * SCENE)
+    apparatus, geoms = environment.task.apparatus, episode.shapes.geoms
+    renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms, size=2 * SCENE)
     large = np.zeros((1, 2 * SCENE, 2 * SCENE, 3), np.uint8)
-    positions, rotations = np.zeros((1, model.ngeom, 3)), np.zeros((1, model.ngeom, 9))
+    positions, rotations = np.zeros((1, apparatus.model.ngeom, 3)), np.zeros((1, apparatus.model.ngeom, 9))
     for substep in substeps:
-        positions[0, moving], rotations[0, moving] = (
-            episode.positions[substep],
-            episode.rotations[substep].reshape(-1, 9),
-        )
+        positions[0, geoms] = episode.positions[substep]
+        rotations[0, geoms] = episode.rotations[substep].reshape(-1, 9)
         renderer.render(positions, rotations, np.zeros(1, int), large)
         yield np.asarray(Image.fromarray(large[0]).resize((SCENE, SCENE), Image.Resampling.LANCZOS))
     renderer.close()
@@ -90,12 +87,11 @@ def scenes(episode: recording.Episode, substeps: Sequence[int]) -> Iterator[np.n
 
 
 def drawn(episode: recording.Episode, frame: Frame, scene: np.ndarray) -> Image.Image:
-    """A frame: the scene, the action in words, the belief as named bars, and the verdict."""
-    task = suite.load_task(episode.domain, episode.task, episode.task_kwargs)
-    names = [palette.short(label, episode.things) for label in task.label_names]
+    """Returns a frame: the scene, the action in words, the belief as named bars, and the verdict."""
+    names = [palette.short(label, episode.shapes) for label in episode.declared.label_names]
     things = [name.replace(" ", "_") for name in names]
     colors = [
-        np.array(palette.of_thing(episode.things, thing)) / 255 if thing in episode.things.names else LABEL_COLOR
+        np.array(palette.of_thing(episode.shapes, thing)) / 255 if thing in episode.shapes.names else LABEL_COLOR
         for thing in things
     ]
     width, height = SIZE
@@ -103,7 +99,12 @@ def drawn(episode: recording.Episode, frame: Frame, scene: np.ndarray) -> Image.
     canvas = backend_agg.FigureCanvasAgg(picture)
     picture.figimage(scene, 20 * SCALE, 20 * SCALE)
     picture.text(
-        20 * SCALE / width, 1 - 24 * SCALE / height, task.question, fontsize=14, fontweight="bold", va="center"
+        20 * SCALE / width,
+        1 - 24 * SCALE / height,
+        episode.declared.question,
+        fontsize=14,
+        fontweight="bold",
+        va="center",
     )
     left = (40 * SCALE + SCENE) / width
     picture.text(left, 0.82, frame.action, fontsize=13, va="center")

@@ -1,5 +1,6 @@
 """Draws docs/tasks.png, an episode of each task, and docs/pixels.png, the same in an agent's own images, enlarged."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -9,20 +10,27 @@ from physexp import suite
 from physexp.suite.engine import rendering
 
 EPISODES = (
-    ("which_is_heavier", "pixels", [0, 1, 2, 3, 0, 0, 0]),
-    ("towers", "direct_pixels", [6, 12, 0, 16, 4, 9, 14]),  # Pushes, block by block.
-    ("towers", "fist_pixels", [0] * 7),  # Along +x, into the tower.
+    ("which_is_heavier", "pixels", 0, [0, 1, 2, 3, 0, 0, 0]),
+    (
+        "towers",
+        "direct_pixels",
+        6,
+        [6, 12, 0, 16, 4, 9, 14],
+    ),  # Three bodies: some glue, not all. Pushed block by block.
+    ("towers", "fist_pixels", 6, [0] * 7),  # Along +x, into the tower.
 )
+"""Domain, task, index of the episode and actions of each row."""
+
+SEED = 3
 SIZE = 252
 
 
-def frames(domain: str, task: str, actions: list[int], as_seen: bool) -> np.ndarray:
-    """The first image of an episode and those after each action, side by side."""
-    environment = suite.load(domain, task, task_kwargs={"random": 3})
-    timestep = environment.reset()
-    while domain == "towers" and environment.task.correct_answer != 2:  # Three bodies: some glue, not all.
-        timestep = environment.reset()
-    renderer = rendering.Renderer(environment.task.apparatus.model, size=SIZE)
+def frames(domain: str, task: str, episode: int, actions: Sequence[int], as_seen: bool) -> np.ndarray:
+    """Returns the first image of an episode and those after each action, side by side."""
+    environment = suite.load(domain, task, task_kwargs={"random": SEED})
+    environment.task.next_episode = episode
+    timestep, apparatus = environment.reset(), environment.task.apparatus
+    renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms, size=SIZE)
     images = []
     for action in [None, *actions]:
         if action is not None:
@@ -31,8 +39,9 @@ def frames(domain: str, task: str, actions: list[int], as_seen: bool) -> np.ndar
             image = timestep.observation["pixels"].repeat(SIZE // rendering.SIZE, 0).repeat(SIZE // rendering.SIZE, 1)
         else:
             data = environment.physics.data
-            image = np.zeros((SIZE, SIZE, 3), np.uint8)
-            renderer.render(data.geom_xpos[None], data.geom_xmat[None], [0], image[None])
+            positions, image = data.geom_xpos[None].copy(), np.zeros((SIZE, SIZE, 3), np.uint8)
+            apparatus.indicate(positions, data.sensordata[None])
+            renderer.render(positions, data.geom_xmat[None], [0], image[None])
         images.append(np.pad(image, ((2, 2), (2, 2), (0, 0)), constant_values=255))
     renderer.close()
     environment.close()

@@ -81,7 +81,7 @@ def play(
 
 
 def _viewers(environment: suite.Environment, domain, task, kwargs) -> list[environment_loop.Observer]:
-    """What shows the scene in the viewer."""
+    """Returns what shows the scene in the viewer."""
     from physexp.analysis.replay import live, recording, viewing  # Takes a second, and most play without.
 
     recorder = recording.EpisodeRecorder(environment, domain, task, kwargs, agent="you")
@@ -89,7 +89,7 @@ def _viewers(environment: suite.Environment, domain, task, kwargs) -> list[envir
 
 
 def _others(domain: str, task: str, kwargs: dict[str, Any], show) -> tuple[dict[str, core.Actor], float]:
-    """The players to compare with, and the discount that the trained one knows."""
+    """Returns the players to compare with, and the discount that the trained one knows."""
     others: dict[str, core.Actor] = {}
     discount = domains.find(domain).discount
     try:
@@ -116,14 +116,14 @@ def _ideal(domain: str, task: str, kwargs: dict[str, Any], discount: float) -> c
 
 
 def _rules(environment: suite.Environment) -> str:
-    """The question, and how to find out and to answer."""
+    """Returns the question, and how to find out and to answer."""
     task = environment.task
     actions = [f"{number:3}  {name}" for number, name in enumerate(task.action_names)]
     return "\n".join(
         [
             task.question,
             "",
-            terminal.legend(environment.observation_spec()),
+            terminal.legend(environment.observation_spec(), task.readings),
             "",
             "Every interaction costs time; the answer ends the episode. Type a number:",
             "",
@@ -136,12 +136,12 @@ def _rules(environment: suite.Environment) -> str:
 
 
 def _play_episode(environment: suite.Environment, rules: str, observers, read, show) -> tuple[int, float] | None:
-    """One episode: its length and reward, or None if the player quits."""
+    """Plays one episode; returns its length and reward, or None if the player quits."""
     timestep, length = environment.reset(), 0
     for observer in observers:
         observer.observe_first(environment, timestep)
     while not timestep.last():
-        show(terminal.drawing(timestep.observation, *shutil.get_terminal_size()))
+        show(terminal.drawing(timestep.observation, environment.task.readings, *shutil.get_terminal_size()))
         action = _ask(environment, rules, read, show)
         if action is None:
             return None
@@ -154,7 +154,7 @@ def _play_episode(environment: suite.Environment, rules: str, observers, read, s
 
 
 def _ask(environment: suite.Environment, rules: str, read, show) -> int | None:
-    """The number of an action; None to quit."""
+    """Returns the number of an action; None to quit."""
     count = environment.action_spec().num_values
     while True:
         try:
@@ -172,7 +172,7 @@ def _ask(environment: suite.Environment, rules: str, read, show) -> int | None:
 
 
 def _replay(environment: suite.Environment, domain, task, kwargs, actor: core.Actor) -> tuple[int, float]:
-    """How another player does on the instance that has just been played."""
+    """Returns how another player does on the instance that has just been played."""
     seed = environment.task.options.random
     again = suite.load(domain, task, task_kwargs={**kwargs, "random": seed})
     again.task.next_episode = environment.task.episode

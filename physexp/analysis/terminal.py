@@ -1,59 +1,149 @@
 """Observations as text, as large as the terminal has room for."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
+import string
 
 import numpy as np
 
+from physexp.analysis import readings as readings_lib
+from physexp.suite.engine import declarations
+
+Readings = Mapping[str, declarations.Reading]
+
 _WIDTH, _HEIGHT = 48, 14  # Characters of a drawing at most.
-_ROOM = 0.6  # m, from the middle to the side of a drawing of the towers
+_LONGEST_BAR = 60  # Characters.
+_ROOM = np.array([(-0.6, 0.6), (-0.6, 0.6), (0.0, 0.6)])  # m, of a drawing where a reading has no bounds
+_SYMBOLS = "OX" + string.ascii_uppercase.replace("O", "").replace("X", "")  # Of things without a number.
 _SMALLEST_IMAGE = 16  # Pixels: where less is drawn nothing can be told apart.
 _OTHER_LINES = 3  # Of the terminal, which are not the image's.
 
 
-def legend(observation: Collection[str]) -> str:
-    """What a drawing of an observation with these names shows, in words."""
-    if "pixels" in observation:
-        return "You see what the agent sees, an image."
-    if "heights" in observation:
-        return "You see how high each block is above its rest."
-    fist = " O is the fist." if "fist_position" in observation else ""
-    return f"You see the room from the side: +x is to the right, +y away from you, the digits are the blocks.{fist}"
+def legend(observation: Collection[str], readings: Readings) -> str:
+    """Returns what a drawing shows, in words.
+
+    Args:
+      observation: names of what is seen.
+      readings: the task's.
+    """
+    seen = [reading for reading in readings_lib.shown(readings) if reading.name in observation]
+    sentences = ["You see what the agent sees, an image."] if set(observation) - set(readings) else []
+    places = [reading for reading in seen if reading.is_position]
+    if places:
+        sentences.append(_legend_of_places(places))
+    for reading in seen:
+        if not reading.is_position:
+            sentences.append(f"You see {readings_lib.spoken(reading.name)}{_values_in_words(reading)}.")
+    return "\n".join(sentences)
 
 
-def drawing(observation: Mapping[str, np.ndarray], columns: int = 80, lines: int = 24) -> str:
-    """An observation as text: bars of heights, the towers from the side, or an image in coloured half blocks.
+def drawing(observation: Mapping[str, np.ndarray], readings: Readings, columns: int = 80, lines: int = 24) -> str:
+    """Returns an observation as text: things from the side, values as bars, and images in coloured half blocks.
 
     Args:
       observation: what is seen.
+      readings: the task's.
       columns, lines: the terminal's size.
     """
-    if "pixels" in observation:
-        return _image(observation["pixels"], columns, lines)
-    if "heights" in observation:
-        room = max(1, min(40, columns - 18))
-        return "\n".join(
-            f"block {k} {'#' * round(100 * height * room / 40):{room}} {100 * height:5.1f} cm"
-            for k, height in enumerate(observation["heights"])
-        )
-    return _side(observation, max(12, min(_WIDTH, columns)), max(6, min(_HEIGHT, lines - _OTHER_LINES)))
+    seen = [reading for reading in readings_lib.shown(readings) if reading.name in observation]
+    places = [reading for reading in seen if reading.is_position]
+    rows = _rows([reading for reading in seen if not reading.is_position], observation, columns)
+    parts = [_image(observation[name], columns, lines - len(rows)) for name in observation if name not in readings]
+    if places:
+        size = max(12, min(_WIDTH, columns)), max(6, min(_HEIGHT, lines - _OTHER_LINES - len(rows)))
+        parts.append(_side(places, observation, *size))
+    return "\n".join([*parts, *rows])
 
 
-def _side(observation: Mapping[str, np.ndarray], width: int, height: int) -> str:
+def _values_in_words(reading: readings_lib.Shown) -> str:
+    """Returns of what a reading has values, and in which unit, in words."""
+    of_things = f" of {', '.join(reading.names)}" if len(reading.names) > 1 else ""
+    if not reading.unit:
+        low_to_high = "" if reading.limits is None else f", from {reading.limits.min():g} to {reading.limits.max():g}"
+        return f"{of_things}{low_to_high}"
+    return f"{of_things}, in {'cm' if reading.unit == 'm' else reading.unit}"
+
+
+def _legend_of_places(places: Sequence[readings_lib.Shown]) -> str:
+    symbols = _symbols(places)
+    numbered = {thing.rpartition("_")[0] for thing, symbol in symbols.items() if symbol.isdecimal()}
+    digits = f", the digits are the {' and '.join(map(_plural, sorted(numbered)))}" if numbered else ""
+    others = [f" {s} is the {readings_lib.spoken(thing)}." for thing, s in symbols.items() if not s.isdecimal()]
+    return f"You see the room from the side: +x is to the right, +y away from you{digits}.{''.join(others)}"
+
+
+def _plural(name: str) -> str:
+    return f"{readings_lib.spoken(name)}s"
+
+
+def _symbols(places: Sequence[readings_lib.Shown]) -> dict[str, str]:
+    """Returns a character for each thing: its number, where that is a digit that no other thing has, or a letter."""
+    letters, symbols = iter(_SYMBOLS), dict[str, str]()
+    for thing in dict.fromkeys(thing for reading in places for thing in reading.things):
+        number = thing.rpartition("_")[2]
+        is_digit = number != thing and len(number) == 1 and number.isdecimal() and number not in symbols.values()
+        symbols[thing] = number if is_digit else next(letters, "?")
+    return symbols
+
+
+def _side(places: Sequence[readings_lib.Shown], observation, width: int, height: int) -> str:
+    """Returns where things are, seen from the side, and below it how far away each is."""
     canvas = np.full((height, width), " ")
-    things = {str(k): position for k, position in enumerate(observation["positions"])}
-    if "fist_position" in observation:
-        things["O"] = observation["fist_position"]
-    for name, (x, _, z) in things.items():
-        column = round((x + _ROOM) / (2 * _ROOM) * (width - 1))
-        row = height - 1 - round(z / 0.55 * (height - 1))
-        if 0 <= column < width and 0 <= row < height:
-            canvas[row, column] = name
-    aside = "  ".join(f"{name}: y {100 * y:+.1f} cm" for name, (_, y, _) in things.items())
-    return "\n".join(["".join(row).rstrip() for row in canvas] + ["-" * width, aside])
+    rooms = np.array([_ROOM if reading.limits is None else reading.limits for reading in places])
+    (left, _, bottom), (right, _, top) = rooms[..., 0].min(axis=0), rooms[..., 1].max(axis=0)
+    symbols, aside = _symbols(places), []
+    for reading in places:
+        for thing, (x, y, z) in zip(reading.things, reading.values(observation[reading.name])[0], strict=True):
+            column = round((x - left) / (right - left) * (width - 1))
+            row = height - 1 - round((z - bottom) / (top - bottom) * (height - 1))
+            if 0 <= column < width and 0 <= row < height:
+                canvas[row, column] = symbols[thing]
+            aside.append(f"{symbols[thing]}: y {100 * y:+.1f} cm")
+    return "\n".join(["".join(row).rstrip() for row in canvas] + ["-" * width, "  ".join(aside)])
+
+
+def _rows(seen: Sequence[readings_lib.Shown], observation, columns: int) -> list[str]:
+    """Returns a line for each value: its name, a bar where its bounds are known and it has a unit, and the number."""
+    found = []
+    for reading in seen:
+        values = reading.values(observation[reading.name])[0]
+        for name, of_thing in zip(reading.names, values, strict=True):
+            for number, (component, value) in enumerate(zip(reading.components, of_thing, strict=True)):
+                largest = None if reading.limits is None else np.abs(reading.limits[number]).max()
+                label = _label(reading, name, component, len(seen) > 1)
+                found.append((label, float(value), largest, reading.unit))
+    width = max((len(label) for label, *_ in found), default=0)
+    room = max(1, min(_LONGEST_BAR, columns - width - 11))
+    return [
+        f"{label:{width}} {_bar(value, largest, unit, room)}{_number(value, unit)}"[:columns]
+        for label, value, largest, unit in found
+    ]
+
+
+def _label(reading: readings_lib.Shown, name: str, component: str, are_several: bool) -> str:
+    """Returns what a value is called: after its reading, where that has no other value, or else after its thing."""
+    if len(reading.names) == 1:
+        name = readings_lib.spoken(reading.name)
+    elif are_several:
+        name = f"{readings_lib.spoken(reading.name)}, {name}"
+    return f"{name} {component}".rstrip()
+
+
+def _bar(value: float, largest: float | None, unit: str, room: int) -> str:
+    """Returns a bar as long as the value, of `#` where it is positive; nothing where its length would say nothing."""
+    if not unit or not largest:
+        return ""
+    length = min(room, round(abs(value) / largest * room))
+    return f"{('#' if value >= 0 else '-') * length:{room}} "
+
+
+def _number(value: float, unit: str) -> str:
+    if not unit:
+        return f"{value:g}"
+    return f"{100 * value:5.1f} cm" if unit == "m" else f"{value:6.3g} {unit}"
 
 
 def _image(pixels: np.ndarray, columns: int, lines: int) -> str:
-    """Two rows of pixels in each line of text, by 24-bit colours."""
+    """Returns an image as text: two rows of pixels in each line, by 24-bit colours."""
     size = min(len(pixels), columns, 2 * (lines - _OTHER_LINES)) // 2 * 2
     if size < _SMALLEST_IMAGE:
         needed, best = (f"{side} by {side // 2 + _OTHER_LINES}" for side in (_SMALLEST_IMAGE, len(pixels)))
@@ -70,7 +160,7 @@ def _image(pixels: np.ndarray, columns: int, lines: int) -> str:
 
 
 def _shrunk(pixels: np.ndarray, size: int) -> np.ndarray:
-    """A square image with fewer pixels, each the mean of the area it covers, uint8 [size, size, 3]."""
+    """Returns a square image with fewer pixels, each the mean of the area it covers, uint8 [size, size, 3]."""
     edges, old = np.linspace(0, len(pixels), size + 1), np.arange(len(pixels))
     shares = np.minimum(edges[1:, None], old + 1) - np.maximum(edges[:-1, None], old)
     shares = shares.clip(min=0) * size / len(pixels)

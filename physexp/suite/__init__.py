@@ -66,10 +66,10 @@ def load(domain_name, task_name, task_kwargs=None, environment_kwargs=None, visu
     """Returns an environment, as `dm_control.suite.load` does.
 
     Args:
-      domain_name: `which_is_heavier` or `towers`.
+      domain_name: one of `TASKS_BY_DOMAIN`.
       task_name: one of `TASKS_BY_DOMAIN[domain_name]`.
-      task_kwargs: `random` (a seed or a RandomState), `control_timestep` (s), `time_limit` (s), and for
-        `which_is_heavier` also `difficulty` (the paper's beta).
+      task_kwargs: `random` (a seed or a RandomState), `control_timestep` (s), `time_limit` (s), and the domain's own:
+        the fields of `options(domain_name)`.
       environment_kwargs: `raise_exception_on_physics_error`, and `flat_observation`: one vector, `observations`.
       visualize_reward: colour the floor by the outcome at the end of an episode.
 

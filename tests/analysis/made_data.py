@@ -13,7 +13,7 @@ import pandas
 import pyarrow
 from scipy import special
 
-from physexp.analysis.data import records
+from physexp.analysis.evaluation import records
 from physexp.analysis.experiments import conditions, learners, population, waiting
 from physexp.analysis.ideal import regret
 

@@ -9,7 +9,8 @@ import pytest
 
 from physexp.agents import acting
 from physexp.agents.a3c import config as a3c
-from physexp.analysis.data import episodes, records
+from physexp.analysis.data import episodes
+from physexp.analysis.evaluation import records
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 

@@ -11,8 +11,9 @@ from trainers import fresh_seed
 from physexp import suite
 from physexp.agents import environment_loop
 from physexp.analysis import domains
-from physexp.analysis.data import episodes, records
+from physexp.analysis.data import episodes
 from physexp.analysis.domains import base
+from physexp.analysis.evaluation import records
 from physexp.analysis.training import config as config_lib
 
 IDEALS = [(domain, task) for domain, task in suite.tagged("features") if domains.find(domain).ideal is not None]

@@ -1,5 +1,6 @@
 """A person at the terminal: what is drawn, asked and counted."""
 
+import dataclasses
 import os
 import re
 import subprocess
@@ -66,15 +67,19 @@ def test_what_is_no_action_is_asked_again():
         assert f"{text} is no action; type a number from 0 to 7, ? or q" in shown
 
 
+HEAVIER = suite.load_task("which_is_heavier", "features").readings
+TOWERS = suite.load_task("towers", "fist_features").readings
+
+
 def test_heights_are_drawn_as_bars():
-    text = terminal.drawing({"heights": np.array([0.0, 0.123, 0.4, 0.0], np.float32)}).splitlines()
+    text = terminal.drawing({"heights": np.array([0.0, 0.123, 0.4, 0.0], np.float32)}, HEAVIER).splitlines()
     assert text[1].count("#") == 12 and "12.3 cm" in text[1]
     assert text[2].count("#") == 40 and not text[0].count("#")
 
 
 def test_a_tower_is_drawn_from_the_side_with_the_fist_beside_it():
     environment = suite.load("towers", "fist_features", task_kwargs={"random": 0})
-    rows = terminal.drawing(environment.reset().observation).splitlines()
+    rows = terminal.drawing(environment.reset().observation, TOWERS).splitlines()
     places = {name: (row, line.index(name)) for row, line in enumerate(rows[:-2]) for name in "01234O" if name in line}
     assert [places[str(k)][0] for k in range(5)] == sorted((places[str(k)][0] for k in range(5)), reverse=True)
     assert len({places[str(k)][1] for k in range(5)}) == 1
@@ -84,7 +89,7 @@ def test_a_tower_is_drawn_from_the_side_with_the_fist_beside_it():
 def test_an_image_is_drawn_in_its_own_colours():
     image = np.zeros((84, 84, 3), np.uint8)
     image[0, 0], image[1, 0] = (10, 20, 30), (40, 50, 60)
-    lines = terminal.drawing({"pixels": image}, 84, 45).splitlines()
+    lines = terminal.drawing({"pixels": image}, TOWERS, 84, 45).splitlines()
     assert len(lines) == 42
     assert lines[0].startswith("\x1b[38;2;10;20;30;48;2;40;50;60m▀")
 
@@ -92,7 +97,7 @@ def test_an_image_is_drawn_in_its_own_colours():
 @pytest.mark.parametrize(("columns", "lines"), [(80, 24), (40, 50), (200, 20), (16, 11)])
 def test_an_image_fits_the_terminal_and_keeps_its_mean(columns, lines):
     image = np.random.default_rng(fresh_seed()).integers(256, size=(84, 84, 3), dtype=np.uint8)
-    rows = terminal.drawing({"pixels": image}, columns, lines).splitlines()
+    rows = terminal.drawing({"pixels": image}, HEAVIER, columns, lines).splitlines()
     assert len(rows) <= lines - 2 and {row.count("▀") for row in rows} == {2 * len(rows)} and 2 * len(rows) <= columns
     colors = np.array(re.findall(r"(\d+);(\d+);(\d+)(?:;48|m)", "\n".join(rows)), int)
     assert len(colors) == (2 * len(rows)) ** 2
@@ -101,16 +106,25 @@ def test_an_image_fits_the_terminal_and_keeps_its_mean(columns, lines):
 
 def test_a_terminal_that_is_too_small_for_an_image_is_told_so():
     for columns, lines in ((15, 50), (80, 10)):
-        text = terminal.drawing({"pixels": np.zeros((84, 84, 3), np.uint8)}, columns, lines)
+        text = terminal.drawing({"pixels": np.zeros((84, 84, 3), np.uint8)}, HEAVIER, columns, lines)
         assert f"{columns} columns by {lines} lines" in text and "16 by 11" in text and "\n" not in text
+
+
+def test_a_switch_is_shown_as_0_or_1_and_what_has_no_bounds_as_a_number():
+    switch = suite.load_task("threshold", "features").readings
+    assert terminal.drawing({"slid": np.ones(1, np.float32)}, switch) == "slid 1"
+    assert terminal.legend({"slid"}, switch) == "You see slid, from 0 to 1."
+    unbounded = {name: dataclasses.replace(reading, bounds=None) for name, reading in HEAVIER.items()}
+    text = terminal.drawing({"heights": np.array([0.0, 0.123, 0.4, 0.0], np.float32)}, unbounded).splitlines()
+    assert [line.split() for line in text[1:3]] == [["block", "1", "12.3", "cm"], ["block", "2", "40.0", "cm"]]
 
 
 @pytest.mark.parametrize("columns", [20, 48, 200])
 def test_features_fit_the_terminal(columns):
     heights = {"heights": np.array([0.0, 0.123, 0.4, 0.0], np.float32)}
     positions = {"positions": np.array([(0, 0, 0.05 + 0.1 * k) for k in range(5)])}
-    assert all(len(line) <= columns for line in terminal.drawing(heights, columns, 10).splitlines())
-    side = terminal.drawing(positions, columns, 10).splitlines()
+    assert all(len(line) <= columns for line in terminal.drawing(heights, HEAVIER, columns, 10).splitlines())
+    side = terminal.drawing(positions, TOWERS, columns, 10).splitlines()
     assert len(side) <= 9 and all(len(line) <= columns for line in side[:-1])
 
 
@@ -142,9 +156,11 @@ def test_a_player_is_compared_with_an_agent_of_the_difficulty_that_is_played(dif
 
 def test_the_agent_beside_a_player_is_the_one_of_that_difficulty(monkeypatch):
     loaded, load = [], pretrained.load
-    monkeypatch.setattr(pretrained, "load", lambda *names: loaded.append(names) or load(*names))
+    monkeypatch.setattr(
+        pretrained, "load", lambda *names, **options: loaded.append((*names, options)) or load(*names, **options)
+    )
     play.play("which_is_heavier", "features", {"difficulty": 10.0}, 1, read=typed("q"), show=lambda text: None)
-    assert loaded == [("which_is_heavier", "features", 10.0)]
+    assert loaded == [("which_is_heavier", "features", {"difficulty": 10.0})]
 
 
 def test_a_player_in_finer_time_is_compared_with_nobody_who_was_trained_in_another():

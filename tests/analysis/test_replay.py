@@ -2,6 +2,7 @@
 
 import contextlib
 import functools
+import importlib.util
 import os
 from pathlib import Path
 import re
@@ -23,11 +24,12 @@ from waiting import wait_until
 
 from physexp import suite
 from physexp.agents import core, environment_loop
-from physexp.analysis import replay
+from physexp.analysis import readings, replay
 from physexp.analysis.evaluation import playing
-from physexp.analysis.replay import beliefs, live, palette, recording, selection, words, writing
+from physexp.analysis.replay import beliefs, live, recording, selection, words, writing
 from physexp.suite.parts import block, tower
 
+DOCS = Path(__file__).parents[2] / "docs"
 TASKS = [("which_is_heavier", "features"), ("towers", "fist_features"), ("towers", "direct_pixels")]
 
 
@@ -69,12 +71,14 @@ class Watcher:
         return {}
 
 
-def record(domain, task, interactions=5, seed=None):
+def record(domain, task, interactions=5, seed=None, make_task=None):
     """A recorded episode, and what another observer has seen of it."""
     seed = fresh_seed() if seed is None else seed
-    environment = suite.load(domain, task, task_kwargs={"random": seed})
+    options = {"random": seed}
+    played = suite.load_task(domain, task, options) if make_task is None else make_task(**options)
+    environment = suite.Environment(played)
     actor, watcher = Careless(environment, interactions, seed), Watcher()
-    recorder = replay.EpisodeRecorder(environment, domain, task, {"random": seed}, actor, "a careless agent")
+    recorder = replay.EpisodeRecorder(environment, domain, task, options, actor, "a careless agent", make_task)
     environment_loop.EnvironmentLoop(environment, actor, [watcher, recorder]).run_episode()
     return recorder.episode, watcher, environment
 
@@ -95,6 +99,12 @@ def chunks(path, entity):
             for name, column in zip(batch.schema.names, batch.columns, strict=True):
                 found.setdefault(name, []).extend(column.to_pylist())
     return found
+
+
+def text_of(path):
+    """All of a file as text, its layout too."""
+    command = [writing.PROGRAM, "rrd", "print", "-vvv", path]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
 @pytest.fixture(scope="module", params=TASKS, ids="/".join)
@@ -123,13 +133,8 @@ def test_poses_are_kept_at_every_physics_step_and_end_where_the_physics_is(writt
     substeps = environment.task.options.substeps
     assert len(episode.times) == 5 * substeps + 1  # Five interactions; the answer takes no time.
     np.testing.assert_allclose(np.diff(episode.times), environment.task.options.physics_timestep)
-    for k, name in enumerate(episode.things.names):
-        geom = next(
-            g
-            for g in range(environment.physics.model.ngeom)
-            if f"{name}/geom" in environment.physics.model.geom(g).name
-        )
-        np.testing.assert_array_equal(episode.positions[-1, k], environment.physics.data.geom_xpos[geom])
+    for k, name in enumerate(episode.shapes.names):
+        np.testing.assert_array_equal(episode.positions[-1, k], place(environment, name))
     assert not np.array_equal(episode.positions[0], episode.positions[-1])
 
 
@@ -152,7 +157,7 @@ def test_a_written_file_passes_reruns_own_check_and_is_small(written):
 
 def test_poses_and_observations_read_back_are_those_of_the_episode(written):
     episode, _, environment, path = written
-    for k, name in enumerate(episode.things.names):
+    for k, name in enumerate(episode.shapes.names):
         columns = chunks(path, f"/world/things/{name}")
         assert [round(time.total_seconds(), 6) for time in columns["time"]] == pytest.approx(
             list(episode.times), abs=1e-6
@@ -257,8 +262,140 @@ def test_a_blocks_colour_means_that_block_and_nothing_else(written):
 def test_every_component_of_a_feature_is_named_after_the_thing_it_tells_of():
     blocks = [f"block_{k}" for k in range(5)]
     heavier, towers_ = (suite.load_task(*task) for task in TASKS[:2])
-    assert palette.sensed_things(heavier) == {"heights": blocks[:4]}
-    assert palette.sensed_things(towers_) == {"positions": blocks, "fist_position": ["fist"]}
+    things = [{each.name: list(each.things) for each in readings.shown(task.readings)} for task in (heavier, towers_)]
+    assert things == [{"heights": blocks[:4]}, {"positions": blocks, "fist_position": ["fist"]}]
+
+
+def example(name):
+    """A module of docs/examples."""
+    spec = importlib.util.spec_from_file_location(name, DOCS / "examples" / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def entities(path, below):
+    """The names of the entities of a file that are directly below another one."""
+    paths = {str(chunk.entity_path) for chunk in RrdReader(str(path)).stream()}
+    return {path.removeprefix(below) for path in paths if path.startswith(below)}
+
+
+def things(task, is_drawn):
+    """The things of a task that images show, or those that they do not, but for the floor and what stands still."""
+    found, model = set(), task.apparatus.model
+    for number in range(model.ngeom):
+        is_moving, *models = model.body_weldid[model.geom_bodyid[number]] != 0, *model.geom(number).name.split("/")
+        name = models[max(0, len(models) - 2)]
+        if (model.geom_group[number] != 4) == is_drawn and (is_moving or is_drawn) and name not in ("floor", "mat"):
+            found.add(name)
+    return found
+
+
+OUTSIDE = [("which_is_bolted", "features"), ("which_is_bolted", "pixels")]
+
+
+@pytest.mark.parametrize(("domain", "task"), [*suite.ALL_TASKS, *OUTSIDE], ids="/".join)
+def test_a_replay_shows_the_right_names(domain, task, tmp_path):
+    make_task = None if (domain, task) in suite.ALL_TASKS else getattr(example("bolted"), task)
+    episode, _, environment = record(domain, task, interactions=3, make_task=make_task)
+    path, played = writing.write(tmp_path / "one.rrd", [lambda: [episode]]), environment.task
+    labels, _ = series(path, "/belief/labels")
+    assert len(set(labels)) == len(labels) == played.num_labels
+    assert all(shown in label for shown, label in zip(labels, played.label_names, strict=True))
+    assert names_of(path, "/belief/policy") == played.action_names
+    said = [text[0] for text in chunks(path, "/did/actions")["TextLog:text"]]
+    assert said == [f"step {t}: {played.action_names[a]}" for t, a in enumerate(episode.actions)]
+    assert played.question in chunks(path, "/did/outcome")["TextDocument:text"][0][0]
+    assert f"{domain}/{task}, seed" in chunks(path, "/did/outcome")["TextDocument:text"][0][0]
+    assert entities(path, "/world/things/") == things(played, is_drawn=True)
+    revealed = played.reveal(episode.hidden)
+    assert revealed.marks or revealed.joined or played.answers(played.hidden[None]) == played.num_labels - 1
+    assert entities(path, "/world/hidden/") == things(played, is_drawn=False) | {
+        *(f"mark_{thing}" for thing in revealed.marks),
+        *(f"{first}_to_{second}" for first, second in revealed.joined),
+    }
+    if task.endswith("pixels"):
+        assert entities(path, "/seen/") == {"pixels"}
+        return
+    expected = {
+        f"{name}/{component}" if component else name
+        for name, reading in played.readings.items()
+        for component in reading.components or [""]
+    }
+    assert entities(path, "/seen/") - {"moved"} == expected
+    printed = text_of(path)
+    for name, reading in played.readings.items():
+        for component in reading.components or [""]:
+            curves = names_of(path, f"/seen/{name}/{component}".rstrip("/"))
+            spoken = {thing.replace("_", " ") for thing in things(played, True) | things(played, False)}
+            if reading.shape == (1,):
+                assert curves == [name.replace("_", " ")]
+            else:
+                assert set(curves) <= spoken and len(curves) == len(reading.sensors)
+            title = component or f"seen: {name.replace('_', ' ')}"
+            assert (f"{title}, {reading.unit}" if reading.unit else title) in printed
+
+
+def names_of(path, entity):
+    """Names of the curves of an entity in a file, whatever their colours."""
+    for chunk in RrdReader(str(path)).stream():
+        if str(chunk.entity_path) == entity and chunk.is_static:
+            return chunk.to_record_batch().to_pydict()["SeriesLines:names"][0]
+    raise LookupError(entity)
+
+
+def test_what_is_covered_is_seen_through_its_cover_where_what_is_hidden_is_shown_and_nothing_before_tells_of_it(
+    tmp_path,
+):
+    environment = suite.load("threshold", "features", task_kwargs={"random": fresh_seed()})
+    recorder = replay.EpisodeRecorder(environment, "threshold", "features")
+    recorder.observe_first(environment, environment.reset())
+    for action in (7, 7, 8):  # The largest force takes the block to the other side, and back again.
+        recorder.observe(environment, environment.step(action), action)
+    episode, names = recorder.episode, recorder.episode.shapes.names
+    steps = np.array([0, 1, 2]) * environment.task.options.substeps
+    flag = episode.positions[steps, names.index("flag"), 2]
+    assert flag[0] + 0.05 < flag[1] == flag[2]  # It is up as long as pushes slide the block.
+    path = writing.write(tmp_path / "one.rrd", [lambda: [episode]])
+    assert entities(path, "/world/hidden/") == {"block", "mark_block"}
+    assert "ViewContents/overrides/world/things/cover" in text_of(path)
+    columns = chunks(path, "/world/action")
+    origins, vectors = (np.array(columns[f"Arrows3D:{name}"])[:, 0] for name in ("origins", "vectors"))
+    shown = np.linalg.norm(vectors, axis=1) > 0
+    assert np.ptp(origins[shown], axis=0).max() == 0  # The arrow does not follow the block.
+    assert vectors[steps[0] + 1, 0] > 0 > vectors[steps[1] + 1, 0]  # A push goes away from the stop.
+
+
+def test_any_kind_of_shape_is_drawn_and_several_of_one_thing_have_names_of_their_own(tmp_path):
+    bolted = example("bolted")
+
+    def make_task(**options):
+        made = bolted.features(**options)
+        rod = made.root_entity.mjcf_model.worldbody.add("body", name="rod", pos=[0.3, 0, 0.2])
+        rod.add("joint", name="hinge", type="hinge", axis=[0, 1, 0])
+        rod.add("geom", name="rod", type="capsule", size=[0.02, 0.1])
+        rod.add("geom", name="weight", type="cylinder", size=[0.04, 0.03], pos=[0, 0, 0.1])
+        rod.add("geom", name="tip", type="ellipsoid", size=[0.01, 0.02, 0.03], pos=[0, 0, -0.1])
+        block_1 = made.root_entity.mjcf_model.find("geom", "block_1/geom").parent
+        block_1.add("geom", name="lid", type="sphere", size=[0.02], pos=[0, 0, 0.06])
+        return made
+
+    episode, *_ = record("which_is_bolted", "features", make_task=make_task)
+    kinds = dict(zip(episode.shapes.names, episode.shapes.kinds, strict=True))
+    blocks = {f"block_{k}": "box" for k in range(3)} | {"block_1_lid": "sphere"}
+    assert kinds == blocks | {"rod": "capsule", "weight": "cylinder", "tip": "ellipsoid"}
+    path = writing.write(tmp_path / "one.rrd", [lambda: [episode]])
+    assert entities(path, "/world/things/") == set(kinds)
+    columns = {}
+    for chunk in RrdReader(str(path)).stream():
+        if str(chunk.entity_path).startswith("/world/things/") and chunk.is_static:
+            columns.setdefault(str(chunk.entity_path).rpartition("/")[2], {}).update(
+                chunk.to_record_batch().to_pydict()
+            )
+    assert columns["rod"]["Capsules3D:lengths"][0] == pytest.approx([0.2])
+    assert columns["weight"]["Cylinders3D:lengths"][0] == pytest.approx([0.06])
+    assert columns["tip"]["Ellipsoids3D:half_sizes"][0][0] == pytest.approx([0.01, 0.02, 0.03])
+    assert columns["block_1_lid"]["Ellipsoids3D:half_sizes"][0][0] == pytest.approx([0.02] * 3)
 
 
 def test_what_is_hidden_has_an_entity_of_its_own_which_is_switched_off(written):
@@ -266,12 +403,11 @@ def test_what_is_hidden_has_an_entity_of_its_own_which_is_switched_off(written):
     names = {str(chunk.entity_path) for chunk in RrdReader(str(path)).stream()}
     hidden = {name for name in names if name.startswith("/world/hidden/")}
     if episode.domain == "which_is_heavier":
-        assert hidden == {f"/world/hidden/mass_{k}" for k in range(4)}
+        assert hidden == {f"/world/hidden/mark_block_{k}" for k in range(4)}
     else:
         glued = np.flatnonzero(tower.PATTERNS[int(episode.hidden)])
-        assert hidden == {f"/world/hidden/glue_above_block_{k}" for k in glued}
-    command = [writing.PROGRAM, "rrd", "print", "-vvv", path]
-    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+        assert hidden == {f"/world/hidden/block_{k}_to_block_{k + 1}" for k in glued}
+    printed = text_of(path)
     override = printed.partition("ViewContents/overrides/world/hidden")[2]
     table = override.partition("EntityBehavior:visible")[2].partition("METADATA")[0]
     assert "[false]" in table and "[true]" not in table
@@ -284,9 +420,10 @@ def test_an_arrow_shows_where_the_action_acts_and_which_way(written):
     origins, vectors = (np.array(columns[f"Arrows3D:{name}"])[:, 0] for name in ("origins", "vectors"))
     substeps = environment.task.options.substeps
     for step in range(5):
-        thing, effect = environment.task.effects[episode.actions[step]]
+        interaction = environment.task.interactions[episode.actions[step]]
+        thing, effect = interaction.thing, np.array(interaction.vector)
         frame = step * substeps + 1
-        k = episode.things.names.index(thing)
+        k = episode.shapes.names.index(thing)
         np.testing.assert_allclose(origins[frame], episode.positions[frame, k], atol=1e-6)
         np.testing.assert_allclose(
             vectors[frame] / np.linalg.norm(vectors[frame]), effect / np.linalg.norm(effect), atol=1e-6
@@ -294,18 +431,14 @@ def test_an_arrow_shows_where_the_action_acts_and_which_way(written):
 
 
 @pytest.mark.parametrize(("domain", "task"), TASKS[:2] + [("towers", "direct_features")])
-def test_the_effects_that_are_shown_are_those_of_the_physics(domain, task):
+def test_the_vectors_that_are_shown_are_those_of_the_physics(domain, task):
     environment = suite.load(domain, task, task_kwargs={"random": fresh_seed()})
-    for action, (thing, effect) in enumerate(environment.task.effects):
+    for action, interaction in enumerate(environment.task.interactions):
+        effect = np.array(interaction.vector)
         environment.reset()
-        geom = next(
-            g
-            for g in range(environment.physics.model.ngeom)
-            if f"{thing}/geom" in environment.physics.model.geom(g).name
-        )
-        before = environment.physics.data.geom_xpos[geom].copy()
+        before = place(environment, interaction.thing)
         environment.step(action)
-        moved = environment.physics.data.geom_xpos[geom] - before
+        moved = place(environment, interaction.thing) - before
         assert moved @ effect > 0.9 * np.linalg.norm(moved) * np.linalg.norm(effect) > 0
 
 
@@ -323,7 +456,7 @@ def test_the_ideal_posterior_beside_an_agent_follows_its_pokes():
 
 
 @pytest.mark.parametrize(("domain", "task"), TASKS)
-def test_an_episode_known_by_its_numbers_is_enacted_as_it_was(domain, task):
+def test_an_episode_known_by_its_seed_and_index_is_enacted_as_it_was(domain, task):
     network, config = playing.find_agent(f"{domain}/{task}")
     played = playing.play(network, config, 3, seed=fresh_seed())
     for index in range(3):
@@ -383,8 +516,7 @@ def test_two_agents_are_shown_side_by_side_on_the_same_instances(tmp_path):
     assert len(lines) == 1
     names = {str(chunk.entity_path) for chunk in RrdReader(str(path)).stream()}
     assert {"/A/world/things/fist", "/B/world/things/fist", "/A/belief/value", "/B/belief/value"} <= names
-    command = [writing.PROGRAM, "rrd", "print", "-vvv", path]
-    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    printed = text_of(path)
     for title in ("A: towers/fist_features", "B: towers/fist_features", "A: belief", "B: belief"):
         assert title in printed
 
@@ -402,7 +534,7 @@ def test_a_selection_is_what_it_says():
     chosen = {kind: list(selection.select(network, config, 5, kind, seed=5)) for kind in kinds}
     rewards = dict(zip(zip(everything.seed, everything.episode, strict=True), everything.reward, strict=True))
     assert all(rewards[seed, episode] > 0 for seed, episode, _ in chosen["right"])
-    lengths = sorted((len(actions) for actions in everything.actions), reverse=True)
+    lengths = sorted(everything.length, reverse=True)
     assert [len(actions) for _, _, actions in chosen["longest"]] == lengths[:5]
     gaps = np.sort(everything.hidden)[:, -1] - np.sort(everything.hidden)[:, -2]
     hardest = np.argsort(gaps)[:5]
@@ -468,7 +600,7 @@ def test_an_episode_that_is_watched_live_shows_nothing_hidden_before_it_is_over(
     so_far, everything = entities
     assert "/world/things/block_0" in so_far and "/did/actions" in so_far and "/seen/heights" in so_far
     assert not [entity for entity in so_far if "hidden" in entity or "ideal" in entity]
-    assert {"/world/hidden/mass_0", "/belief/ideal"} <= everything
+    assert {"/world/hidden/mark_block_0", "/belief/ideal"} <= everything
     said = [{text[0] for text in chunks(path, "/did/outcome")["TextDocument:text"]} for path in paths]
     assert all("Not answered yet" in text for text in said[0])
     assert any("Answer after 2 interactions" in text for text in said[1])

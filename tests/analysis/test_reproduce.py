@@ -11,7 +11,8 @@ import pytest
 from trainers import group
 from waiting import wait_until
 
-from physexp.analysis.data import provenance, records
+from physexp.analysis.data import provenance
+from physexp.analysis.evaluation import records
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions
 from physexp.analysis.reproduction import report, reproduce, sweep
 from physexp.analysis.training import metrics as metrics_lib

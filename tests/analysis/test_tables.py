@@ -11,7 +11,8 @@ from pyarrow import parquet
 import pytest
 from trainers import fresh_seed
 
-from physexp.analysis.data import records, tables
+from physexp.analysis.data import tables
+from physexp.analysis.evaluation import records
 from physexp.analysis.experiments import base, ideal_towers
 from physexp.analysis.training import run as run_lib
 

@@ -32,13 +32,13 @@ def test_a_push_moves_the_block_if_and_only_if_its_force_is_above_friction(seed,
     )
     kwargs = {"random": seed, "control_timestep": control_timestep, "time_limit": time_limit}
     batch = suite.load_batch("threshold", "features", len(frictions), kwargs)
-    side = batch.reset(hidden=frictions).observation["side"][:, 0]
-    assert (side == 0).all()
+    first = batch.reset(hidden=frictions).observation
+    assert (first["slid"] == 0).all() and (first["strength"] == 0).all()
     for _ in range(batch.task.rules.step_limit - 1):
         pushes = rng.integers(threshold.NUM_LEVELS, size=len(frictions))
-        after = batch.step(pushes).observation["side"][:, 0]
-        np.testing.assert_array_equal(after != side, LEVELS[pushes] > frictions)
-        side = after
+        seen = batch.step(pushes).observation
+        np.testing.assert_array_equal(seen["slid"][:, 0] == 1, LEVELS[pushes] > frictions)
+        np.testing.assert_array_equal(seen["strength"][:, 0], ((pushes + 1) / threshold.NUM_LEVELS).astype(np.float32))
 
 
 def test_a_block_pushed_in_vain_for_a_whole_episode_stays_on_its_stop():
@@ -48,27 +48,26 @@ def test_a_block_pushed_in_vain_for_a_whole_episode_stays_on_its_stop():
     batch = suite.load_batch("threshold", "features", len(labels), {"random": 0, "time_limit": 10.0})
     batch.reset(hidden=frictions)
     for _ in range(batch.task.rules.step_limit - 1):
-        assert (batch.step(labels - 1).observation["side"] == 0).all()
+        assert (batch.step(labels - 1).observation["slid"] == 0).all()
     for environment in range(len(labels)):
         assert abs(float(batch.view("qpos", environment)[0])) < 0.4 * threshold.TRAVEL
 
 
 @pytest.mark.parametrize("domain_name, task_name", TASKS)
-def test_observations_tell_nothing_but_the_side(seed, domain_name, task_name):
-    """Blocks of all frictions, pushed at random, show one of two observations, whatever happened before."""
+def test_observations_tell_nothing_but_the_push_and_whether_the_block_slid(seed, domain_name, task_name):
+    """Whatever friction is and whatever happened before, what is seen follows from these two."""
     rng = np.random.default_rng(seed)
     frictions = _edges_of_intervals()
     batch = suite.load_batch(domain_name, task_name, len(frictions), {"random": seed})
-    (first,) = batch.reset(hidden=frictions).observation.values()
-    side, shown = np.zeros(len(frictions), bool), {False: first[0].tobytes()}
-    assert {value.tobytes() for value in first} == set(shown.values())
-    for _ in range(20):
+    shown = {}
+    batch.reset(hidden=frictions)
+    for _ in range(25):
         pushes = rng.integers(threshold.NUM_LEVELS, size=len(frictions))
-        (seen,) = batch.step(pushes).observation.values()
-        side ^= LEVELS[pushes] > frictions
-        for is_right, value in zip(side.tolist(), seen, strict=True):
-            assert shown.setdefault(is_right, value.tobytes()) == value.tobytes()
-    assert shown[False] != shown[True]
+        observation = batch.step(pushes).observation
+        for i, push in enumerate(pushes.tolist()):
+            seen = b"".join(value[i].tobytes() for value in observation.values())
+            assert shown.setdefault((push, LEVELS[push] > frictions[i]), seen) == seen
+    assert len(set(shown.values())) == len(shown) > 1.5 * threshold.NUM_LEVELS
 
 
 def test_labels_follow_the_prior_and_frictions_keep_away_from_the_levels(seed):

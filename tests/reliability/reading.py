@@ -9,8 +9,8 @@ import subprocess
 import subjects
 
 from physexp.agents import pretrained
-from physexp.analysis.data import records, tables
-from physexp.analysis.evaluation import playing
+from physexp.analysis.data import tables
+from physexp.analysis.evaluation import playing, records
 from physexp.analysis.replay import recording, viewing, writing
 from physexp.analysis.training import run as run_lib
 

@@ -7,7 +7,7 @@ import torch
 
 from physexp.agents import networks, pretrained, starting
 from physexp.agents.ppo import config as ppo
-from physexp.analysis.data import records
+from physexp.analysis.evaluation import records
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import recorder, trainer
 from physexp.analysis.training import run as run_lib

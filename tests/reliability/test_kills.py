@@ -12,8 +12,7 @@ import subjects
 import torch
 
 from physexp.agents import checkpointing
-from physexp.analysis.data import records
-from physexp.analysis.evaluation import playing
+from physexp.analysis.evaluation import playing, records
 from physexp.analysis.experiments import base
 from physexp.analysis.replay import recording, writing
 from physexp.analysis.reproduction import sweep

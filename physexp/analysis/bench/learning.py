@@ -5,7 +5,7 @@ from pathlib import Path
 import sys
 
 from physexp.analysis.bench import measuring
-from physexp.analysis.data import records
+from physexp.analysis.evaluation import records
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions, ideal_gap
 from physexp.analysis.reproduction import sweep
 
@@ -32,7 +32,8 @@ def figures(results_dir: Path) -> Iterator[dict]:
         agents=len(seconds),
     )
     yield measuring.timed("physexp report from stored data", ["report", "--results-dir", str(results_dir)], 60)
-    yield measuring.timed("physexp ideal which_is_heavier", ["ideal", "which_is_heavier", "--difficulty", "3"], 20)
+    domain, _ = measuring.REFERENCE
+    yield measuring.timed(f"physexp ideal {domain}", ["ideal", domain], 20)
 
 
 def _reached(results: base.Results, condition) -> Iterator[dict]:

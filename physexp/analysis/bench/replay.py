@@ -25,8 +25,9 @@ def figures() -> Iterator[dict]:
     for name, task in measuring.FEATURES.items():
         yield _replay_in_training(name, task)
     with tempfile.TemporaryDirectory() as folder:
-        arguments = ["replay", "towers/fist_features", "--episodes", "4", "--output", f"{folder}/replay.rrd"]
-        yield measuring.timed("physexp replay towers/fist_features --episodes 4", arguments, 15)
+        target = "/".join(measuring.REFERENCE)
+        arguments = ["replay", target, "--episodes", "4", "--output", f"{folder}/replay.rrd"]
+        yield measuring.timed(f"physexp replay {target} --episodes 4", arguments, 15)
     yield measuring.timed("physexp --help", ["--help"], 0.5)
 
 

@@ -67,6 +67,8 @@ class Domain:
       presets: by task and algorithm, the configuration to train with where nothing else is asked for. A task or an
         algorithm that is not there has the algorithm's defaults, with the domain's discount.
       labels: by task, the short name of a condition, in which `{option}` stands for an option's value.
+      targets: by the names of the agents that come with the package, what each must reach: a figure of its evaluation
+        and the least value.
       ideal: how to find the ideal experimenter; None where none is known.
       columns: the domain's own columns of stored episodes.
       fill: returns these columns by name, [N] or [N, K] for lists, of hidden properties, [N, ...].
@@ -76,6 +78,7 @@ class Domain:
     discount: float = agent_config.AgentConfig.discount
     presets: Mapping[str, Mapping[str, agent_config.AgentConfig]] = dataclasses.field(default_factory=dict)
     labels: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    targets: Mapping[str, tuple[str, float]] = dataclasses.field(default_factory=dict)
     ideal: Ideal | None = None
     columns: tuple[Column, ...] = ()
     fill: "Callable[[np.ndarray], Mapping[str, np.ndarray]]" = nothing

@@ -111,6 +111,12 @@ DOMAIN = base.Domain(
     discount=_DISCOUNT,
     presets={task: {"a3c": _A3C[task], "ppo": _PPO[task]} for task in _A3C},
     labels={"direct_features": "D-F", "direct_pixels": "D-P", "fist_features": "F-F", "fist_pixels": "F-P"},
+    targets={
+        "towers-direct_features": ("success_rate", 0.95),
+        "towers-fist_features": ("success_rate", 0.98),
+        "towers-direct_pixels": ("success_rate", 0.93),
+        "towers-fist_pixels": ("success_rate", 0.97),
+    },
     ideal=base.Ideal(_solve, IdealOptions),
     columns=(base.Column("pattern", "int8", is_everywhere=True),),  # An index in `tower.PATTERNS`.
     fill=lambda hidden: {"pattern": hidden},

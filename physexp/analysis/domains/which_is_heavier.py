@@ -61,6 +61,14 @@ DOMAIN = base.Domain(
         "pixels": {"a3c": _PIXELS, "ppo": base.ppo_like(_PIXELS, learning_rate=5e-4, num_environments=64)},
     },
     labels={"features": "{difficulty:g}-F", "pixels": "{difficulty:g}-P"},
+    targets={
+        "which_is_heavier-features-difficulty3": ("mean_return", 0.79),
+        "which_is_heavier-features-difficulty5": ("mean_return", 0.83),
+        "which_is_heavier-features-difficulty10": ("mean_return", 0.86),
+        "which_is_heavier-pixels-difficulty3": ("success_rate", 0.88),
+        "which_is_heavier-pixels-difficulty5": ("success_rate", 0.94),
+        "which_is_heavier-pixels-difficulty10": ("success_rate", 0.97),
+    },
     ideal=base.Ideal(_solve, IdealOptions),
     columns=(
         base.Column("masses", "float32", is_list=True, is_varied=True, is_everywhere=True),

@@ -7,8 +7,7 @@ import math
 from pathlib import Path
 from typing import Any
 
-from physexp.analysis.data import records
-from physexp.analysis.evaluation import figures
+from physexp.analysis.evaluation import figures, records
 from physexp.analysis.experiments import claims as claims_lib
 from physexp.analysis.experiments import conditions
 from physexp.analysis.training import config as config_lib

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from physexp.analysis.data import estimates, records
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures, records
 from physexp.analysis.experiments import base, claims, conditions, ideal_towers
 from physexp.analysis.ideal import regret
 

@@ -58,13 +58,13 @@ def replay(
 
 
 def _what(config) -> str:
-    """What a configuration's agent plays, in words."""
+    """Returns what a configuration's agent plays, in words."""
     options = "".join(f", {name} {value:g}" for name, value in config.task_kwargs.items())
     return f"{config.domain}/{config.task}{options}"
 
 
 def _episodes(targets, agents, instance, interaction) -> list[Episode]:
-    """One instance as the first agent has played it, and as the others play it."""
+    """Returns one instance as the first agent has played it, and as the others play it."""
     seed, episode, actions = instance
     (network, config), *others = agents
     title = targets[0] if interaction == "learned" else f"{targets[0]}, {interaction} interaction"

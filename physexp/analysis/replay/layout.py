@@ -8,18 +8,19 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from physexp import suite
+from physexp.analysis import readings
 from physexp.analysis.replay import beliefs, recording, words
 
 TIMELINE = "time"
 
 _LONGER = 1.08  # Plots than the episode, so that its end is seen.
+_MARGIN = 0.05  # Of a plot, below and above what the reading can be.
 _FIELD_OF_VIEW = 55.0  # degrees, of the viewer's own eye
 _NEARER = 0.7  # Than where the same is seen as through the agent's camera, since a window is wider than its images.
 
 
 def blueprint(episodes: Sequence[recording.Episode], roots: Sequence[str]) -> rrb.Blueprint:
-    """The layout of episodes side by side, each below its root entity."""
+    """Returns the layout of episodes side by side, each below its root entity."""
     columns = [_column(episode, root) for episode, root in zip(episodes, roots, strict=True)]
     body = columns[0] if len(columns) == 1 else rrb.Horizontal(*columns)
     return rrb.Blueprint(
@@ -31,7 +32,7 @@ def blueprint(episodes: Sequence[recording.Episode], roots: Sequence[str]) -> rr
 
 
 def titled(root: str, title: str) -> str:
-    """The title of a view of one of several episodes side by side."""
+    """Returns the title of a view of one of several episodes side by side."""
     return f"{root}: {title}" if root else title
 
 
@@ -53,21 +54,34 @@ def _column(episode: recording.Episode, root: str) -> rrb.Container:
 
 
 def _scene(episode: recording.Episode, root: str) -> rrb.Tabs:
-    """The scene without what is hidden, and, behind it, with it."""
+    """Returns the scene without what is hidden, and, behind it, with it, where covers are seen through."""
     eye, origin = _eye(episode), f"{root}/world"
     without: Any = {f"{root}/world/hidden": rrb.EntityBehavior(visible=False)}
+    edges = rr.Boxes3D.from_fields(fill_mode="majorwireframe")
+    through: Any = {f"{root}/world/things/{name}": edges for name in _covers(episode)}
     return rrb.Tabs(
         rrb.Spatial3DView(
             origin=origin, name=titled(root, episode.agent or "scene"), eye_controls=eye, overrides=without
         ),
-        rrb.Spatial3DView(origin=origin, name=titled(root, words.HIDDEN_TAB), eye_controls=eye),
+        rrb.Spatial3DView(origin=origin, name=titled(root, words.HIDDEN_TAB), eye_controls=eye, overrides=through),
         active_tab=0,
     )
 
 
+def _covers(episode: recording.Episode) -> list[str]:
+    """Returns the names of the boxes that have something in them, at the start, that is not drawn."""
+    shapes, positions = episode.shapes, episode.positions[0]
+    covers = []
+    for k in np.flatnonzero(shapes.are_drawn).tolist():
+        inside = np.abs((positions[~shapes.are_drawn] - positions[k]) @ episode.rotations[0, k]) < shapes.sizes[k]
+        if shapes.kinds[k] == "box" and inside.all(axis=1).any():
+            covers.append(shapes.names[k])
+    return covers
+
+
 def _eye(episode: recording.Episode) -> rrb.EyeControls3D:
     """Looks from where the agent's camera does, so near that it shows as much."""
-    camera = suite.load_task(episode.domain, episode.task, episode.task_kwargs).root_entity.camera
+    camera = episode.declared.root_entity.camera
     right, up = np.reshape(camera.xyaxes, (2, 3))
     forward = np.cross(up, right)
     distance = -float(camera.pos @ forward)  # To where it passes the middle of the room.
@@ -86,21 +100,54 @@ def _about(root: str) -> rrb.Container:
 
 
 def _seen(episode: recording.Episode, root: str) -> rrb.View | rrb.Container:
-    if "pixels" in episode.observations:
-        return rrb.Spatial2DView(origin=f"{root}/seen/pixels", name=titled(root, "seen: the image"))
-    curves = functools.partial(_curves, episode, root)
-    if not any(values.ndim == 3 for values in episode.observations.values()):
-        return curves("seen, m", [f"seen/{name}" for name in episode.observations])
-    axes = [curves(f"{axis}, m", [f"seen/{name}/{axis}" for name in episode.observations]) for axis in "xyz"]
-    return rrb.Tabs(curves("seen: distance from start, m", ["seen/moved"]), *axes, active_tab=0)
+    """Returns the images, and plots of the readings; in tabs, where there are several."""
+    curves, seen = functools.partial(_curves, episode, root), readings.shown(episode.declared.readings)
+    seen = [reading for reading in seen if reading.name in episode.observations]
+    views: list[rrb.View] = [
+        rrb.Spatial2DView(origin=f"{root}/seen/{name}", name=titled(root, "seen: the image"))
+        for name in episode.observations
+        if name not in episode.declared.readings
+    ]
+    if any(reading.is_position for reading in seen):
+        views.append(curves("seen: distance from start, m", ["seen/moved"]))
+    views += [curves(title, *plot) for title, plot in _plots(seen).items()]
+    return views[0] if len(views) == 1 else rrb.Tabs(*views, active_tab=0)
+
+
+def _plots(seen: Sequence[readings.Shown]) -> dict[str, tuple[list[str], tuple[float, float] | None]]:
+    """Returns the entities and the limits of each plot, by its title: components that are called the same share one."""
+    found: dict[str, list] = {}
+    for reading in seen:
+        for number, component in enumerate(reading.components):
+            name = component or f"seen: {readings.spoken(reading.name)}"
+            title = f"{name}, {reading.unit}" if reading.unit else name
+            limits = None if reading.limits is None else reading.limits[number]
+            found.setdefault(title, []).append((entity(reading, component), limits))
+    return {
+        title: ([path for path, _ in plot], _widened(readings.joined_limits([limits for _, limits in plot])))
+        for title, plot in found.items()
+    }
+
+
+def _widened(limits: tuple[float, float] | None) -> tuple[float, float] | None:
+    """Returns limits with a margin, so that curves at them can be seen."""
+    if limits is None:
+        return None
+    margin = _MARGIN * (limits[1] - limits[0])
+    return limits[0] - margin, limits[1] + margin
+
+
+def entity(reading: readings.Shown, component: str) -> str:
+    """Returns where the curves of a reading's component are."""
+    return f"seen/{reading.name}/{component}" if component else f"seen/{reading.name}"
 
 
 def _thoughts(episode: recording.Episode, root: str) -> tuple[list[rrb.View], list[list[rrb.View]]]:
-    """What is believed now, and plots of it over time in groups, of which the first ones are to be seen first."""
+    """Returns what is believed now, and plots of it over time in groups; the first of each is to be seen first."""
     curves, chances = functools.partial(_curves, episode, root), (-0.05, 1.05)
-    ideal = [curves("belief of an ideal experimenter", ["belief/ideal"], chances)][
-        : beliefs.of_ideal(episode) is not None
-    ]
+    ideal = [curves("belief of an ideal experimenter", ["belief/ideal"], chances)]
+    if beliefs.of_ideal(episode) is None:
+        ideal = []
     if not len(episode.policies):
         return [], [ideal] if ideal else []
     now = rrb.TextDocumentView(origin=f"{root}/belief/now", name=titled(root, "belief and policy, now"))
@@ -116,7 +163,7 @@ def _curves(
     entities: Sequence[str],
     limits: tuple[float, float] | None = None,
 ) -> rrb.View:
-    """A plot of some entities, up to a little after the end of an episode that is over."""
+    """Returns a plot of some entities, up to a little after the end of an episode that is over."""
     until = _LONGER * float(episode.times[-1]) if len(episode.actions) else None
     return rrb.TimeSeriesView(
         origin=f"{root}/",

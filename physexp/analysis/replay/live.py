@@ -44,7 +44,7 @@ class Live(environment_loop.Observer):
         self._show(timestep.last())
 
     def get_metrics(self):
-        """Nothing: this only shows."""
+        """Returns nothing: this only shows."""
         return {}
 
     def _show(self, is_over: bool) -> None:

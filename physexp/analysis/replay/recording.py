@@ -1,7 +1,8 @@
-"""Recording episodes: an observer of the environment loop, and the re-enactment of episodes known by numbers."""
+"""Recording episodes: an observer of the environment loop, and the re-enactment of episodes known by seed and index."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import dataclasses
+import re
 from typing import Any
 
 import mujoco
@@ -9,26 +10,46 @@ import numpy as np
 
 from physexp import suite
 from physexp.agents import acting, core, environment_loop, networks
+from physexp.analysis import readings
 from physexp.analysis.training import config as config_lib
+from physexp.suite.engine import rendering
+from physexp.suite.engine import task as task_lib
+
+MakeTask = Callable[..., task_lib.QuestionTask]
+"""Makes a task from its options, which are keyword arguments."""
+
+_KINDS = {"BOX": "box", "SPHERE": "sphere", "ELLIPSOID": "ellipsoid", "CYLINDER": "cylinder", "CAPSULE": "capsule"}
 
 
 @dataclasses.dataclass(frozen=True)
-class Things:
-    """What moves in a scene, as shapes.
+class Shapes:
+    """The shapes in a scene, without its floor.
 
     Attributes:
-      names: of K things.
-      kinds: `box` or `sphere`.
-      sizes: half edges or radii, m, float64 [K, 3].
+      names: of K shapes: a thing's first one is called as the thing, its others have longer names.
+      kinds: `box`, `sphere`, `ellipsoid`, `cylinder` or `capsule`; of what is none of them, the box around it.
+      sizes: half the sizes along the shape's own axes, without the caps of a capsule, m, float64 [K, 3].
       colors: float64 [K, 4].
-      bodies: which rigid body each belongs to, int64 [K].
+      are_drawn: whether images show them, bool [K]; those that they do not are hidden.
+      geoms: their addresses in the compiled model, int64 [K].
     """
 
     names: tuple[str, ...]
     kinds: tuple[str, ...]
     sizes: np.ndarray
     colors: np.ndarray
-    bodies: np.ndarray
+    are_drawn: np.ndarray
+    geoms: np.ndarray
+
+    def index(self, thing: str) -> int:
+        """Returns the index of a thing.
+
+        Raises:
+          LookupError: if there is none of that name.
+        """
+        if thing not in self.names:
+            raise LookupError(f"the task names a thing {thing!r}; the scene has {', '.join(self.names)}")
+        return self.names.index(thing)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -38,6 +59,7 @@ class Episode:
     Attributes:
       domain, task: what was played.
       task_kwargs: that differ from the defaults, without the seed.
+      declared: the task itself, for what it declares.
       seed, episode: seed of the environment and index of the episode; they rebuild it.
       agent: who played, in words.
       hidden: the hidden property.
@@ -47,14 +69,16 @@ class Episode:
       rewards: float64 [T].
       policies: probabilities of all actions before each, float64 [T, A]; of no length where the actor has none.
       values: what the actor expected before each action, float64 [T], or of no length.
-      things: the shapes in the scene.
+      shapes: what is in the scene.
       times: when they were where, s, float64 [F].
       positions, rotations: their true poses at every physics step, float64 [F, K, 3] and [F, K, 3, 3].
+      controls: what was sent to the actuators in the physics steps that led there, float64 [F, nu].
     """
 
     domain: str
     task: str
     task_kwargs: dict[str, Any]
+    declared: task_lib.QuestionTask
     seed: int
     episode: int
     agent: str
@@ -65,10 +89,11 @@ class Episode:
     rewards: np.ndarray
     policies: np.ndarray
     values: np.ndarray
-    things: Things
+    shapes: Shapes
     times: np.ndarray
     positions: np.ndarray
     rotations: np.ndarray
+    controls: np.ndarray
 
 
 class EpisodeRecorder(environment_loop.Observer):
@@ -86,6 +111,7 @@ class EpisodeRecorder(environment_loop.Observer):
         task_kwargs: Mapping[str, Any] | None = None,
         actor: core.Actor | None = None,
         agent: str = "",
+        make_task: MakeTask | None = None,
     ):
         """Prepares to watch.
 
@@ -94,8 +120,9 @@ class EpisodeRecorder(environment_loop.Observer):
           domain, task, task_kwargs: what it was loaded with.
           actor: who plays it; its `policy` and `value` are recorded where it has them.
           agent: who plays, in words.
+          make_task: makes the task, where it is not one of those that `suite.load` knows.
         """
-        self._environment, self._actor = environment, actor
+        self._environment, self._actor, self._make_task = environment, actor, make_task
         chosen = {name: value for name, value in (task_kwargs or {}).items() if name != "random"}
         self._facts: dict[str, Any] = {"domain": domain, "task": task, "agent": agent, "task_kwargs": chosen}
         self._rebuilder: _Rebuilder | None = None
@@ -118,7 +145,7 @@ class EpisodeRecorder(environment_loop.Observer):
         self._rewards.append(float(timestep.reward))
 
     def get_metrics(self) -> dict[str, Any]:
-        """Nothing: what was recorded is in `episode`."""
+        """Returns nothing: what was recorded is in `episode`."""
         return {}
 
     def close(self) -> None:
@@ -129,17 +156,17 @@ class EpisodeRecorder(environment_loop.Observer):
 
     @property
     def episode(self) -> Episode:
-        """The episode so far.
+        """Returns the episode so far.
 
         Raises:
           RuntimeError: if the same seed, index and actions do not show again what was seen.
         """
         if self._rebuilder is None:
-            self._rebuilder = _Rebuilder(self._facts["domain"], self._facts["task"], self._facts["task_kwargs"])
+            self._rebuilder = _Rebuilder(self._remade_task())
         observations = {name: np.stack([seen[name] for seen in self._seen]) for name in self._seen[0]}
         seen_again, rebuilt = self._rebuilder.rebuild(*self._identity, self._actions)
         for name, values in observations.items():
-            if not np.array_equal(values, seen_again[name]):
+            if not (name in seen_again and np.array_equal(values, seen_again[name])):
                 seed, index = self._identity
                 raise RuntimeError(
                     f"episode {index} of seed {seed} is not what was seen: {name} differs; record the "
@@ -158,68 +185,106 @@ class EpisodeRecorder(environment_loop.Observer):
             **rebuilt,
         )
 
+    def _remade_task(self) -> task_lib.QuestionTask:
+        domain, task, task_kwargs = (self._facts[name] for name in ("domain", "task", "task_kwargs"))
+        if self._make_task is None:
+            return suite.load_task(domain, task, task_kwargs)
+        return self._make_task(**task_kwargs)
+
 
 class _Rebuilder:
     """Plays episodes again and looks closely."""
 
-    def __init__(self, domain: str, task: str, task_kwargs: Mapping[str, Any]):
-        self._environment = suite.load(domain, task, task_kwargs=dict(task_kwargs))
+    def __init__(self, task: task_lib.QuestionTask):
+        self._environment = suite.Environment(task)
         self._environment.add_extra_hook("after_substep", lambda physics, random_state: self._note_poses(physics))
 
     def close(self) -> None:
+        """Frees the simulation."""
         self._environment.close()
 
     def rebuild(self, seed: int, episode: int, actions: Sequence[int]) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-        """What is seen, by name, and the fields of `Episode` that only the simulation knows."""
+        """Returns what is seen, by name, and the fields of `Episode` that only the simulation knows."""
         task = self._environment.task
         task.reseed(seed)
         task.next_episode = episode
         timestep = self._environment.reset()
-        model = self._environment.physics.model.ptr
-        self._geoms = [geom for geom in range(model.ngeom) if model.body_weldid[model.geom_bodyid[geom]] != 0]
+        model = task.apparatus.model
+        floor = [model.geom(geom.full_identifier).id for geom in (task.root_entity.floor, task.root_entity.mat)]
+        shapes = _shapes(model, floor)
+        self._geoms = shapes.geoms
         self._poses: list[tuple] = []
         self._note_poses(self._environment.physics)
         seen = [timestep.observation, *(self._environment.step(action).observation for action in actions)]
-        times, positions, rotations = (np.array(values) for values in zip(*self._poses, strict=True))
+        times, positions, rotations, controls = (np.array(values) for values in zip(*self._poses, strict=True))
         return {name: np.stack([each[name] for each in seen]) for name in seen[0]}, {
+            "declared": task,
             "hidden": np.array(task.hidden),
             "answer": task.correct_answer,
-            "things": _things(model, self._geoms),
+            "shapes": shapes,
             "times": times,
             "positions": positions,
             "rotations": rotations,
+            "controls": controls,
         }
 
     def _note_poses(self, physics) -> None:
         data = physics.data
-        self._poses.append((data.time, data.geom_xpos[self._geoms], data.geom_xmat[self._geoms].reshape(-1, 3, 3)))
+        positions = data.geom_xpos.copy()
+        self._environment.task.apparatus.indicate(positions[None], data.sensordata[None])
+        rotations = data.geom_xmat[self._geoms].reshape(-1, 3, 3)
+        self._poses.append((data.time, positions[self._geoms], rotations, data.ctrl.copy()))
 
 
-def _things(model: mujoco.MjModel, geoms: Sequence[int]) -> Things:
-    """The shapes of some geoms, named after the entities they belong to."""
-    kinds = {int(mujoco.mjtGeom.mjGEOM_BOX): "box", int(mujoco.mjtGeom.mjGEOM_SPHERE): "sphere"}
-    sizes = model.geom_size[geoms].copy()
-    spheres = model.geom_type[geoms] == mujoco.mjtGeom.mjGEOM_SPHERE
-    sizes[spheres] = sizes[spheres, :1]
-    return Things(
-        names=tuple(model.geom(geom).name.split("/")[-2] for geom in geoms),
-        kinds=tuple(kinds[int(model.geom_type[geom])] for geom in geoms),
-        sizes=sizes,
+def _shapes(model: mujoco.MjModel, floor: Sequence[int]) -> Shapes:
+    """Returns the shapes of a scene: all that moves, and what stands still and is drawn, but for the floor's geoms."""
+    are_drawn = model.geom_group != rendering.UNDRAWN_GROUP
+    is_moving = model.body_weldid[model.geom_bodyid] != 0
+    geoms = np.setdiff1d(np.flatnonzero(are_drawn | is_moving), floor)
+    geoms = geoms[np.argsort(~are_drawn[geoms], kind="stable")]  # A thing's name is that of a shape that can be seen.
+    kinds = [_KINDS.get(mujoco.mjtGeom(kind).name.removeprefix("mjGEOM_"), "box") for kind in model.geom_type[geoms]]
+    return Shapes(
+        names=_names([model.geom(geom).name for geom in geoms]),
+        kinds=tuple(kinds),
+        sizes=np.array([_half_sizes(kind, size) for kind, size in zip(kinds, model.geom_size[geoms], strict=True)]),
         colors=model.geom_rgba[geoms].copy(),
-        bodies=model.body_weldid[model.geom_bodyid[geoms]].astype(np.int64),
+        are_drawn=are_drawn[geoms],
+        geoms=geoms,
     )
 
 
+def _names(identifiers: Sequence[str]) -> tuple[str, ...]:
+    """Returns names of geoms: the entity's for its first one, and all of their identifiers for the others."""
+    names: list[str] = []
+    for identifier in identifiers:
+        name = readings.owner(identifier)
+        names.append(re.sub(r"\W+", "_", identifier) if name in names else name)
+    return tuple(names)
+
+
+def _half_sizes(kind: str, size: np.ndarray) -> np.ndarray:
+    """Returns half the sizes of a geom along its axes, (3,), from what MuJoCo keeps of its kind."""
+    if kind == "sphere":
+        return size[[0, 0, 0]]
+    if kind in ("cylinder", "capsule"):
+        return size[[0, 0, 1]]
+    return size.copy()
+
+
 class Reenactor(core.Actor):
-    """Does what was done before, while another actor says what it would think of it."""
+    """Does what was done before, while another actor says what it would think of it.
+
+    Attributes:
+      policy: the other actor's probabilities of all actions; None where it has none.
+      value: what the other actor expects; not a number where it does not say.
+    """
+
+    policy: np.ndarray | None = None
+    value: float = np.nan
 
     def __init__(self, actor: core.Actor, actions: Sequence[int]):
         """Takes these actions in its first episode, with the beliefs of `actor`."""
         self._actor, self._actions = actor, [int(action) for action in actions]
-
-    def __getattr__(self, name: str):
-        """What the other actor tells of itself: `policy`, `value`."""
-        return getattr(self._actor, name)
 
     def observe_first(self, timestep):
         self._left = list(self._actions)
@@ -227,6 +292,7 @@ class Reenactor(core.Actor):
 
     def select_action(self, observation) -> int:
         self._actor.select_action(observation)
+        self.policy, self.value = getattr(self._actor, "policy", None), getattr(self._actor, "value", np.nan)
         return self._left.pop(0)
 
     def observe(self, action, next_timestep):

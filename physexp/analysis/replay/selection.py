@@ -54,7 +54,7 @@ def select(
 
 
 def _order(played: episodes.Episodes, selection: Selection, hardness: np.ndarray | None) -> np.ndarray:
-    """Indices of the episodes that are as wanted, the best first."""
+    """Returns the indices of the episodes that are as wanted, the best first."""
     if selection == "wrong":
         return np.flatnonzero(played.reward < 0)
     if selection == "right":

@@ -110,7 +110,7 @@ class Viewer:
 
 
 def last_line(messages: bytes) -> str:
-    """The last line of what a program has said, without its colours."""
+    """Returns the last line of what a program has said, without its colours."""
     lines = [line for line in messages.decode(errors="replace").splitlines() if line.strip()]
     return lines[-1] if lines else "it does not say why"
 
@@ -124,7 +124,7 @@ def _address(data_port: int) -> str:
 
 
 def _free_port(preferred: int) -> int:
-    """A port of the loopback on which nobody listens."""
+    """Returns a port of the loopback on which nobody listens."""
     for port in (preferred, 0):
         with socket.socket() as candidate:
             candidate.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from physexp import suite
 from physexp.analysis.replay import recording
 
 HIDDEN_TAB = "with what is hidden"
@@ -27,31 +26,31 @@ scene.
 
 
 def name(episode: recording.Episode) -> str:
-    """Which episode it is."""
+    """Returns which episode it is, in words."""
     options = "".join(f", {key} {value:g}" for key, value in episode.task_kwargs.items())
     return f"{episode.domain}/{episode.task}{options}, seed {episode.seed}, episode {episode.episode}"
 
 
-def about(episode: recording.Episode, question: str, ending: str) -> str:
-    """The question, how it ended, which episode it is and whose, and how to read what is shown; Markdown."""
+def about(episode: recording.Episode, ending: str) -> str:
+    """Returns the question, how it ended, which episode it is and whose, and how to read what is shown; Markdown."""
     reading = _READING if len(episode.policies) else _READING_LIVE
     player = f", played by {episode.agent}" if episode.agent else ""
-    return f"### {question}\n**{ending}**\n\n{name(episode)}{player}\n{reading}"
+    return f"### {episode.declared.question}\n**{ending}**\n\n{name(episode)}{player}\n{reading}"
 
 
 def outcome(episode: recording.Episode) -> str:
-    """How an episode ended, in words."""
-    task = suite.load_task(episode.domain, episode.task, episode.task_kwargs)
-    label = int(episode.actions[-1]) - task.num_interactions
-    truth = task.label_names[episode.answer]
+    """Returns how an episode ended, in words."""
+    label = int(episode.actions[-1]) - episode.declared.num_interactions
+    label_names = episode.declared.label_names
+    truth = label_names[episode.answer]
     if label < 0:
         return f"Time ran out. The right answer: {truth}."
     verdict = "right" if label == episode.answer else f"wrong; it is: {truth}"
-    return f"Answer after {len(episode.actions) - 1} interactions: {task.label_names[label]}. That is {verdict}."
+    return f"Answer after {len(episode.actions) - 1} interactions: {label_names[label]}. That is {verdict}."
 
 
 def bars(labels: Sequence[str], belief: np.ndarray, answers: np.ndarray, ideal: np.ndarray | None) -> str:
-    """A belief as named bars, beside what the policy and an ideal experimenter make of each label; Markdown.
+    """Returns a belief as named bars, beside what the policy and an ideal experimenter make of each label; Markdown.
 
     Args:
       labels: names of L labels.

@@ -1,9 +1,9 @@
 """Writing recorded episodes as recordings for the rerun viewer, with a blueprint that opens ready to read.
 
-world/things/NAME      what moves, with its true pose at every physics step; world/room the floor
+world/things/NAME      what is in the scene, with its true pose at every physics step; world/room the floor
 world/action           the force or velocity applied, as an arrow
-world/hidden/...       what cannot be seen: glue, masses; in a view of its own
-seen/...               what the agent observed: the image, or features as plots; seen/moved the distances from the start
+world/hidden/...       what cannot be seen, in a view of its own: what the task reveals, and things that no image shows
+seen/...               what the agent observed: the image, or readings as plots; seen/moved the distances from the start
 belief/now             the belief, and the policy of the labels, as a table with bars
 belief/labels          the belief: the policy restricted to the labels and renormalized
 belief/policy          the policy: the probability of every action; belief/answers: of all labels together
@@ -23,15 +23,16 @@ import numpy as np
 import rerun as rr
 from scipy.spatial import transform
 
-from physexp import suite
 from physexp.agents import files
-from physexp.analysis import callbacks
+from physexp.analysis import callbacks, readings
 from physexp.analysis.replay import beliefs, layout, palette, recording, words
 from physexp.analysis.replay.layout import TIMELINE
 from physexp.analysis.replay.viewing import PROGRAM, last_line
-from physexp.suite.parts import block
+from physexp.suite.engine import declarations
 
 _ARROW_LENGTH = 0.25  # m
+_FLOOR_THICKNESS, _FLOOR_COLOR = 0.01, (190, 190, 185)  # m
+_TEXT_ABOVE = (0.05, 0.11)  # m, of a mark above its thing: neighbours' texts at two heights.
 _MERGE_SECONDS = 300.0  # A few hundred times what it takes.
 
 
@@ -86,7 +87,7 @@ def check_output(path: Path) -> None:
 
 
 def _merge(recordings: bytes) -> bytes:
-    """One file of what is several, one after the other.
+    """Returns one file of what is several, one after the other.
 
     Raises:
       RuntimeError: if rerun's program fails or does not answer.
@@ -102,7 +103,7 @@ def _merge(recordings: bytes) -> bytes:
 
 
 def _recording(episodes: Sequence[recording.Episode]) -> bytes:
-    """A recording in memory, because rerun drops what it cannot write to a file without a word."""
+    """Returns a recording, made in memory because rerun drops what it cannot write to a file without a word."""
     first, players = episodes[0], "-".join(episode.agent for episode in episodes)
     stream = rr.RecordingStream(
         f"physexp-{first.domain}-{first.task}", recording_id=f"{first.seed}-{first.episode}-{players}"
@@ -121,7 +122,7 @@ class EpisodeWriter:
 
     def __init__(self, stream: rr.RecordingStream, episode: recording.Episode, root: str):
         self._stream, self._episode, self._root = stream, episode, root
-        self._task = suite.load_task(episode.domain, episode.task, episode.task_kwargs)
+        self._task = episode.declared
         # Of what was seen: before each action, and at the end. A label takes no time.
         steps = np.minimum(np.arange(len(episode.actions) + 1), self._num_interactions)
         self._step_times = steps * self._task.control_timestep
@@ -131,14 +132,14 @@ class EpisodeWriter:
         return int((self._episode.actions < self._task.num_interactions).sum())
 
     def write(self, already: int = 0) -> None:
-        """Everything; the log has so many actions already."""
+        """Writes everything; the log has so many actions already."""
         self.write_so_far(already)
         self._write_hidden()
         self._write_belief()
         self._write_outcome()
 
     def write_so_far(self, already: int = 0) -> None:
-        """What may be known before the question is answered; the log has so many actions already."""
+        """Writes what may be known before the question is answered; the log has so many actions already."""
         self._write_scene()
         self._write_seen()
         self._write_actions(already)
@@ -157,69 +158,84 @@ class EpisodeWriter:
     # The scene.
 
     def _write_scene(self) -> None:
-        things = self._episode.things
         self._log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP)
-        self._log(
-            "world/room",
-            rr.Boxes3D(
-                centers=[(0, 0, -0.005)], half_sizes=[(0.7, 0.6, 0.005)], colors=[(190, 190, 185)], fill_mode="solid"
-            ),
-        )
-        for k, name in enumerate(things.names):
-            color = (255 * things.colors[k]).astype(np.uint8)
-            shape = rr.Boxes3D if things.kinds[k] == "box" else rr.Ellipsoids3D
-            self._log(f"world/things/{name}", shape(half_sizes=[things.sizes[k]], colors=[color], fill_mode="solid"))
-            self._follow(f"world/things/{name}", k)
+        half = (*self._task.root_entity.mat.size[:2], _FLOOR_THICKNESS / 2)
+        floor = rr.Boxes3D(centers=[(0, 0, -half[2])], half_sizes=[half], colors=[_FLOOR_COLOR], fill_mode="solid")
+        self._log("world/room", floor)
+        for k in np.flatnonzero(self._episode.shapes.are_drawn).tolist():
+            self._write_shape(f"world/things/{self._episode.shapes.names[k]}", k)
+
+    def _write_shape(self, entity: str, k: int) -> None:
+        shapes = self._episode.shapes
+        color = (255 * shapes.colors[k]).astype(np.uint8)
+        self._log(entity, _archetype(shapes.kinds[k], shapes.sizes[k], color))
+        self._follow(entity, k)
 
     def _follow(self, entity: str, k: int) -> None:
-        """Gives an entity the pose of a thing."""
+        """Gives an entity the pose of a shape."""
         episode = self._episode
         quaternions = transform.Rotation.from_matrix(episode.rotations[:, k]).as_quat()
         columns = rr.Transform3D.columns(translation=episode.positions[:, k], quaternion=quaternions)
         self._columns(entity, episode.times, columns)
 
     def _write_hidden(self) -> None:
-        """Texts beside things, and bars between things that are joined, which move with the first of them."""
-        episode, names = self._episode, self._episode.things.names
+        """Writes things that images do not show, texts beside things, and bars between things that are one."""
+        episode, shapes = self._episode, self._episode.shapes
+        for k in np.flatnonzero(~shapes.are_drawn).tolist():
+            self._write_shape(f"world/hidden/{shapes.names[k]}", k)
         revealed = self._task.reveal(episode.hidden)
         for number, (thing, text) in enumerate(revealed.marks.items()):
-            entity = f"world/hidden/mark_{thing}"
-            place = (0, 0, 0.1 + 0.06 * (number % 2))  # Neighbours' texts at two heights.
-            self._log(entity, rr.Points3D([place], labels=[text], radii=[0.006], show_labels=True))
-            self._follow(entity, names.index(thing))
-        for first, second in revealed.joined:
-            entity, k, other = f"world/hidden/{first}_to_{second}", names.index(first), names.index(second)
-            middle = (episode.positions[0, other] - episode.positions[0, k]) @ episode.rotations[0, k] / 2
-            half = (0.4 * block.HALF_SIZE, 1.15 * block.HALF_SIZE, 0.8 * block.HALF_SIZE)
-            self._log(entity, rr.Boxes3D(centers=[middle], half_sizes=[half], colors=[palette.GLUE], fill_mode="solid"))
+            entity, k = f"world/hidden/mark_{thing}", shapes.index(thing)
+            place = (0, 0, shapes.sizes[k].max() + _TEXT_ABOVE[number % 2])
+            self._log(
+                entity, rr.Points3D([place], labels=[text], colors=[palette.MARK], radii=[0.006], show_labels=True)
+            )
             self._follow(entity, k)
+        for first, second in revealed.joined:
+            entity = f"world/hidden/{first}_to_{second}"
+            self._log(entity, self._bar(shapes.index(first), shapes.index(second)))
+            self._follow(entity, shapes.index(first))
+
+    def _bar(self, first: int, second: int) -> rr.Boxes3D:
+        """Returns a bar from one shape to another, which stands out of both, as the first one sees it."""
+        episode = self._episode
+        between = (episode.positions[0, second] - episode.positions[0, first]) @ episode.rotations[0, first]
+        size, distance = episode.shapes.sizes[first].max(), np.linalg.norm(between)
+        turn, _ = transform.Rotation.align_vectors(between / distance, (0, 0, 1))
+        half = (0.4 * size, 1.15 * size, 0.4 * distance)
+        return rr.Boxes3D(
+            centers=[between / 2],
+            half_sizes=[half],
+            quaternions=[turn.as_quat()],
+            colors=[palette.JOINT],
+            fill_mode="solid",
+        )
 
     # What was seen.
 
     def _write_seen(self) -> None:
+        observations = self._episode.observations
+        for name in observations.keys() - self._task.readings.keys():
+            for time, image in zip(self._step_times, observations[name], strict=True):
+                self._log(f"seen/{name}", rr.Image(image), time)
         moved: dict[str, np.ndarray] = {}
-        sensed = palette.sensed_things(self._task)
-        for name, values in self._episode.observations.items():
-            if values.dtype == np.uint8:
-                for time, image in zip(self._step_times, values, strict=True):
-                    self._log(f"seen/{name}", rr.Image(image), time)
-            elif values[0].size == len(sensed[name]):
-                self._curves(f"seen/{name}", values, sensed[name])
-            else:
-                places = values.reshape(len(values), len(sensed[name]), -1)
-                for axis, letter in enumerate("xyz"):
-                    self._curves(f"seen/{name}/{letter}", places[..., axis], sensed[name])
-                moved.update(zip(sensed[name], np.linalg.norm(places - places[0], axis=2).T, strict=True))
+        for reading in readings.shown(self._task.readings):
+            if reading.name not in observations:
+                continue
+            values = reading.values(observations[reading.name])
+            colors = [palette.of_thing(self._episode.shapes, thing) for thing in reading.things]
+            for number, component in enumerate(reading.components):
+                entity = layout.entity(reading, component)
+                self._series(entity, values[..., number], reading.names, colors, steps=not reading.unit)
+            if reading.is_position:
+                moved.update(zip(reading.things, np.linalg.norm(values - values[0], axis=2).T, strict=True))
         if moved:
-            self._curves("seen/moved", np.stack(list(moved.values()), axis=1), list(moved))
-
-    def _curves(self, entity: str, values: np.ndarray, things: Sequence[str]) -> None:
-        """Curves [T, S] of what is known of S things, at the times of the steps."""
-        colors = [palette.of_thing(self._episode.things, thing) for thing in things]
-        self._series(entity, values, [palette.spoken(thing) for thing in things], colors)
+            colors = [palette.of_thing(self._episode.shapes, thing) for thing in moved]
+            distances = np.stack(list(moved.values()), axis=1)
+            self._series("seen/moved", distances, [readings.spoken(thing) for thing in moved], colors)
 
     def _series(self, entity: str, values: np.ndarray, names: Sequence[str], colors=None, steps: bool = False) -> None:
-        """Curves [T, S] at the times of the steps; with `steps` each value holds until the next."""
+        """Writes curves [T, S] at the times of the steps; with `steps` each value holds until the next."""
         lines = rr.SeriesLines(
             names=list(names),
             colors=colors,
@@ -232,8 +248,8 @@ class EpisodeWriter:
     # What was believed.
 
     def _write_belief(self) -> None:
-        episode, things, labels = self._episode, self._episode.things, self._task.label_names
-        names, colors = [palette.short(label, things) for label in labels], palette.of_labels(labels, things)
+        episode, shapes, labels = self._episode, self._episode.shapes, self._task.label_names
+        names, colors = [palette.short(label, shapes) for label in labels], palette.of_labels(labels, shapes)
         ideal = beliefs.of_ideal(episode)
         if ideal is not None:
             self._series("belief/ideal", ideal, names, colors, steps=True)
@@ -257,29 +273,51 @@ class EpisodeWriter:
         for step, action in list(enumerate(self._episode.actions))[already:]:
             self._log("did/actions", rr.TextLog(f"step {step}: {names[action]}"), self._step_times[step])
         if not already:
-            self._markdown("did/outcome", words.about(self._episode, self._task.question, "Not answered yet."), 0.0)
+            self._markdown("did/outcome", words.about(self._episode, "Not answered yet."), 0.0)
         if len(self._episode.actions):
             self._write_arrows()
 
     def _write_outcome(self) -> None:
-        text = words.about(self._episode, self._task.question, words.outcome(self._episode))
+        text = words.about(self._episode, words.outcome(self._episode))
         self._markdown("did/outcome", text, self._step_times[-1])
 
     def _markdown(self, entity: str, text: str, time: float) -> None:
         self._log(entity, rr.TextDocument(text, media_type="text/markdown"), time)
 
     def _write_arrows(self) -> None:
-        """At every physics step, where the action acts and in which direction; of no length where there is none."""
+        """Writes, at every physics step, where the action acts and in which direction; no arrow where there is none."""
         episode, interactions = self._episode, self._task.interactions
         steps = np.ceil(episode.times / self._task.control_timestep - 1e-6).astype(int) - 1  # Of the action under way.
         steps = np.clip(steps, 0, len(episode.actions) - 1)
         origins, vectors = np.zeros((2, len(steps), 3))
         for frame, step in enumerate(steps):
             if episode.actions[step] < len(interactions):
-                interaction = interactions[episode.actions[step]]
-                origins[frame] = episode.positions[frame, episode.things.names.index(interaction.thing)]
-                vectors[frame] = _ARROW_LENGTH * np.array(interaction.vector) / np.linalg.norm(interaction.vector)
+                k = episode.shapes.index(interactions[episode.actions[step]].thing)
+                # An arrow does not tell where something hidden has gone.
+                origins[frame] = episode.positions[frame if episode.shapes.are_drawn[k] else 0, k]
+                # Nothing has been sent yet in the first frame; it shows what is about to be.
+                vectors[frame] = _arrow(interactions[episode.actions[step]], episode.controls[max(frame, 1)])
         self._log("world/action", rr.Arrows3D.from_fields(colors=[palette.ACTION], radii=[0.012]))
         self._columns("world/action", episode.times, rr.Arrows3D.columns(origins=origins, vectors=vectors))
         end = self._step_times[-1] + 1e-3  # After the last step, when nothing is done any more.
         self._columns("world/action", [end], rr.Arrows3D.columns(origins=[(0, 0, 0)], vectors=[(0, 0, 0)]))
+
+
+def _arrow(interaction: declarations.Interaction, sent: np.ndarray) -> np.ndarray:
+    """Returns the arrow of an interaction that sent this, (3,): backwards, where that is against what it declares."""
+    vector, control = np.array(interaction.vector, float), np.asarray(interaction.control, float)
+    share = sent @ control / (control @ control or 1.0)
+    return _ARROW_LENGTH * share * vector / (np.linalg.norm(vector) or 1.0)
+
+
+def _archetype(kind: str, size: np.ndarray, color: np.ndarray):
+    """Returns what rerun draws a shape as: its kind, half its sizes, m, (3,), and its colour, uint8 (4,)."""
+    if kind == "box":
+        return rr.Boxes3D(half_sizes=[size], colors=[color], fill_mode="solid")
+    radius, length = size[0], 2 * size[2]
+    if kind == "cylinder":
+        return rr.Cylinders3D(lengths=[length], radii=[radius], colors=[color], fill_mode="solid")
+    if kind == "capsule":
+        below = (0, 0, -length / 2)  # From where rerun's capsules begin.
+        return rr.Capsules3D(lengths=[length], radii=[radius], translations=[below], colors=[color], fill_mode="solid")
+    return rr.Ellipsoids3D(half_sizes=[size], colors=[color], fill_mode="solid")

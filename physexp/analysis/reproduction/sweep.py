@@ -14,8 +14,7 @@ import pyarrow
 from physexp import suite
 from physexp.agents import files
 from physexp.analysis import callbacks
-from physexp.analysis.data import records
-from physexp.analysis.evaluation import playing
+from physexp.analysis.evaluation import playing, records
 from physexp.analysis.experiments import base, conditions
 from physexp.analysis.reproduction import jobs as jobs_lib
 from physexp.analysis.training import config as config_lib

@@ -15,8 +15,8 @@ SUITE = containers.TaggedTasks()
 PHYSICS_TIMESTEP = 0.01  # s
 
 # A block on a rail between two stops. A push goes away from the stop that the block leans on, and a force above its
-# friction takes it to the other one within a control step. All that can be read is on which stop it leans: how far it
-# slid would tell the friction after a single push.
+# friction takes it to the other one within a control step. All that can be read of the block is whether it has slid:
+# how far would tell the friction after a single push.
 NUM_LEVELS = 8
 LEVEL_SPACING = 4.0  # N: level k pushes with (k + 1) times this force
 MASS = 0.05  # kg: so light that the smallest surplus of force takes the block across in time
@@ -38,8 +38,8 @@ _LONGEST_EPISODE = 10.0  # s
 _ROOM = dict(mat_size=[0.36, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.1], fovy=14.5)
 _COVER_HALF_SIZE = (0.13, 0.08, 0.07)  # m
 _COVER_RGBA = (0.50, 0.50, 0.55, 1.0)
-_FLAG_DISTANCE = 0.24  # m, from the middle of the rail
-_FLAG_LOW, _FLAG_RISE = 0.05, 0.12  # m
+_FLAG_X, _POINTER_X = 0.24, -0.24  # m
+_RISE = 0.3  # m, of the flag when the block has slid, and of the pointer with the greatest force
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -93,13 +93,29 @@ def draw_frictions(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -
     return LEVEL_SPACING * (labels + MARGIN + (1 - 2 * MARGIN) * draws[:, 1])
 
 
-def _side(positions: np.ndarray) -> np.ndarray:
-    """Returns on which stop a block leans, from its position on the rail, m: 0 on the left one, 1 on the right one."""
-    return (positions > TRAVEL / 2).astype(float)
+def _is_right(positions: np.ndarray) -> np.ndarray:
+    """Returns whether a block leans on the right stop, from its position on the rail, m."""
+    return positions > TRAVEL / 2
+
+
+def _strength(forces: np.ndarray) -> np.ndarray:
+    """Returns the share of the greatest force that was pushed with, from the force of the actuator, N [N, 1]."""
+    return np.abs(forces) / (NUM_LEVELS * LEVEL_SPACING)
+
+
+def _slid(values: np.ndarray) -> np.ndarray:
+    """Returns 1 where the last push took the block to the other stop, and 0 elsewhere.
+
+    Args:
+      values: the block's position on the rail, m, and the force of the actuator, N, [N, 2]. A push goes away from the
+        stop that the block leans on: if it leans on the one that the push goes to, it has slid.
+    """
+    positions, forces = values.T
+    return np.where(_is_right(positions), forces > 0, forces < 0).astype(float)[:, None]
 
 
 class Threshold(task.QuestionTask):
-    """A covered block on a rail with dry friction, which is hidden, and two flags that tell on which stop it leans."""
+    """A covered block on a rail with dry friction, which is hidden, and a flag that tells whether it has slid."""
 
     options: Options
     question = "Which is the smallest of the forces that makes the block slide?"
@@ -126,17 +142,15 @@ class Threshold(task.QuestionTask):
         rail = frame.add(
             "joint", name="rail", type="slide", axis=[1, 0, 0], limited=True, range=[0, TRAVEL], **_FRICTION, **_STOP
         )
-        room.mjcf_model.actuator.add("motor", name="push", joint=rail)
+        push = room.mjcf_model.actuator.add("motor", name="push", joint=rail)
         self._rails = (rail.full_identifier,)
-        self._position = room.mjcf_model.sensor.add("jointpos", name="position", joint=rail)
-        self._flags = []
-        for name, x, height in (
-            ("left_flag", -_FLAG_DISTANCE, _FLAG_LOW + _FLAG_RISE),  # Up: the block leans on the left stop at first.
-            ("right_flag", _FLAG_DISTANCE, _FLAG_LOW),
-        ):
-            built = flag.Flag(rgba=block.COLORS[1], name=name)
-            room.attach(built).pos = [x, 0, height]
-            self._flags.append(built)
+        sensors = room.mjcf_model.sensor
+        self._position = sensors.add("jointpos", name="position", joint=rail)
+        self._force = sensors.add("actuatorfrc", name="force", actuator=push)
+        self._flag = flag.Flag(rgba=block.COLORS[1], name="flag")
+        self._pointer = flag.Flag(rgba=block.COLORS[2], name="pointer")
+        room.attach(self._flag).pos = [_FLAG_X, 0, flag.HALF_SIZE[2]]
+        room.attach(self._pointer).pos = [_POINTER_X, 0, flag.HALF_SIZE[2]]
         super().__init__(room, options, sense)
 
     @property
@@ -153,14 +167,16 @@ class Threshold(task.QuestionTask):
 
     @property
     def readings(self):
-        return {"side": declarations.Reading([self._position], (1,), unit="", bounds=(0, 1), measure=_side)}
+        return {
+            "strength": declarations.Reading([self._force], (1,), unit="", bounds=(0, 1), measure=_strength),
+            "slid": declarations.Reading([self._position, self._force], (1,), unit="", bounds=(0, 1), measure=_slid),
+        }
 
     @property
     def indicators(self):
-        left, right = self._flags
         return [
-            declarations.Indicator(left.geom, "side", 0, (0, 0, -_FLAG_RISE)),
-            declarations.Indicator(right.geom, "side", 0, (0, 0, _FLAG_RISE)),
+            declarations.Indicator(self._flag.geom, "slid", 0, (0, 0, _RISE)),
+            declarations.Indicator(self._pointer.geom, "strength", 0, (0, 0, _RISE)),
         ]
 
     def draw(self, seeds, episodes):
@@ -175,7 +191,7 @@ class Threshold(task.QuestionTask):
 
     def drive(self, actions, qpos, ctrl):
         """Returns the force of a push, which goes away from the stop that the block leans on, N [N, 1]."""
-        return self.controls[actions] * (1 - 2 * _side(qpos))
+        return self.controls[actions] * np.where(_is_right(qpos), -1, 1)
 
     def reveal(self, hidden):
         return declarations.Revealed(marks={"block": f"friction {float(hidden):.1f} N"})
@@ -187,11 +203,11 @@ class Threshold(task.QuestionTask):
 
 @SUITE.add("features")
 def features(options):
-    """Observes `side`, float32 (1,): on which stop the block leans, 0 on the left one, 1 on the right one."""
+    """Observes `strength`, float32 (1,): the last push's share of the greatest force; `slid`, float32 (1,): 0 or 1."""
     return Threshold(options, senses.Features())
 
 
 @SUITE.add("pixels")
 def pixels(options):
-    """Observes `pixels`, uint8 (84, 84, 3): a covered rail, and the flag of the stop that the block leans on is up."""
+    """Observes `pixels`, uint8 (84, 84, 3): a covered rail, a pointer that shows the strength, and the flag."""
     return Threshold(options, senses.Pixels())

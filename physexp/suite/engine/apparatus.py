@@ -40,7 +40,8 @@ class Apparatus:
 
     Attributes:
       model: the compiled model.
-      readings: for each feature, the sensor addresses that make it up, int of the feature's shape.
+      readings: for each feature, the sensor addresses that make it up: int of the feature's shape, or [number of sensor
+        values] where the feature is measured from them.
       rest_qpos: `qpos` of the initial state, float64 [nq].
       rest: the fields of `LOOKED_AT` in the initial state, float64, by name.
       held: the entities that must look untouched until they are.
@@ -147,10 +148,7 @@ def build(
     moving[geoms] = True
     built = Apparatus(
         model=model,
-        readings={
-            name: _addresses(model.sensor(sensor.full_identifier) for sensor in reading.sensors).reshape(reading.shape)
-            for name, reading in readings.items()
-        },
+        readings={name: _addresses_of(model, reading) for name, reading in readings.items()},
         rest_qpos=model.qpos0.copy(),
         rest={field: getattr(data, field).copy() for field in LOOKED_AT},
         held=tuple(_find_held(model, mjcf.get_attachment_frame(entity.mjcf_model)) for entity in held),
@@ -191,6 +189,12 @@ def _find_held(model: mujoco.MjModel, frame: mjcf.Element) -> _Held:
         qpos=np.concatenate([np.zeros(0, np.intp), *coordinates]).astype(np.intp),
         shows={"sensordata": _addresses(sensors), "geom_xpos": geoms, "geom_xmat": geoms},
     )
+
+
+def _addresses_of(model: mujoco.MjModel, reading: declarations.Reading) -> np.ndarray:
+    """Returns the addresses in `sensordata` of what makes up a reading."""
+    addresses = _addresses(model.sensor(sensor.full_identifier) for sensor in reading.sensors)
+    return addresses if reading.measure is not None else addresses.reshape(reading.shape)
 
 
 def _addresses(sensors) -> np.ndarray:

@@ -278,7 +278,10 @@ class _Group:
         self._batch = Batch(apparatus.model, size, num_threads)
         self._batch.reset(stage=mujoco.mjtStage.mjSTAGE_NONE)
         self._rest = self._batch.state[0].copy()
-        self._qpos, self._control = (self._batch.bind(name) for name in ("qpos", "ctrl"))
+        self._is_at_rest = np.ones(size, bool)
+        self._qpos, self._control, self._sensordata = (
+            self._batch.bind(name) for name in ("qpos", "ctrl", "sensordata")
+        )
         self._looked_at = {field: self._batch.bind(field) for field in task.sense.fields}
 
     @functools.cached_property
@@ -293,11 +296,13 @@ class _Group:
     def reset(self, rows, hidden) -> None:
         self._batch.state[rows] = self._rest
         self._control[rows] = 0
+        self._is_at_rest[rows] = True
         for field, (addresses, values) in self._task.hidden_fields(self.apparatus, hidden).items():
             self._batch.expand(field)[rows[:, None], addresses] = values
 
     def step(self, rows, actions) -> np.ndarray:
         """Simulates a control step; returns the rows that diverged."""
+        self._is_at_rest[rows] = False
         self._control[rows] = self._task.drive(actions, self._qpos[rows], self._control[rows])
         self._batch.warning[rows] = 0  # A row that diverges is reset by MuJoCo, its counters too.
         self._batch.step(ids=rows, nstep=self._task.options.substeps, stage=mujoco.mjtStage.mjSTAGE_POS)
@@ -317,10 +322,10 @@ class _Group:
         positions, rotations = np.zeros((len(rows), model.ngeom, 3)), np.zeros((len(rows), model.ngeom, 9))
         for i, row in enumerate(rows):
             data.qpos[:] = self._qpos[row]
-            mujoco.mj_fwdPosition(model, data)
-            mujoco.mj_sensorPos(model, data)
+            mujoco.mj_kinematics(model, data)
             positions[i], rotations[i] = data.geom_xpos, data.geom_xmat
-            self.apparatus.indicate(positions[i][None], data.sensordata[None])
+        at_rest = self._is_at_rest[rows, None]  # Where what the sensors last showed is of an earlier episode.
+        self.apparatus.indicate(positions, np.where(at_rest, self.apparatus.rest["sensordata"], self._sensordata[rows]))
         return positions, rotations
 
     def view(self, field) -> np.ndarray:

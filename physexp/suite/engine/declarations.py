@@ -10,7 +10,7 @@ Fields = Mapping[str, tuple[np.ndarray, np.ndarray]]
 """For each model field, the addresses, int [K], at which environments differ, and the values there, [N, K]."""
 
 Measure = Callable[[np.ndarray], np.ndarray]
-"""Turns sensor values into a reading, float64 [N, ...] both, row by row."""
+"""Turns sensor values, float64 [N, number of values], into a reading, [N, ...], row by row."""
 
 
 @dataclasses.dataclass(frozen=True)

@@ -57,7 +57,7 @@ class Laboratory(composer.Arena):
             contype=0,
             conaffinity=0,
         )
-        world.add(
+        self.mat = world.add(
             "geom",
             name="mat",
             type="box",

@@ -1,0 +1,98 @@
+"""How the readings of a task are shown to people: as which curves, of which things, in which unit and bounds."""
+
+from collections.abc import Mapping, Sequence
+import dataclasses
+from typing import Any
+
+import numpy as np
+
+from physexp.suite.engine import declarations
+
+POSITION = (("x", "y", "z"), "m")
+"""The components and the unit of a reading that tells where things are."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Shown:
+    """A reading as S curves for each of C components.
+
+    Attributes:
+      name: of the reading.
+      components: names of the components; one without a name where the reading has none.
+      names: of the curves, in words.
+      things: names of the things that the curves tell of.
+      unit: of the values; empty where they have none.
+      limits: the least and the greatest value of each component, [C, 2], where they are known.
+    """
+
+    name: str
+    components: tuple[str, ...]
+    names: tuple[str, ...]
+    things: tuple[str, ...]
+    unit: str
+    limits: np.ndarray | None
+
+    @property
+    def is_position(self) -> bool:
+        """Whether it tells where things are, in metres."""
+        return (self.components, self.unit) == POSITION
+
+    def values(self, observed: np.ndarray) -> np.ndarray:
+        """Returns the values, [T, S, C], of the reading as it was observed once, [*shape], or T times, [T, *shape]."""
+        return observed.reshape(-1, len(self.names), len(self.components))
+
+
+def shown(readings: Mapping[str, declarations.Reading]) -> list[Shown]:
+    """Returns how each of a task's readings is shown."""
+    return [_shown(name, reading) for name, reading in readings.items()]
+
+
+def spoken(name: str) -> str:
+    """Returns the name of a thing or a reading in words."""
+    return name.replace("_", " ")
+
+
+def owner(identifier: str) -> str:
+    """Returns the name of the innermost model in an identifier, as of `tower/block_0/center` or a frame `block_0/`."""
+    *models, last = identifier.rstrip("/").split("/")
+    return next((part for part in reversed(models) if part), last)
+
+
+def _shown(name: str, reading: declarations.Reading) -> Shown:
+    components = reading.components or ("",)
+    count = int(np.prod(reading.shape)) // len(components)
+    things = [_thing(sensor) for sensor in reading.sensors]
+    names = [spoken(thing) for thing in things]
+    if count == 1 and not reading.components:
+        names, things = [spoken(name)], things if len(things) == 1 else [""]
+    elif count != len(things):  # Values that have no names.
+        names = [str(number) for number in range(count)]
+        things = (things if len(set(things)) == 1 else [""])[:1] * count
+    elif len(set(things)) < len(things):  # Several sensors of one thing.
+        names = [spoken(sensor.name or str(number)) for number, sensor in enumerate(reading.sensors)]
+    return Shown(name, components, tuple(names), tuple(things), reading.unit, _limits(reading, len(components)))
+
+
+def _limits(reading: declarations.Reading, num_components: int) -> np.ndarray | None:
+    """Returns the bounds of each component, [C, 2], over all things."""
+    if reading.bounds is None:
+        return None
+    low, high = (np.broadcast_to(bound, reading.shape).reshape(-1, num_components) for bound in reading.bounds)
+    return np.stack([low.min(axis=0), high.max(axis=0)], axis=1)
+
+
+def _thing(sensor: Any) -> str:
+    """Returns the thing that an MJCF sensor is attached to: the model that its joint, site or body belongs to."""
+    for value in sensor.get_attributes().values():
+        identifier = getattr(value, "full_identifier", None)
+        if identifier is not None:
+            return owner(identifier)
+    return sensor.name
+
+
+def joined_limits(group: Sequence[np.ndarray | None]) -> tuple[float, float] | None:
+    """Returns the least and the greatest of several pairs, (2,) each; None where one of them is not known."""
+    known = [limits for limits in group if limits is not None]
+    if not known or len(known) < len(group):
+        return None
+    return float(min(limits[0] for limits in known)), float(max(limits[1] for limits in known))
