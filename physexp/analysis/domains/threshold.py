@@ -24,12 +24,27 @@ class IdealOptions:
 
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
-    """Returns the ideal experimenter, which plays from features and from images alike."""
+    """Returns the ideal experimenter; it plays from features."""
+    from physexp import suite
     from physexp.analysis.ideal import intervals
+
+    played = suite.load_task("threshold", task, dict(task_kwargs))
+    solution = intervals.solve(_prior(played.options), discount, played.rules.step_limit)
+    return dataclasses.replace(
+        solution,
+        passed=_has_slid if "features" in suite.tags("threshold", task) else None,
+        label=lambda hidden: int(played.answers(hidden[None])[0]),
+    )
+
+
+def _prior(options):
     from physexp.suite.domains import threshold
 
-    options = threshold.Options(**task_kwargs)
-    return intervals.solve(threshold.prior(options.difficulty), discount, options.step_limit)
+    return threshold.prior(options.difficulty)
+
+
+def _has_slid(observation) -> bool:
+    return bool(observation["slid"][0])
 
 
 DOMAIN = base.Domain(

@@ -5,7 +5,7 @@ the last test tells nothing. What is known is thus an interval of labels, and th
 back from the last step, over all intervals. What an interval is worth is kept times its probability: then parts add up.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import dataclasses
 from typing import Any
 
@@ -40,6 +40,8 @@ class Solution:
       value: expected discounted return from an episode's start.
       random_value: the same of tests chosen uniformly at random, with the best answers at the best moment.
       policy: the best action at each step, for each least and greatest label, int64 [step_limit, L, L].
+      passed: tells from the observation after a test whether it was passed; None where that cannot be read.
+      label: returns the right label of a hidden property; None where it is not known.
     """
 
     prior: np.ndarray
@@ -48,6 +50,8 @@ class Solution:
     value: float
     random_value: float
     policy: np.ndarray
+    passed: Callable[[Mapping[str, np.ndarray]], bool] | None = None
+    label: Callable[[np.ndarray], int] | None = None
 
     @property
     def bound(self) -> float:
@@ -76,17 +80,29 @@ class Solution:
         return weights / weights.sum(axis=-1, keepdims=True)
 
     def actor(self) -> core.Actor:
-        """Returns an actor that takes a test as passed where what is observed has changed."""
-        return _Player(self)
+        """Returns an actor that reads from observations whether a test was passed.
+
+        Raises:
+          ValueError: if that cannot be read from what the task observes.
+        """
+        if self.passed is None:
+            raise ValueError("the ideal experimenter reads tests from features, not from images; choose such a task")
+        return _Player(self, self.passed)
 
     def beliefs(self, episode: base.Episode) -> np.ndarray:
-        """Returns the posterior at the start and after each action of an episode, float64 [T + 1, L]."""
+        """Returns the posterior at the start and after each action of an episode, float64 [T + 1, L].
+
+        Raises:
+          ValueError: if it was not told how the right label follows from what is hidden.
+        """
+        if self.label is None:
+            raise ValueError("this ideal experimenter was not told how the label follows from what is hidden")
+        label = self.label(episode.hidden)
         low, high = [0], [len(self.prior) - 1]
-        for step, action in enumerate(episode.actions):
-            before, after = ({name: seen[t] for name, seen in episode.observations.items()} for t in (step, step + 1))
+        for action in episode.actions:
             least, most = low[-1], high[-1]
             if action < len(self.prior):
-                least, most = map(int, narrow(least, most, int(action), has_changed(before, after)))
+                least, most = map(int, narrow(least, most, int(action), label <= action))
             low.append(least)
             high.append(most)
         return self.posterior(np.array(low), np.array(high))
@@ -129,12 +145,11 @@ class Solution:
 class _Player(core.Actor):
     """Plays a solution."""
 
-    def __init__(self, solution: Solution):
-        self._solution = solution
+    def __init__(self, solution: Solution, passed: Callable[[Mapping[str, np.ndarray]], bool]):
+        self._solution, self._passed = solution, passed
 
     def observe_first(self, timestep):
         self._low, self._high, self._step = 0, len(self._solution.prior) - 1, 0
-        self._seen = timestep.observation
 
     def select_action(self, observation) -> int:
         return int(self._solution.actions(self._low, self._high, self._step))
@@ -142,17 +157,12 @@ class _Player(core.Actor):
     def observe(self, action, next_timestep):
         if next_timestep.last():
             return
-        passed = has_changed(self._seen, next_timestep.observation)
+        passed = self._passed(next_timestep.observation)
         self._low, self._high = map(int, narrow(self._low, self._high, action, passed))
-        self._seen, self._step = next_timestep.observation, self._step + 1
+        self._step += 1
 
     def update(self):
         """Does nothing: it knows all that can be known."""
-
-
-def has_changed(before: Mapping[str, np.ndarray], after: Mapping[str, np.ndarray]) -> bool:
-    """Returns whether two observations differ, which says that the test between them was passed."""
-    return any(not np.array_equal(seen, after[name]) for name, seen in before.items())
 
 
 def solve(prior: Sequence[float] | np.ndarray, discount: float, step_limit: int) -> Solution:
