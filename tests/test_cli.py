@@ -170,7 +170,7 @@ def test_train_has_the_options_and_presets_of_every_learner(run, algorithm):
 
 def test_help_lists_the_experiments_and_the_sections_that_there_are(run):
     assert f"{' '.join(experiments.EXPERIMENTS)} or all." in words_of(run("reproduce", "--help").stdout)
-    assert " ".join(bench.DEFAULT) in words_of(run("bench", "--help").stdout)
+    assert " ".join(bench.BY_DEFAULT) in words_of(run("bench", "--help").stdout)
     assert tuple(experiments.EXPERIMENTS) == experiments.NAMES
     assert all(name == experiment.name for name, experiment in experiments.EXPERIMENTS.items())
 

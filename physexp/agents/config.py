@@ -45,7 +45,7 @@ class AgentConfig:
         "learning_rate": "",
         "entropy_cost": "",
     }
-    """What the learner measures in each update: names, and what they mean where that does not say it."""
+    """Names of what the learner measures in each update, and what they mean where the name does not say it."""
     can_run_on_cluster: ClassVar[bool] = False
     """Whether its workers may be spread over machines."""
 

@@ -73,7 +73,7 @@ def load(domain: str, task: str, *values: Any, folder: Path = FOLDER, **options:
     """
     base = name(domain, task, {})
     siblings = [each for each in names(folder) if each.startswith(f"{base}-")]
-    positions = _option_names(siblings[0], base) if siblings else []
+    positions = options_of(domain, task, folder)
     given = {**dict(zip(positions, values, strict=False)), **options}
     if len(values) > len(positions) and any(value is not None for value in values[len(positions) :]):
         raise ValueError(
@@ -84,6 +84,12 @@ def load(domain: str, task: str, *values: Any, folder: Path = FOLDER, **options:
     if wanted == base and base not in names(folder):
         wanted = _default(siblings, folder) or base
     return load_named(wanted, folder)
+
+
+def options_of(domain: str, task: str, folder: Path = FOLDER) -> list[str]:
+    """Returns the names of the options that tell the agents of a task apart."""
+    base = name(domain, task, {})
+    return next((_option_names(each, base) for each in names(folder) if each.startswith(f"{base}-")), [])
 
 
 def _option_names(base: str, prefix: str) -> list[str]:

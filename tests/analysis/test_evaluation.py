@@ -172,7 +172,7 @@ THERE = "which_is_heavier-features-difficulty10, which_is_heavier-features-diffi
             {"difficulty": math.nan},
             "named which_is_heavier-features-difficultynan; there are: ",
         ),
-        ("towers/fist_features", {"difficulty": 3}, "named towers-fist_features-difficulty3; there are: "),
+        ("towers/fist_features", {"difficulty": 3}, "towers/fist_features has no difficulty, and difficulty is 3"),
         ("towers-fist_features", {"difficulty": 3}, "towers-fist_features has no difficulty, and difficulty is 3"),
         (
             "which_is_heavier-features-difficulty3",

@@ -76,7 +76,9 @@ def shipped_agent(
     Raises:
       ValueError: if there is none; it lists those that there are.
     """
-    agent = pretrained.load(domain, task, **task_kwargs)
+    tell_apart = pretrained.options_of(domain, task)
+    agent = pretrained.load(domain, task, **{name: value for name, value in task_kwargs.items() if name in tell_apart})
+    _check_options(f"{domain}/{task}", config_of(agent), task_kwargs)
     return _with_config(agent)
 
 
