@@ -24,7 +24,7 @@ def _edges_of_intervals() -> np.ndarray:
     return (below[:, None] + margins).ravel()
 
 
-@pytest.mark.parametrize("control_timestep, time_limit", [(0.1, 3.0), (0.06, 3.0), (0.2, 3.0), (0.1, 10.0)])
+@pytest.mark.parametrize("control_timestep, time_limit", [(0.1, 1.5), (0.06, 3.0), (0.2, 3.0), (0.1, 10.0)])
 def test_a_push_moves_the_block_if_and_only_if_its_force_is_above_friction(seed, control_timestep, time_limit):
     rng = np.random.default_rng(seed)
     frictions = np.concatenate(
