@@ -9,7 +9,20 @@ from physexp.analysis.domains import base
 
 _DISCOUNT = 0.95
 
-_FEATURES = a3c.A3CConfig(discount=_DISCOUNT, envs_per_worker=128, trace=0.95, observation_scale=2.0)
+# Rewards tell of the last of three or four bits only, so policies must stay broad until those are used: much entropy at
+# first, and many episodes to an update.
+_FEATURES = a3c.A3CConfig(
+    discount=_DISCOUNT,
+    frames=3_000_000,
+    envs_per_worker=128,
+    learning_rate=3e-3,
+    trace=0.95,
+    entropy_cost=0.2,
+    final_entropy_cost=0.002,
+    observation_scale=2.0,
+)
+# Every frame passes the convolutions, which is what pixels cost: small updates, and no frame more than is needed.
+_PIXELS = _FEATURES.replace(frames=600_000, envs_per_worker=64, learning_rate=1e-3, observation_scale=8.0)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -50,7 +63,10 @@ def _has_slid(observation) -> bool:
 DOMAIN = base.Domain(
     name="threshold",
     discount=_DISCOUNT,
-    presets={"features": {"a3c": _FEATURES}},
+    presets={
+        "features": {"a3c": _FEATURES, "ppo": base.ppo_like(_FEATURES, frames=1_200_000, num_environments=512)},
+        "pixels": {"a3c": _PIXELS, "ppo": base.ppo_like(_PIXELS, num_environments=256)},
+    },
     ideal=base.Ideal(_solve, IdealOptions),
     columns=(base.Column("friction", "float32", is_varied=True),),  # N
     fill=lambda hidden: {"friction": hidden},

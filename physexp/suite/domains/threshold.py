@@ -47,14 +47,14 @@ class Options(options_lib.Options):
     """The `task_kwargs` of this domain.
 
     Attributes:
-      difficulty: how much likelier low levels are than high ones, >= 1, where all are equally likely; the larger, the
+      difficulty: how much likelier low levels are than high ones, >= 1; at 1 all are equally likely; the larger, the
         easier.
     """
 
     physics_timestep = PHYSICS_TIMESTEP
 
     time_limit: float = 1.5  # the longer, the less it costs never to answer
-    difficulty: float = 2.0
+    difficulty: float = 1.0  # where no answer is so rare that to ignore it costs little
 
     def __post_init__(self):
         super().__post_init__()
