@@ -1,4 +1,4 @@
-"""Draws docs/which_is_heavier.gif and docs/towers.gif: an episode each of an agent that comes with the package."""
+"""Draws docs/DOMAIN.gif of each domain: an episode of an agent that comes with the package."""
 
 from collections.abc import Iterator, Sequence
 import dataclasses
@@ -14,7 +14,11 @@ from physexp.analysis.evaluation import playing
 from physexp.analysis.replay import beliefs, palette, recording
 from physexp.suite.engine import rendering
 
-EPISODES = {"which_is_heavier": ("which_is_heavier/features", 12, 0), "towers": ("towers/fist_features", 8, 0)}
+EPISODES = {
+    "which_is_heavier": ("which_is_heavier/features", 12, 0),
+    "towers": ("towers/fist_features", 8, 0),
+    "threshold": ("threshold/features", 5, 0),
+}
 """For each picture whose agent plays, and the seed and the index of the episode."""
 
 SCALE = 2  # For dense screens.

@@ -7,6 +7,8 @@ import numpy as np
 from PIL import Image, ImageSequence
 import pytest
 
+from physexp import suite
+
 DOCS = Path(__file__).parents[2] / "docs"
 
 
@@ -18,7 +20,7 @@ def script():
     return module
 
 
-@pytest.mark.parametrize("name", ["which_is_heavier", "towers"])
+@pytest.mark.parametrize("name", suite.TASKS_BY_DOMAIN)
 def test_a_moving_picture_is_small_loops_and_ends_as_the_script_draws_it(script, name):
     path = DOCS / f"{name}.gif"
     assert path.stat().st_size < 1e6

@@ -163,7 +163,7 @@ class Threshold(task.QuestionTask):
 
     @property
     def label_names(self):
-        return [f"it slides from {LEVEL_SPACING * (k + 1):g} N on" for k in range(NUM_LEVELS)]
+        return [f"{LEVEL_SPACING * (k + 1):g} N" for k in range(NUM_LEVELS)]
 
     @property
     def readings(self):
