@@ -12,31 +12,31 @@ AGENTS: Mapping[str, Callable[..., core.Agent]] = {"a3c": a3c.A3C, "ppo": ppo.PP
 
 
 def make(
-    make_environment: core.EnvironmentFactory, config: config_lib.AgentConfig, report: Callable[[str], None]
+    make_environment: core.EnvironmentFactory, config: config_lib.AgentConfig, tell: Callable[[str], None]
 ) -> core.Agent:
     """Returns the agent of a configuration, as it is before training.
 
     Args:
       make_environment: makes a batch; it is called in other processes, too, so it must be picklable.
       config: the agent's configuration.
-      report: called with a line when something has gone wrong that training survives.
+      tell: called with a line when something has gone wrong that training survives.
     """
-    return AGENTS[config.algorithm](make_environment, config, report)
+    return AGENTS[config.algorithm](make_environment, config, tell)
 
 
 def make_on_cluster(
     make_environment: core.EnvironmentFactory,
     config: config_lib.AgentConfig,
-    report: Callable[[str], None],
+    tell: Callable[[str], None],
     find_versions: Callable[[], dict[str, str]],
 ) -> core.Agent:
     """Returns the agent of a configuration that trains on the cluster that this process has joined.
 
     Args:
-      make_environment, config, report: as for `make`; the algorithm can run on a cluster.
+      make_environment, config, tell: as for `make`; the algorithm can run on a cluster.
       find_versions: says what is installed; it must say the same on every machine.
     """
     from physexp.agents.a3c import distributed  # Ray is an extra, and takes a second to import.
 
     agents: Mapping[str, Callable[..., core.Agent]] = {"a3c": distributed.DistributedA3C}
-    return agents[config.algorithm](make_environment, config, find_versions, report)
+    return agents[config.algorithm](make_environment, config, find_versions, tell)

@@ -40,7 +40,7 @@ class A3C(core.Agent):
         self,
         make_environment: core.EnvironmentFactory,
         config: config_lib.A3CConfig,
-        report: Callable[[str], None] = lambda line: None,
+        tell: Callable[[str], None] = lambda line: None,
         patience: Patience = Patience(),
     ):
         """Prepares the shared variables; the workers start with `updates`.
@@ -48,11 +48,11 @@ class A3C(core.Agent):
         Args:
           make_environment: called in each worker; must be picklable.
           config: the configuration.
-          report: called with a line when a worker falls silent, is back, or is killed.
+          tell: called with a line when a worker falls silent, is back, or is killed.
           patience: how long is waited for a worker.
         """
         self._make_environment, self._config = make_environment, config
-        self._report, self._patience = report, patience
+        self._tell, self._patience = tell, patience
         self._context = multiprocessing.get_context("spawn")
         self._stopping = self._context.RawValue(ctypes.c_bool, False)  # Without a lock, that a worker might keep.
         environment = make_environment(config.seed, 1, 1)
@@ -126,7 +126,7 @@ class A3C(core.Agent):
 
     def _start_watching(self) -> None:
         rounds = self.shared.variables.rounds.tolist()
-        self._watch = watching.Watch(rounds, lambda index: self._workers[index].name, self._patience, self._report)
+        self._watch = watching.Watch(rounds, lambda index: self._workers[index].name, self._patience, self._tell)
         self._lock_watch = _LockWatch(self.shared)
         self._awaited: set[int] = set()  # Workers of which a line says that they are waited for.
 
@@ -160,7 +160,7 @@ class A3C(core.Agent):
                 self._kill(worker)
             elif idle >= self._patience.told and worker.index not in self._awaited:
                 self._awaited.add(worker.index)
-                self._report(f"waiting for {worker.name} to end its round, {left:.0f} s at most")
+                self._tell(f"waiting for {worker.name} to end its round, {left:.0f} s at most")
 
     def _kill(self, worker: worker_lib.Worker) -> None:
         """Kills a worker, but never in the middle of an update."""
@@ -171,7 +171,7 @@ class A3C(core.Agent):
             worker.end()
         finally:
             self.shared.lock.release()
-        self._report(f"{worker.name} did not end its round within {self._patience.stop:.0f} s, and was killed")
+        self._tell(f"{worker.name} did not end its round within {self._patience.stop:.0f} s, and was killed")
 
     def _end(self) -> None:
         """Kills whoever is left: what they have learned is in the variables."""

@@ -39,7 +39,7 @@ class DistributedA3C(core.Agent):
         make_environment: core.EnvironmentFactory,
         config: config_lib.A3CConfig,
         find_versions: Callable[[], dict[str, str]],
-        report: Callable[[str], None] = lambda line: None,
+        tell: Callable[[str], None] = lambda line: None,
         patience: Patience = Patience(),
     ):
         """Prepares the variables; the actors start with `updates`.
@@ -48,11 +48,11 @@ class DistributedA3C(core.Agent):
           make_environment: called in each worker; must be picklable, and its module installed on all machines.
           config: the configuration. Workers for which the cluster has no room yet join when it has.
           find_versions: says what is installed; it must say the same on every machine.
-          report: called with a line when a worker has died, finds no room, or is silent.
+          tell: called with a line when a worker has died, finds no room, or is silent.
           patience: how long is waited for whom.
         """
         self._make_environment, self._config = make_environment, config
-        self._find_versions, self._report, self._patience = find_versions, report, patience
+        self._find_versions, self._tell, self._patience = find_versions, tell, patience
         environment = make_environment(config.seed, 1, 1)
         self._network = starting.initial_network(environment, config)
         environment.close()
@@ -89,7 +89,7 @@ class DistributedA3C(core.Agent):
         """
         make_server = ray.remote(num_cpus=0)(parameter_server.ParameterServer)
         self._server = make_server.remote(self._network, self._tensors, self._config)
-        workers = supervision.Workers(self._config.num_workers, self._run, self._report)
+        workers = supervision.Workers(self._config.num_workers, self._run, self._tell)
         try:
             yield from self._updates(workers, poll_seconds)
             yield from self._ask("take").updates
@@ -101,8 +101,8 @@ class DistributedA3C(core.Agent):
 
     def _updates(self, workers: supervision.Workers, poll_seconds: float):
         """Yields updates while workers are running, or are to come."""
-        watch = watching.Watch(self._tensors["rounds"].tolist(), "worker {}".format, self._patience, self._report)
-        room = supervision.RoomWatch(self._config.num_workers, lambda: self._patience.room, self._report)
+        watch = watching.Watch(self._tensors["rounds"].tolist(), "worker {}".format, self._patience, self._tell)
+        room = supervision.RoomWatch(self._config.num_workers, lambda: self._patience.room, self._tell)
         waited, deadline, is_done = time.monotonic(), None, False
         while workers.running or (workers.coming and not is_done):
             workers.look(self._is_stopping)
@@ -121,7 +121,7 @@ class DistributedA3C(core.Agent):
                 self._ask("stop")
                 deadline = time.monotonic() + self._patience.stop
             if deadline is not None and time.monotonic() > deadline:
-                self._report(f"{_named(workers.running)} did not end within {self._patience.stop:.0f} s: killed")
+                self._tell(f"{_named(workers.running)} did not end within {self._patience.stop:.0f} s: killed")
                 break
 
     def _run(self, worker, index: int):

@@ -20,17 +20,17 @@ class Workers:
       restarts: how often one that had died was started again.
     """
 
-    def __init__(self, num_workers: int, run: Callable[[Any, int], Any], report: Callable[[str], None]):
+    def __init__(self, num_workers: int, run: Callable[[Any, int], Any], tell: Callable[[str], None]):
         """Asks the cluster for workers.
 
         Args:
           num_workers: how many.
           run: sets a worker, an actor with an index, to work; returns Ray's reference.
-          report: called with a line when one has died.
+          tell: called with a line when one has died.
         """
         make_worker = ray.remote(num_cpus=1, max_restarts=-1)(remote_worker.Worker)
         self._actors: list[Any] = [make_worker.remote() for _ in range(num_workers)]
-        self._run, self._report = run, report
+        self._run, self._tell = run, tell
         self._running: dict[Any, int] = {}
         self._coming: dict[Any, int] = {}
         self._deaths = [0] * num_workers
@@ -114,15 +114,15 @@ class Workers:
                 f"worker {index} has died {self._deaths[index]} times, and nobody has learned anything meanwhile: "
                 f"{what}"
             ) from None
-        self._report(f"worker {index} has died ({what}) and is started again; {self.restarts} so far")
+        self._tell(f"worker {index} has died ({what}) and is started again; {self.restarts} so far")
 
 
 class RoomWatch:
     """Reports how many workers find no room on the cluster."""
 
-    def __init__(self, num_workers: int, patience_seconds: Callable[[], float], report: Callable[[str], None]):
+    def __init__(self, num_workers: int, patience_seconds: Callable[[], float], tell: Callable[[str], None]):
         """Starts watching; a line comes when workers have found no room for as long as patience lasts."""
-        self._num_workers, self._patience_seconds, self._report = num_workers, patience_seconds, report
+        self._num_workers, self._patience_seconds, self._tell = num_workers, patience_seconds, tell
         self._without_room = 0
         self._crowded = time.monotonic()  # Since when some have no room.
 
@@ -134,7 +134,7 @@ class RoomWatch:
         elif now - self._crowded >= self._patience_seconds() and len(coming) != self._without_room:
             self._without_room = len(coming)
             processors = ray.cluster_resources().get("CPU", 0)
-            self._report(
+            self._tell(
                 f"{len(coming)} of {self._num_workers} workers find no room on the cluster, which has "
                 f"{processors:g} processors; they join when there is some"
             )

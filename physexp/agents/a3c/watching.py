@@ -38,7 +38,7 @@ class Watch:
     """Measures for how long each worker has been at its round, and reports those that fall silent or are back."""
 
     def __init__(
-        self, rounds: Sequence[int], name: Callable[[int], str], patience: Patience, report: Callable[[str], None]
+        self, rounds: Sequence[int], name: Callable[[int], str], patience: Patience, tell: Callable[[str], None]
     ):
         """Starts watching.
 
@@ -46,9 +46,9 @@ class Watch:
           rounds: how many each worker has played.
           name: names a worker, from its index.
           patience: how long is waited.
-          report: called with lines.
+          tell: called with lines.
         """
-        self._rounds, self._name, self._patience, self._report = list(rounds), name, patience, report
+        self._rounds, self._name, self._patience, self._tell = list(rounds), name, patience, tell
         self._idle, self._since = [0.0] * len(rounds), [time.time()] * len(rounds)
         self._silent: set[int] = set()
         self._clock = Clock()
@@ -68,7 +68,7 @@ class Watch:
         for worker, played in enumerate(rounds):
             if played != self._rounds[worker] and worker in self._silent:
                 self._silent.remove(worker)
-                self._report(f"{self._name(worker)} is back")
+                self._tell(f"{self._name(worker)} is back")
             if played != self._rounds[worker] or worker not in running:
                 self._rounds[worker], self._idle[worker], self._since[worker] = played, 0.0, time.time()
                 continue
@@ -77,4 +77,4 @@ class Watch:
                 self._silent.add(worker)
                 since = time.strftime("%H:%M:%S", time.localtime(self._since[worker]))
                 goes_on = "goes on with the others" if set(running) - self._silent else "waits"
-                self._report(f"{self._name(worker)} has been silent since {since}; training {goes_on}")
+                self._tell(f"{self._name(worker)} has been silent since {since}; training {goes_on}")

@@ -16,14 +16,14 @@ class PPO(core.Agent):
         self,
         make_environment: core.EnvironmentFactory,
         config: config_lib.PPOConfig,
-        report: Callable[[str], None] = lambda line: None,
+        tell: Callable[[str], None] = lambda line: None,
     ):
         """Makes the environments and the network.
 
         Args:
           make_environment: makes the batch.
           config: the configuration.
-          report: never called: nothing can go wrong that training survives.
+          tell: never called: nothing can go wrong that training survives.
         """
         self._config = config
         self._seed = starting.worker_seed(config.seed, 0)

@@ -27,13 +27,13 @@ def check_display() -> None:
         raise ValueError("there is no display to open the viewer on (DISPLAY is not set); leave out --view")
 
 
-def view(path: Path, web: bool, report: Callable[[str], None] = lambda line: None) -> None:
+def view(path: Path, web: bool, tell: Callable[[str], None] = lambda line: None) -> None:
     """Opens a file in the viewer, or in the browser's, until that is closed or Ctrl-C ends it.
 
     Args:
       path: of the file.
       web: in a browser instead of a window.
-      report: called with a line that tells the address for a browser.
+      tell: called with a line that tells the address for a browser.
 
     Raises:
       RuntimeError: if the viewer fails.
@@ -45,7 +45,7 @@ def view(path: Path, web: bool, report: Callable[[str], None] = lambda line: Non
         web_port = _free_port(_WEB_PORT)
         command += ["--web-viewer", "--web-viewer-port", str(web_port)]
         query = urllib.parse.urlencode({"url": _address(data_port)})
-        report(f"serving http://{_LOOPBACK}:{web_port}/?{query} to this machine alone; Ctrl-C ends it")
+        tell(f"serving http://{_LOOPBACK}:{web_port}/?{query} to this machine alone; Ctrl-C ends it")
     else:
         check_display()
     with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
