@@ -25,6 +25,10 @@ class FeatureTorso(nn.Module):
     def calibrate(self, first: Observation) -> None:
         """Does nothing: features are taken as they are."""
 
+    def distinct(self, observation: Observation) -> tuple[torch.Tensor, None]:
+        """Returns what `forward` does, and None: each observation is taken for itself."""
+        return self(observation), None
+
     def forward(self, observation: Observation) -> torch.Tensor:
         """Maps arrays [N, ...] to inputs of the LSTM, [N, num_outputs]."""
         return self._scale * torch.cat([observation[name].flatten(1) for name in self._names], dim=1)
@@ -67,13 +71,23 @@ class PixelTorso(nn.Module):
 
     def forward(self, observation: Observation) -> torch.Tensor:
         """Maps images, uint8 [N, height, width, 3], to inputs of the LSTM, [N, num_outputs]."""
+        outputs, places = self.distinct(observation)
+        return outputs if places is None else outputs[places]
+
+    def distinct(self, observation: Observation) -> tuple[torch.Tensor, torch.Tensor | None]:
+        """Maps images that are the same bytes once.
+
+        Returns:
+          Inputs of the LSTM, [D, num_outputs], and for each image its place among them, int64 [N]; None where all images
+          differ.
+        """
         images = observation[self._name]
         distinct, places = _distinct(images)
         device = self.reference.device
         pixels = (images[distinct].to(device).float() - self.reference.float()).mul_(self._scale)
         # [N, height, width, 3] read as [N, 3, height, width] is what torch calls channels last.
         outputs = self.convolutions(pixels.permute(0, 3, 1, 2)).flatten(1)
-        return outputs if len(distinct) == len(images) else outputs[places.to(device)]
+        return outputs, None if len(distinct) == len(images) else places.to(device)
 
 
 def _distinct(images: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
@@ -151,7 +165,9 @@ class RecurrentActorCritic(nn.Module):
     def encode(self, observation: Observation) -> torch.Tensor:
         """Maps observations, arrays [N, ...], to what the LSTM takes, float32 [N, F]."""
         with devices.autocast(self.device):
-            return self.lstm.project(self.torso(observation).to(self.device)).float()
+            inputs, places = self.torso.distinct(observation)
+            projected = self.lstm.project(inputs.to(self.device)).float()
+            return projected if places is None else projected[places]
 
     def step(self, inputs: torch.Tensor, state: lstm.State) -> tuple[torch.Tensor, torch.Tensor, lstm.State]:
         """Computes one time step of many episodes.

@@ -22,7 +22,7 @@ _FEATURES = a3c.A3CConfig(
     observation_scale=2.0,
 )
 # Every frame passes the convolutions, which is what pixels cost: small updates, and no frame more than is needed.
-_PIXELS = _FEATURES.replace(frames=600_000, envs_per_worker=64, learning_rate=1e-3, observation_scale=8.0)
+_PIXELS = _FEATURES.replace(frames=1_500_000, envs_per_worker=64, learning_rate=1e-3, observation_scale=8.0)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
