@@ -21,7 +21,7 @@ _FEATURES = a3c.A3CConfig(
     final_entropy_cost=0.002,
     observation_scale=2.0,
 )
-# Every frame passes the convolutions, which is what pixels cost: small updates, and no frame more than is needed.
+# There are 17 different images, and only different ones pass the convolutions: the larger an update, the cheaper.
 _PIXELS = _FEATURES.replace(frames=1_500_000, envs_per_worker=64, learning_rate=1e-3, observation_scale=8.0)
 
 
@@ -65,7 +65,7 @@ DOMAIN = base.Domain(
     discount=_DISCOUNT,
     presets={
         "features": {"a3c": _FEATURES, "ppo": base.ppo_like(_FEATURES, frames=1_200_000, num_environments=512)},
-        "pixels": {"a3c": _PIXELS, "ppo": base.ppo_like(_PIXELS, num_environments=256)},
+        "pixels": {"a3c": _PIXELS, "ppo": base.ppo_like(_PIXELS, num_environments=1024)},
     },
     targets={"threshold-features": ("mean_return", 0.8145)},  # 95 % of the ideal's
     ideal=base.Ideal(_solve, IdealOptions),
