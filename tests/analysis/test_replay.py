@@ -679,7 +679,8 @@ def test_a_person_plays_beside_the_viewer_which_others_cannot_reach_and_may_be_c
         asked = output.read_text().count("action: ")
         process.stdin.write(text + "\n")
         process.stdin.flush()
-        wait_until(lambda: output.read_text().count("action: ") > asked, f"the question after {text}")
+        # A stream to a viewer that has gone is given up only after a while in which nobody does anything.
+        wait_until(lambda: output.read_text().count("action: ") > asked, f"the question after {text}", idle_seconds=300)
 
     try:
         wait_until(lambda: "action: " in output.read_text(), "the first question")

@@ -5,7 +5,7 @@ import dataclasses
 import time
 
 TICK_SECONDS = 1.0
-"""The most that counts as time between two looks: when all processes were stopped and go on, nobody was silent."""
+"""The longest time that counts between two looks, since nobody was silent while all processes were stopped."""
 
 
 @dataclasses.dataclass(frozen=True)
