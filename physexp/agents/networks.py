@@ -78,7 +78,7 @@ class PixelTorso(nn.Module):
         """Maps images that are the same bytes once.
 
         Returns:
-          Inputs of the LSTM, [D, num_outputs], and for each image its place among them, int64 [N]; None where all differ.
+          Inputs of the LSTM, [D, num_outputs], and each image's place among them, int64 [N]; None where all differ.
         """
         images = observation[self._name]
         distinct, places = _distinct(images)

@@ -48,9 +48,10 @@ def test_an_agent_answers_as_well_as_its_card_says(path):
     card = card_of(path)
     seed = int(np.random.SeedSequence().generate_state(1)[0])
     print("seed", seed)
-    task_kwargs = {"random": seed} | ({"difficulty": card["difficulty"]} if card["difficulty"] else {})
+    options = {"difficulty": card["difficulty"]} if card.get("difficulty") else {}
+    task_kwargs = {"random": seed, **options}
     environment = suite.load(card["domain"], card["task"], task_kwargs)
-    actor = agents.load_pretrained(card["domain"], card["task"], card["difficulty"], seed=seed)
+    actor = agents.load_pretrained(card["domain"], card["task"], **options, seed=seed)
     assert isinstance(actor, core.Actor)
     num_episodes = 60
     episodes = environment_loop.EnvironmentLoop(environment, actor).run(num_episodes)

@@ -27,12 +27,13 @@ def test_a_moving_picture_is_small_loops_and_ends_as_the_script_draws_it(script,
     episode = script.recorded(name)
     shown = script.frames(episode)
     with Image.open(path) as picture:
-        assert picture.info["loop"] == 0 and picture.n_frames > 10  # It repeats for ever.
+        assert picture.info["loop"] == 0 and picture.n_frames > 8  # It repeats for ever.
         pictures, durations = [], []
         for frame in ImageSequence.Iterator(picture):
             pictures.append(np.asarray(frame.convert("RGB")).astype(int))
             durations.append(frame.info["duration"])
-    assert durations == [frame.duration for frame in shown] and 5000 < sum(durations) < 11000
+    assert np.isin(np.cumsum(durations), np.cumsum([frame.duration for frame in shown])).all()  # Equal ones are joined.
+    assert 5000 < sum(durations) == sum(frame.duration for frame in shown) < 11000
     assert all((later != earlier).any() for earlier, later in zip(pictures, pictures[1:], strict=False))
     (scene,) = script.scenes(episode, [shown[-1].substep])
     drawn = np.asarray(script.drawn(episode, shown[-1], scene)).astype(int)

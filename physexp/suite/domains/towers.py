@@ -34,7 +34,7 @@ NUM_BODIES = np.array([tower.num_bodies(pattern) for pattern in tower.PATTERNS])
 _PATTERNS_OF_COUNT = np.array([math.comb(tower.NUM_BLOCKS - 1, count - 1) for count in range(1, tower.NUM_BLOCKS + 1)])
 
 PRIOR = 1 / tower.NUM_BLOCKS / _PATTERNS_OF_COUNT[NUM_BODIES - 1]
-"""Probability of each glue pattern, [16]: the count is uniform over 1..5, the pattern uniform given the count."""
+"""Probability of each glue pattern, [16], where the count is uniform and the pattern is uniform given the count."""
 
 
 def draw_patterns(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
