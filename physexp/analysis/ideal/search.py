@@ -60,7 +60,7 @@ class Solution:
 
     @property
     def value(self) -> float:
-        """What it earns: expected discounted return, or expected interactions until the right label is known."""
+        """What it earns, the expected discounted return or the expected interactions until the right label is known."""
         return self._found[0]
 
     @property
