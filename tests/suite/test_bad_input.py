@@ -116,7 +116,7 @@ def test_a_time_that_is_not_a_finite_positive_number_is_refused(domain_name, tas
 @every_feature_task
 @pytest.mark.parametrize("value", [0.0137, 0.001, 1e-12, 0.1 + 1e-6])
 def test_a_control_step_that_is_no_multiple_of_the_physics_step_is_refused(domain_name, task_name, value):
-    physics_timestep = {"which_is_heavier": "0.025", "towers": "0.005"}[domain_name]
+    physics_timestep = str(suite.options(domain_name).physics_timestep)
     with _refuses("control_timestep", repr(value), "multiple", physics_timestep):
         suite.load(domain_name, task_name, {"control_timestep": value})
 

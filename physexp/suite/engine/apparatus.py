@@ -6,6 +6,7 @@ One environment and a batch both step apparatuses of the same task, which is why
 from collections.abc import Mapping, Sequence
 import dataclasses
 import functools
+import math
 
 from dm_control import composer, mjcf
 import mujoco
@@ -89,7 +90,8 @@ class Apparatus:
     def indicate(self, geom_xpos: np.ndarray, sensordata: np.ndarray) -> None:
         """Puts the indicators where the readings have them: writes to `geom_xpos`, [N, ngeom, 3]."""
         for geom, place, indicator in self._indicators:
-            values = self.read(indicator.reading, sensordata).reshape(len(sensordata), -1)
+            values = self.read(indicator.reading, sensordata)
+            values = values.reshape(len(values), math.prod(values.shape[1:]))
             geom_xpos[:, geom] = place + values[:, indicator.component, None] * np.array(indicator.travel)
 
     @functools.cached_property

@@ -72,7 +72,7 @@ def test_the_image_of_a_label_is_the_one_before(domain_name, task_name):
         batch.reset(episode=0)
         for t in range(2):
             before = image_of(batch.step([t, 0, 1]))
-        answer = batch.step([batch.task.num_interactions + label, 0, 1])
+        answer = batch.step([batch.task.num_interactions + label, 1, 0])
         np.testing.assert_array_equal(
             answer.step_type, [dm_env.StepType.LAST, dm_env.StepType.MID, dm_env.StepType.MID]
         )
