@@ -191,7 +191,7 @@ def test_two_batches_in_one_process_share_nothing(seed):
 
 def test_every_pattern_of_glue_is_played_alike_in_a_batch_and_alone(seed):
     """At the first episode with each pattern, two pushes."""
-    batch, (single,) = _load_both("towers", "direct_features", seed, 1)
+    batch, (single,) = _load_both("towers/direct_features", seed, 1)
     patterns = towers.draw_patterns(np.full(1000, single.task.options.random), np.arange(1000))
     for pattern in range(16):
         single.task.next_episode = int(np.flatnonzero(patterns == pattern)[0])
