@@ -167,7 +167,7 @@ class QuestionTask(composer.Task):
     @property
     def hidden(self) -> np.ndarray:
         """Returns the hidden property of the current episode, which is never part of an observation."""
-        return self._ledger.hidden[0]
+        return self._ledger.hidden[0].copy()
 
     @property
     def correct_answer(self) -> int:
