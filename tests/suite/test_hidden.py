@@ -32,7 +32,7 @@ def test_the_first_observation_is_the_same_whatever_is_hidden(seed, name):
 
 @every_task
 def test_an_interaction_tells_something_of_what_is_hidden(seed, name):
-    """Otherwise it would be no experiment: held for eight steps, some interaction looks different in some environments."""
+    """Otherwise it would be no experiment: eight steps of some interaction do not look alike in all environments."""
     batch = load_batch(name, 32, random=seed)
     most = 0
     for action in range(batch.task.num_interactions):
