@@ -7,7 +7,7 @@ import numpy as np
 import pyarrow
 import pytest
 
-from physexp.agents import acting
+from physexp.agents import rounds
 from physexp.agents.a3c import config as a3c
 from physexp.analysis.data import episodes
 from physexp.analysis.evaluation import records
@@ -23,7 +23,7 @@ def played(episode=7, num_steps=4):
     actions[:3, 0], actions[0, 1], actions[:, 2] = [0, 3, 5], 7, 2
     rewards = np.zeros((num_steps, 3), np.float32)
     rewards[[2, 0, num_steps - 1], [0, 1, 2]] = [1, -1, -1]
-    round_ = acting.Round(actions, rewards, np.array([3, 1, num_steps]), np.array([1, 0, 2]))
+    round_ = rounds.Round(actions, rewards, np.array([3, 1, num_steps]), np.array([1, 0, 2]))
     return episodes.Episodes.of_round(round_, 4, np.array([11, 12, 13]), episode, HIDDEN)
 
 
@@ -66,7 +66,10 @@ def test_the_rows_of_a_run_are_a_selection():
 
 def test_stored_rows_are_a_selection_with_the_condition_and_what_was_hidden():
     config = config_lib.TrainConfig(
-        domain="which_is_heavier", task="features", difficulty=5.0, agent=a3c.A3CConfig(discount=0.5, seed=2)
+        domain="which_is_heavier",
+        task="features",
+        task_kwargs={"difficulty": 5.0},
+        agent=a3c.A3CConfig(discount=0.5, seed=2),
     )
     rows = records.table(played(), config, "learned", 0.25)
     assert rows.schema.equals(records.SCHEMA)
@@ -86,7 +89,7 @@ def test_a_column_that_the_table_lacks_has_to_be_given():
     ]
 
 
-@pytest.mark.parametrize("module", ["data.records", "data.tables", "training.run", "experiments.base"])
+@pytest.mark.parametrize("module", ["evaluation.records", "data.tables", "training.run", "experiments.base"])
 def test_reading_tables_and_runs_does_not_import_torch(module):
     code = f"import sys; from physexp.analysis import {module.split('.')[0]}; import physexp.analysis.{module}"
     subprocess.run([sys.executable, "-c", f"{code}; assert 'torch' not in sys.modules"], check=True, timeout=120)
