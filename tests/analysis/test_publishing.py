@@ -59,7 +59,8 @@ def test_the_commands_of_the_agents_that_come_with_the_package_describe_them_sti
     said = json.loads(card.read_text())
     _, *arguments = shlex.split(said["command"])
     train = parsing.parse(arguments)
-    config = config_lib.TrainConfig.from_json({name: said[name] for name in ("domain", "task", "difficulty", "agent")})
+    names = ("domain", "task", "difficulty", "task_kwargs", "agent")  # Earlier cards have a difficulty.
+    config = config_lib.TrainConfig.from_json({name: said[name] for name in names if name in said})
     assert (train.domain, train.task, options.chosen(train.options)) == (
         said["domain"],
         said["task"],

@@ -61,7 +61,7 @@ def test_observations_tell_nothing_but_the_push_and_whether_the_block_slid(seed,
     batch = suite.load_batch(domain_name, task_name, len(frictions), {"random": seed})
     shown = {}
     batch.reset(hidden=frictions)
-    for _ in range(25):
+    for _ in range(batch.task.rules.step_limit - 1):
         pushes = rng.integers(threshold.NUM_LEVELS, size=len(frictions))
         observation = batch.step(pushes).observation
         for i, push in enumerate(pushes.tolist()):
