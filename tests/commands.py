@@ -20,7 +20,7 @@ import threading
 import time
 import types
 
-from waiting import Patience
+from waiting import Patience, wait_until
 
 context = multiprocessing.get_context("forkserver")
 context.set_forkserver_preload(
@@ -153,6 +153,7 @@ class Process:
 
     def kill_all(self) -> None:
         """Ends the process and what it has started, other than groups of their own."""
+        self.kill()  # It has no group before it has begun.
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(self.pid, signal.SIGKILL)
         self._process.join()
@@ -183,7 +184,7 @@ class _Stream:
 
     def read(self) -> str:
         """Returns all that is written, when everybody who might write is gone."""
-        self._thread.join()
+        wait_until(lambda: not self._thread.is_alive(), "the end of what a process and its descendants write")
         return self.so_far()
 
 

@@ -1,6 +1,9 @@
 """Waiting for states, in tests, for as long as there is progress, however slow the machine; imports little."""
 
 import os
+import signal
+import subprocess
+import tempfile
 import time
 
 import psutil
@@ -62,3 +65,30 @@ def wait_until(condition, what, **limits):
     while not condition():
         assert not patience.is_over(), f"waited in vain for {what}: {patience}"
         time.sleep(0.02)
+
+
+def run(command, **kwargs) -> str:
+    """Runs a program to its end and returns what it wrote; one that fails or does not get on is an error.
+
+    Args:
+      command: the program and its arguments.
+      **kwargs: for `subprocess.Popen`.
+    """
+    with tempfile.TemporaryFile("w+", errors="replace") as written:
+
+        def so_far():
+            written.seek(0)
+            return written.read()
+
+        with subprocess.Popen(
+            list(map(str, command)), stdout=written, stderr=written, start_new_session=True, **kwargs
+        ) as process:
+            try:
+                wait_until(lambda: process.poll() is not None, f"the end of {command}", pid=process.pid)
+            except AssertionError as error:
+                raise AssertionError(f"{error}; it wrote: {so_far()}") from None
+            finally:
+                if process.poll() is None:
+                    os.killpg(process.pid, signal.SIGKILL)
+        assert process.returncode == 0, f"{command} ended with status {process.returncode}; it wrote: {so_far()}"
+        return so_far()

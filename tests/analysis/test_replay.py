@@ -7,7 +7,6 @@ import os
 from pathlib import Path
 import re
 import resource
-import shutil
 import signal
 import socket
 import subprocess
@@ -19,7 +18,9 @@ from PIL import Image
 import pytest
 from rerun.chunk import RrdReader
 from scipy.spatial import transform
+import screens
 from trainers import PHYSEXP, fresh_seed
+import waiting
 from waiting import wait_until
 
 from physexp import suite
@@ -549,17 +550,17 @@ def test_a_selection_is_what_it_says():
         assert timestep.last() and timestep.reward == -1
 
 
-@pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="needs xvfb-run: apt-get install xvfb mesa-vulkan-drivers")
+@screens.needs_screen
 def test_the_viewer_opens_a_file_and_shows_it(tmp_path):
     episode, _, _ = record("towers", "fist_features")
     path = writing.write(tmp_path / "one.rrd", [lambda: [episode]])
     picture = tmp_path / "viewer.png"
-    # The pointer is in the middle of the screen; beside the window, it covers nothing with what it points to.
-    screen = ["xvfb-run", "-a", "--server-args=-screen 0 3000x2000x24"]
-    command = [*screen, writing.PROGRAM, path, "--screenshot-to", picture, "--window-size", "1280x800"]
     environment = {"HOME": str(tmp_path), "PATH": "/usr/bin:/bin"}
-    subprocess.run([writing.PROGRAM, "analytics", "disable"], env=environment, check=True, capture_output=True)
-    subprocess.run(command, env=environment, check=True, capture_output=True)
+    waiting.run([writing.PROGRAM, "analytics", "disable"], env=environment)
+    # The pointer is in the middle of the screen; beside the window, it covers nothing with what it points to.
+    with screens.screen("3000x2000x24") as display:
+        command = [writing.PROGRAM, path, "--screenshot-to", picture, "--window-size", "1280x800"]
+        waiting.run(command, env={**environment, "DISPLAY": display})
     pixels = np.asarray(Image.open(picture).convert("RGB"))
     colors, counts = np.unique(pixels.reshape(-1, 3), axis=0, return_counts=True)
     assert len(colors) > 200  # Text, curves, shaded cubes: much more than a background.
@@ -660,16 +661,22 @@ def test_the_viewer_in_a_browser_is_served_to_this_machine_alone_and_its_address
         assert "Traceback" not in process.stdout.read()
 
 
-@pytest.mark.skipif(shutil.which("xvfb-run") is None, reason="needs xvfb-run: apt-get install xvfb mesa-vulkan-drivers")
+@screens.needs_screen
 def test_a_person_plays_beside_the_viewer_which_others_cannot_reach_and_may_be_closed(tmp_path):
-    environment = {
-        "HOME": str(tmp_path),
-        "PATH": f"{PHYSEXP.parent}:/usr/bin:/bin",
-        "PYTHONPATH": os.environ.get("PYTHONPATH", ""),
-    }
-    subprocess.run([writing.PROGRAM, "analytics", "disable"], env=environment, check=True, capture_output=True)
-    command = ["xvfb-run", "-a", PHYSEXP, "play", "which_is_heavier", "features", "--seed", "3", "--view"]
-    output = tmp_path / "output"
+    with screens.screen() as display:
+        environment = {
+            "HOME": str(tmp_path),
+            "PATH": f"{PHYSEXP.parent}:/usr/bin:/bin",
+            "PYTHONPATH": os.environ.get("PYTHONPATH", ""),
+            "DISPLAY": display,
+        }
+        waiting.run([writing.PROGRAM, "analytics", "disable"], env=environment)
+        _play_beside_the_viewer(environment, tmp_path)
+
+
+def _play_beside_the_viewer(environment, home):
+    command = [PHYSEXP, "play", "which_is_heavier", "features", "--seed", "3", "--view"]
+    output = home / "output"
     with open(output, "w") as file:
         process = subprocess.Popen(
             command, env=environment, stdin=subprocess.PIPE, stdout=file, stderr=file, text=True, start_new_session=True
@@ -684,21 +691,21 @@ def test_a_person_plays_beside_the_viewer_which_others_cannot_reach_and_may_be_c
 
     try:
         wait_until(lambda: "action: " in output.read_text(), "the first question")
-        (first,) = viewers(tmp_path)
+        (first,) = viewers(home)
         sockets = listening([first])
         assert sockets and {address for address, _ in sockets} == {"127.0.0.1"}
         type_in("0")
         os.kill(first, signal.SIGKILL)  # The player closes the window.
         type_in("0")
         type_in("4")  # The next episode opens another one.
-        wait_until(lambda: set(viewers(tmp_path)) - {first}, "another viewer")
+        wait_until(lambda: set(viewers(home)) - {first}, "another viewer")
         process.stdin.write("q\n")
         process.stdin.close()
         wait_until(lambda: process.poll() is not None, "the end of the game")
         assert process.returncode == 0
         assert output.read_text().count("The answer: block") == 1 and "Traceback" not in output.read_text()
     finally:
-        for pid in viewers(tmp_path):
+        for pid in viewers(home):
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGKILL)
         with contextlib.suppress(ProcessLookupError):
