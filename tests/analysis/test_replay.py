@@ -559,7 +559,8 @@ def test_the_viewer_opens_a_file_and_shows_it(tmp_path):
     waiting.run([writing.PROGRAM, "analytics", "disable"], env=environment)
     # The pointer is in the middle of the screen; beside the window, it covers nothing with what it points to.
     with screens.screen("3000x2000x24") as display:
-        command = [writing.PROGRAM, path, "--screenshot-to", picture, "--window-size", "1280x800"]
+        # Without `--new`, a viewer that finds rerun's port taken hands over its data and ends.
+        command = [writing.PROGRAM, path, "--new", "--screenshot-to", picture, "--window-size", "1280x800"]
         waiting.run(command, env={**environment, "DISPLAY": display})
     pixels = np.asarray(Image.open(picture).convert("RGB"))
     colors, counts = np.unique(pixels.reshape(-1, 3), axis=0, return_counts=True)
@@ -686,8 +687,7 @@ def _play_beside_the_viewer(environment, home):
         asked = output.read_text().count("action: ")
         process.stdin.write(text + "\n")
         process.stdin.flush()
-        # A stream to a viewer that has gone is given up only after a while in which nobody does anything.
-        wait_until(lambda: output.read_text().count("action: ") > asked, f"the question after {text}", idle_seconds=300)
+        wait_until(lambda: output.read_text().count("action: ") > asked, f"the question after {text}")
 
     try:
         wait_until(lambda: "action: " in output.read_text(), "the first question")

@@ -17,7 +17,7 @@ PROGRAM = Path(rerun_cli.__file__).with_name("rerun")
 """Rerun's own program, with its viewer and its tools for files."""
 
 _LOOPBACK = "127.0.0.1"
-_DATA_PORT, _WEB_PORT = 9876, 9090  # Rerun's own, which others expect; where they are taken, any free one.
+_DATA_PORT, _WEB_PORT = 9876, 9090  # Rerun's own, so that a tunnel from another machine can be told in advance.
 _START_SECONDS, _FLUSH_SECONDS = 60.0, 10.0
 
 
@@ -39,7 +39,7 @@ def view(path: Path, web: bool, tell: Callable[[str], None] = lambda line: None)
       RuntimeError: if the viewer fails.
       ValueError: where there is no display for a window.
     """
-    data_port = _free_port(_DATA_PORT)
+    data_port = _free_port(_DATA_PORT if web else 0)
     command = [*_command(data_port), str(path)]
     if web:
         web_port = _free_port(_WEB_PORT)
@@ -77,7 +77,7 @@ class Viewer:
           RuntimeError: if the viewer does not start.
         """
         if self._process is None or self._process.poll() is not None:
-            self._port = _free_port(_DATA_PORT)
+            self._port = _free_port()
             self._process = subprocess.Popen(
                 [*_command(self._port), "--hide-welcome-screen", "--expect-data-soon"],
                 stdin=subprocess.DEVNULL,
@@ -123,8 +123,12 @@ def _address(data_port: int) -> str:
     return f"rerun+http://{_LOOPBACK}:{data_port}/proxy"
 
 
-def _free_port(preferred: int) -> int:
-    """Returns a port of the loopback on which nobody listens."""
+def _free_port(preferred: int = 0) -> int:
+    """Returns a port of the loopback on which nobody listens, the preferred one if it is free.
+
+    A viewer that finds its port taken hands its data to the viewer there, and ends. Two that start at once can prefer
+    the same port; they cannot be given the same one.
+    """
     for port in (preferred, 0):
         with socket.socket() as candidate:
             candidate.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
