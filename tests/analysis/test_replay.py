@@ -691,9 +691,9 @@ def _play_beside_the_viewer(environment, home):
 
     try:
         wait_until(lambda: "action: " in output.read_text(), "the first question")
+        wait_until(lambda: listening(viewers(home)), "a viewer that listens")
         (first,) = viewers(home)
-        sockets = listening([first])
-        assert sockets and {address for address, _ in sockets} == {"127.0.0.1"}
+        assert {address for address, _ in listening([first])} == {"127.0.0.1"}
         type_in("0")
         os.kill(first, signal.SIGKILL)  # The player closes the window.
         type_in("0")
@@ -711,6 +711,7 @@ def _play_beside_the_viewer(environment, home):
         with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
         process.wait()
+        process.stdin.close()
 
 
 @pytest.mark.parametrize("command", [["play", "which_is_heavier", "features"], ["replay", "which_is_heavier/features"]])

@@ -1,12 +1,12 @@
 """Opening rerun's viewer so that this machine alone can reach it: it knows no password."""
 
 from collections.abc import Callable
+import contextlib
 import os
 from pathlib import Path
 import socket
 import subprocess
 import sys
-import time
 import urllib.parse
 
 import rerun as rr
@@ -18,7 +18,6 @@ PROGRAM = Path(rerun_cli.__file__).with_name("rerun")
 
 _LOOPBACK = "127.0.0.1"
 _DATA_PORT, _WEB_PORT = 9876, 9090  # Rerun's own, so that a tunnel from another machine can be told in advance.
-_START_SECONDS, _FLUSH_SECONDS = 60.0, 10.0
 
 
 def check_display() -> None:
@@ -59,7 +58,11 @@ def view(path: Path, web: bool, tell: Callable[[str], None] = lambda line: None)
 
 
 class Viewer:
-    """A window of the viewer that streams are shown in. It stays when this process ends."""
+    """A window of the viewer that streams are shown in. It stays when this process ends.
+
+    It reads them from a pipe. A stream that is connected to a viewer over the network waits for one that has gone, in
+    some calls without end.
+    """
 
     def __init__(self):
         """Prepares; the window opens with the first stream, and again if it has been closed.
@@ -71,42 +74,26 @@ class Viewer:
         self._process: subprocess.Popen | None = None
 
     def show(self, stream: rr.RecordingStream, layout: rrb.Blueprint) -> None:
-        """Connects a stream to the window.
-
-        Raises:
-          RuntimeError: if the viewer does not start.
-        """
+        """Connects a stream to the window."""
         if self._process is None or self._process.poll() is not None:
-            self._port = _free_port()
             self._process = subprocess.Popen(
-                [*_command(self._port), "--hide-welcome-screen", "--expect-data-soon"],
-                stdin=subprocess.DEVNULL,
+                [*_command(_free_port()), "-", "--hide-welcome-screen", "--expect-data-soon"],
+                bufsize=0,  # Nothing is left to be written when the window has been closed.
+                stdin=subprocess.PIPE,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
                 start_new_session=True,
             )
-            self._wait()
-        stream.connect_grpc(_address(self._port), default_blueprint=layout)
+        self._written = rr.binary_stream(stream)
+        stream.send_blueprint(layout)
 
     def flush(self, stream: rr.RecordingStream) -> None:
         """Sends what the stream holds, unless the window has been closed: then there is nobody to send it to."""
-        if self._process is not None and self._process.poll() is None:
-            stream.flush(timeout_sec=_FLUSH_SECONDS)
-
-    def _wait(self) -> None:
-        """Waits until the viewer listens."""
-        assert self._process is not None
-        deadline = time.monotonic() + _START_SECONDS
-        while True:
-            try:
-                socket.create_connection((_LOOPBACK, self._port), timeout=1).close()
-                return
-            except OSError:
-                pass
-            if self._process.poll() is not None or time.monotonic() > deadline:
-                self._process.kill()
-                raise RuntimeError(f"rerun's viewer does not start; `{PROGRAM}` tells why")
-            time.sleep(0.05)
+        assert self._process is not None and self._process.stdin is not None
+        content = memoryview(self._written.read() or b"")
+        with contextlib.suppress(BrokenPipeError):
+            while content:
+                content = content[self._process.stdin.write(content) :]
 
 
 def last_line(messages: bytes) -> str:
