@@ -9,7 +9,6 @@ from matplotlib.backends import backend_agg
 import numpy as np
 from PIL import Image
 
-from physexp import suite
 from physexp.analysis.evaluation import playing
 from physexp.analysis.replay import beliefs, palette, recording
 from physexp.suite.engine import rendering
@@ -74,10 +73,7 @@ def frames(episode: recording.Episode) -> list[Frame]:
 
 def scenes(episode: recording.Episode, substeps: Sequence[int]) -> Iterator[np.ndarray]:
     """Yields images at some physics steps, uint8 [SCENE, SCENE, 3]."""
-    environment = suite.load(episode.domain, episode.task, task_kwargs={**episode.task_kwargs, "random": episode.seed})
-    environment.task.next_episode = episode.episode
-    environment.reset()
-    apparatus, geoms = environment.task.apparatus, episode.shapes.geoms
+    apparatus, geoms = episode.declared.apparatus, episode.shapes.geoms
     renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms, size=2 * SCENE)
     large = np.zeros((1, 2 * SCENE, 2 * SCENE, 3), np.uint8)
     positions, rotations = np.zeros((1, apparatus.model.ngeom, 3)), np.zeros((1, apparatus.model.ngeom, 9))
@@ -87,7 +83,6 @@ def scenes(episode: recording.Episode, substeps: Sequence[int]) -> Iterator[np.n
         renderer.render(positions, rotations, np.zeros(1, int), large)
         yield np.asarray(Image.fromarray(large[0]).resize((SCENE, SCENE), Image.Resampling.LANCZOS))
     renderer.close()
-    environment.close()
 
 
 def drawn(episode: recording.Episode, frame: Frame, scene: np.ndarray) -> Image.Image:

@@ -9,15 +9,6 @@ import pytest
 
 from physexp import suite
 
-# Interaction actions, labels, and control steps of an unanswered episode. Heavier: 4 blocks to poke, 4 to name, 100
-# steps. Towers: 5 blocks in 4 directions or a fist in 4, 1..5 bodies to answer, 2.6 s / 0.1 s = 26 steps.
-NUMBERS = {
-    "which_is_heavier/features": (4, 4, 100),
-    "towers/direct_features": (20, 5, 26),
-    "towers/fist_features": (4, 5, 26),
-}
-NUMBERS |= {name.replace("features", "pixels"): numbers for name, numbers in NUMBERS.items()}
-
 
 @pytest.fixture
 def env(name):
@@ -61,17 +52,8 @@ for _name in NAMES:
     globals()[_title] = type(_title, (_contract_of(_name),), {"__module__": __name__})
 
 
-def test_the_registry_holds_the_papers_tasks():
-    assert {tuple(name.split("/")) for name in NUMBERS} <= set(suite.ALL_TASKS)
-
-
 def test_the_two_registries_agree():
     assert list(suite.ALL_TASKS) == [(d, name) for d, names in suite.TASKS_BY_DOMAIN.items() for name in names]
-
-
-@pytest.mark.parametrize("name", NUMBERS)
-def test_the_papers_tasks_have_the_stated_numbers_of_actions_and_steps(env, name):
-    assert (env.task.num_interactions, env.task.num_labels, env.task.rules.step_limit) == NUMBERS[name]
 
 
 @every_task
@@ -89,18 +71,6 @@ def test_features_are_float32_of_the_declared_shapes(env):
         name: reading.shape for name, reading in env.task.readings.items()
     }
     assert {value.dtype for value in observation.values()} == {np.dtype(np.float32)}
-
-
-@pytest.mark.parametrize(
-    "name, shapes",
-    [
-        ("which_is_heavier/features", {"heights": (4,)}),
-        ("towers/direct_features", {"positions": (5, 3)}),
-        ("towers/fist_features", {"positions": (5, 3), "fist_position": (3,)}),
-    ],
-)
-def test_the_papers_tasks_have_the_stated_features(env, name, shapes):
-    assert {name: value.shape for name, value in env.reset().observation.items()} == shapes
 
 
 @every_task

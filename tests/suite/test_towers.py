@@ -34,6 +34,20 @@ def _glued(pattern: int, lower: int, upper: int) -> bool:
     return all(tower.PATTERNS[pattern][lower:upper])
 
 
+@pytest.mark.parametrize("kind", ["features", "pixels"])
+@pytest.mark.parametrize("actuator, num_interactions", [("direct", 5 * 4), ("fist", 4)])
+def test_blocks_or_a_fist_go_in_four_directions_and_one_to_five_bodies_are_named(actuator, num_interactions, kind):
+    rules = suite.load_task("towers", f"{actuator}_{kind}").rules
+    # 2.6 s in steps of 0.1 s.
+    assert (rules.num_interactions, rules.num_labels, rules.step_limit) == (num_interactions, 5, 26)
+
+
+@pytest.mark.parametrize("actuator, own", [("direct", {}), ("fist", {"fist_position": (3,)})])
+def test_the_features_are_the_positions(actuator, own):
+    readings = suite.load_task("towers", f"{actuator}_features").readings
+    assert {name: reading.shape for name, reading in readings.items()} == {"positions": (5, 3), **own}
+
+
 def test_there_are_sixteen_patterns_and_each_glued_joint_saves_a_body():
     assert sorted(tower.PATTERNS) == sorted(itertools.product((False, True), repeat=4))
     assert [tower.num_bodies(pattern) for pattern in tower.PATTERNS] == COUNTS.tolist()

@@ -39,6 +39,18 @@ def _draw(seed, difficulty, count):
     return heavier.draw_masses(np.full(count, seed), np.arange(count), difficulty)
 
 
+@pytest.mark.parametrize("task_name", ["features", "pixels"])
+def test_four_blocks_can_be_poked_or_named_in_a_hundred_steps(task_name):
+    rules = suite.load_task("which_is_heavier", task_name).rules
+    assert (rules.num_interactions, rules.num_labels, rules.step_limit) == (4, 4, 100)
+
+
+def test_the_features_are_the_heights():
+    assert {
+        name: reading.shape for name, reading in suite.load_task("which_is_heavier", "features").readings.items()
+    } == {"heights": (4,)}
+
+
 def test_a_poke_lifts_a_block_as_the_spring_damper_law_predicts(seed):
     env = suite.load("which_is_heavier", "features", task_kwargs={"random": seed, "difficulty": 1})
     for episode in range(20):

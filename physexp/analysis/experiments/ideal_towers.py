@@ -65,13 +65,9 @@ def best(rows: list[dict], objective: str = "return") -> dict:
     )
 
 
-def lengths_and_accuracies(results: base.Results) -> dict[str, tuple[float, float]]:
-    """By the name of a condition, mean interactions and accuracy of the observer who sees every bit."""
-    found = {}
-    for task, rows in read(results).items():
-        summary = best(rows)
-        found[conditions.label("towers", task)] = (summary["mean_interactions"], summary["accuracy"])
-    return found
+def summaries(results: base.Results) -> dict[str, dict]:
+    """By the name of a condition, the summary for the observer who sees every bit."""
+    return {conditions.label("towers", task): best(rows) for task, rows in read(results).items()}
 
 
 def _path(results: base.Results, task: str):

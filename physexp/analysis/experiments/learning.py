@@ -1,11 +1,18 @@
 """Learning curves: what the experiments on success in learning share."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import claims
+
+CAPTION = (
+    "Share of right answers in training (drawn actions, smoothed). Light lines: the better half of the agents; dark: "
+    "their median."
+)
 
 _POINTS = 120
 _WINDOW = 2000  # Episodes over which success is averaged, whatever the speed of the machine they were played on.
@@ -67,6 +74,20 @@ def final_success(frame, share: float = 0.05):
     ends = frame.groupby(["condition", "training_seed"]).frames.transform("max")
     last = frame[frame.frames >= (1 - share) * ends]
     return last.groupby(["condition", "training_seed"], as_index=False, sort=False).success_rate.mean()
+
+
+def find_claims(frame, above: float, **words: Any) -> list[claims.Claim]:
+    """In each condition agents are right at the end of training in a larger share than `above`, said in `words`."""
+    final = final_success(frame)
+    return [
+        claims.Claim(
+            condition=name,
+            estimate=estimates.mean_share(final.success_rate[final.condition == name]),
+            above=above,
+            **words,
+        )
+        for name in final.condition.unique()
+    ]
 
 
 def first_reached(run, level: float, along: str = "frames") -> float:

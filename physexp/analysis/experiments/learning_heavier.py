@@ -5,24 +5,23 @@ from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions, learning
 
 
+def _names(kind: str) -> list[str]:
+    """The conditions with a kind of observation, the hardest first."""
+    return [condition.label for condition in conditions.HEAVIER if condition.task == kind]
+
+
 def find_claims(frame) -> list[claims.Claim]:
     """Every condition is learned, and the easier the better."""
     final = learning.final_success(frame)
-    found = []
-    for name in final.condition.unique():
-        rates = final.success_rate[final.condition == name]
-        found.append(
-            claims.Claim(
-                text="Agents are trained successfully from features and from pixels",
-                section="5.3",
-                condition=name,
-                statistic="share of right answers at the end of training, mean of agents; twice chance is 0.5",
-                estimate=estimates.mean_share(rates),
-                above=2 * conditions.chance("which_is_heavier", "features"),
-            )
-        )
+    found = learning.find_claims(
+        frame,
+        above=2 * conditions.chance("which_is_heavier", "features"),
+        text="Agents are trained successfully from features and from pixels",
+        section="5.3",
+        statistic="share of right answers at the end of training, mean of agents; twice chance is 0.5",
+    )
     for kind in conditions.OBSERVATIONS:
-        names = [conditions.label("which_is_heavier", kind, difficulty=beta) for beta in conditions.DIFFICULTIES]
+        names = _names(kind)
         for harder, easier in zip(names, names[1:], strict=False):
             rates = {name: final.success_rate[final.condition == name].to_numpy() for name in (harder, easier)}
             if min(map(len, rates.values())) > 0:
@@ -46,9 +45,9 @@ def draw(frame):
     kinds = [kind for kind in conditions.OBSERVATIONS if (frame.task == kind).any()]
     figure, panels = figures.new(columns=len(kinds), sharey=True, squeeze=False)
     for axes, kind in zip(panels[0], kinds, strict=True):
-        names = [conditions.label("which_is_heavier", kind, difficulty=beta) for beta in conditions.DIFFICULTIES]
         chance = conditions.chance("which_is_heavier", kind)
-        learning.draw_panel(axes, curves, names, [rf"$\beta$ = {beta:g}" for beta in conditions.DIFFICULTIES], chance)
+        labels = [rf"$\beta$ = {beta:g}" for beta in conditions.DIFFICULTIES]
+        learning.draw_panel(axes, curves, _names(kind), labels, chance)
         low, high = min(accuracies), max(accuracies)
         figures.reference(axes, high, f"ideal: {low:.3f} to {high:.3f}")
         axes.set(ylim=(0, 1.08), yticks=[0, 0.2, 0.4, 0.6, 0.8, 1])
@@ -62,8 +61,8 @@ EXPERIMENT = base.Experiment(
     name="learning_heavier",
     title="Learning Which is Heavier",
     section="5.3, Figure 2",
-    caption="Share of right answers in training (drawn actions, smoothed). Light lines: the better half of the agents; "
-    "dark: their median. Dotted at the top: the ideal experimenter, whose accuracy hardly depends on the difficulty.",
+    caption=f"{learning.CAPTION} Dotted at the top: the ideal experimenter, whose accuracy hardly depends on the "
+    "difficulty.",
     conditions=conditions.HEAVIER,
     load=lambda results: results.curves(conditions.HEAVIER),
     claims=find_claims,

@@ -10,20 +10,13 @@ _LEARNED = 0.9  # The success whose first frame is compared between actuators.
 
 def find_claims(frame) -> list[claims.Claim]:
     """All four conditions are solved, and the fist learns first."""
-    final = learning.final_success(frame)
-    found = []
-    for name in final.condition.unique():
-        rates = final.success_rate[final.condition == name]
-        found.append(
-            claims.Claim(
-                text="All four conditions are solved nearly perfectly",
-                section="6.3",
-                condition=name,
-                statistic="share of right answers at the end of training, mean of agents",
-                estimate=estimates.mean_share(rates),
-                above=_NEARLY_PERFECT,
-            )
-        )
+    found = learning.find_claims(
+        frame,
+        above=_NEARLY_PERFECT,
+        text="All four conditions are solved nearly perfectly",
+        section="6.3",
+        statistic="share of right answers at the end of training, mean of agents",
+    )
     for kind in conditions.OBSERVATIONS:
         names = [conditions.label("towers", f"{actuator}_{kind}") for actuator in ("fist", "direct")]
         fist, direct = learning.compare_first_reached(frame, names, _LEARNED)
@@ -61,8 +54,7 @@ EXPERIMENT = base.Experiment(
     name="learning_towers",
     title="Learning Towers",
     section="6.3, Figure 6",
-    caption="Share of right answers in training (drawn actions, smoothed). Light lines: the better half of the agents; "
-    "dark: their median. An ideal experimenter is always right.",
+    caption=f"{learning.CAPTION} An ideal experimenter is always right.",
     conditions=conditions.TOWERS,
     load=lambda results: results.curves(conditions.TOWERS),
     claims=find_claims,

@@ -2,31 +2,23 @@
 
 from physexp.analysis.experiments import base, claims, conditions, ideal_towers, randomized
 
-_NAMES = [condition.label for condition in conditions.TOWERS]
-
 
 def load(results: base.Results):
     """Episodes of both interactions; the ideal experimenters are in the frame's `attrs`."""
-    frame = results.episodes([base.LEARNED, base.RANDOM], conditions.TOWERS, randomized.COLUMNS)
-    frame.attrs["ideal"] = ideal_towers.lengths_and_accuracies(results)
+    frame = randomized.load(results, conditions.TOWERS)
+    frame.attrs["ideal"] = ideal_towers.summaries(results)
     return frame
 
 
 def find_claims(frame) -> list[claims.Claim]:
     """More accurate and quicker in all four."""
-    found = randomized.more_accurate(frame, "6.3")
-    for condition, ratio in randomized.length_ratios(frame).items():
-        found.append(
-            claims.Claim(
-                text="Agents tend to answer more quickly when following their learned interaction",
-                section="6.3",
-                condition=condition,
-                statistic="interactions before an answer, learned over randomized, mean ratio of agents",
-                estimate=ratio,
-                below=1,
-            )
-        )
-    return found
+    return randomized.find_claims(
+        frame,
+        "6.3",
+        text="Agents tend to answer more quickly when following their learned interaction",
+        statistic="interactions before an answer, learned over randomized, mean ratio of agents",
+        below=1,
+    )
 
 
 EXPERIMENT = base.Experiment(
@@ -37,11 +29,9 @@ EXPERIMENT = base.Experiment(
     "drawn at random. Timeouts left out. Dots: single agents. Dotted lines: the ideal experimenter, which sees "
     "every bit.",
     conditions=conditions.TOWERS,
-    trials=(base.LEARNED, base.RANDOM),
+    trials=randomized.TRIALS,
     prepare=ideal_towers.prepare,
     load=load,
     claims=find_claims,
-    draw=lambda frame: randomized.draw(
-        frame, _NAMES, conditions.chance("towers", "fist_features"), frame.attrs["ideal"]
-    ),
+    draw=lambda frame: randomized.draw(frame, conditions.TOWERS, frame.attrs["ideal"]),
 )

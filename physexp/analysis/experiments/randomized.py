@@ -1,14 +1,20 @@
 """Learned against randomized interaction: what the two experiments share."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
-from physexp.analysis.experiments import claims, conditions
+from physexp.analysis.experiments import base, claims, conditions
+from physexp.analysis.training import config as config_lib
 
-COLUMNS = ["label", "reward", "interactions", "time"]
+TRIALS = (base.LEARNED, base.RANDOM)
+
+
+def load(results: base.Results, configs: Sequence[config_lib.TrainConfig]):
+    """Episodes of both interactions."""
+    return results.episodes(TRIALS, configs, ["label", "reward", "interactions", "time"])
 
 
 def per_agent(frame):
@@ -26,41 +32,34 @@ def _paired(agents, condition: str, column: str) -> tuple[np.ndarray, np.ndarray
     return table["learned"].to_numpy(), table["random"].to_numpy()
 
 
-def more_accurate(frame, section: str) -> list[claims.Claim]:
-    """In each condition, the learned interaction leads to more right answers."""
+def find_claims(frame, section: str, **of_lengths) -> list[claims.Claim]:
+    """In each condition the learned interaction is more accurate; `of_lengths` is the claim of how long it takes."""
     agents = per_agent(frame)
-    found = []
-    for condition in agents.condition.unique():
-        learned, random = _paired(agents, condition, "accuracy")
-        found.append(
-            claims.Claim(
-                text="Learned interaction leads to more accurate answers than randomized interaction",
-                section=section,
-                condition=condition,
-                statistic="difference of the shares of right answers, mean of agents",
-                estimate=estimates.mean(learned - random),
-                above=0,
-            )
+    names = agents.condition.unique()
+    accurate = [
+        claims.Claim(
+            text="Learned interaction leads to more accurate answers than randomized interaction",
+            section=section,
+            condition=name,
+            statistic="difference of the shares of right answers, mean of agents",
+            estimate=estimates.mean(np.subtract(*_paired(agents, name, "accuracy"))),
+            above=0,
         )
-    return found
+        for name in names
+    ]
+    lengths = {name: estimates.ratio_of_pairs(*_paired(agents, name, "length")) for name in names}
+    return accurate + [
+        claims.Claim(section=section, condition=name, estimate=ratio, **of_lengths) for name, ratio in lengths.items()
+    ]
 
 
-def length_ratios(frame) -> dict[str, estimates.Estimate]:
-    """By condition: pokes before an answer, learned over randomized."""
+def draw(frame, configs: Sequence[config_lib.TrainConfig], ideal: Mapping[str, Mapping[str, float]]):
+    """Lengths at the left, accuracies at the right; `ideal` has the summary for each condition's label."""
     agents = per_agent(frame)
-    return {
-        condition: estimates.ratio_of_pairs(*_paired(agents, condition, "length"))
-        for condition in agents.condition.unique()
-    }
-
-
-def draw(frame, names: Sequence[str], chance: float, ideal: dict[str, tuple[float, float]]):
-    """Lengths at the left, accuracies at the right; `ideal` has both for each condition."""
-    agents = per_agent(frame)
-    names = [name for name in names if name in set(agents.condition)]
+    names = [config.label for config in configs if config.label in set(agents.condition)]
     figure, panels = figures.new(columns=2, width=3.4, height=2.4)
     places = np.arange(len(names))
-    for axes, column, index in zip(panels, ("length", "accuracy"), (0, 1), strict=True):
+    for axes, column, best in zip(panels, ("length", "accuracy"), ("mean_interactions", "accuracy"), strict=True):
         for offset, interaction, color, hatch in (
             (-0.2, "learned", figures.COLORS[1], None),
             (0.2, "random", figures.COLORS[5], "///"),
@@ -83,7 +82,7 @@ def draw(frame, names: Sequence[str], chance: float, ideal: dict[str, tuple[floa
         for place, name in zip(places, names, strict=True):
             axes.plot(
                 [place - 0.42, place + 0.42],
-                [ideal[name][index]] * 2,
+                [ideal[name][best]] * 2,
                 color="black",
                 linewidth=1.2,
                 linestyle=figures.DASHES[2],
@@ -92,6 +91,6 @@ def draw(frame, names: Sequence[str], chance: float, ideal: dict[str, tuple[floa
         axes.set_xticks(places, [conditions.tick(name).replace(", ", "\n") for name in names], fontsize=6.5)
     panels[0].set(ylabel="interactions before the answer")
     panels[1].set(ylabel="share of right answers", ylim=(0, 1.05))
-    figures.reference(panels[1], chance, "chance")
+    figures.reference(panels[1], conditions.chance(configs[0].domain, configs[0].task), "chance")
     panels[0].legend(loc="upper right", bbox_to_anchor=(1, 1.12), ncols=3, fontsize=6.5)
     return figure

@@ -8,8 +8,8 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from physexp.analysis import readings
-from physexp.analysis.replay import beliefs, recording, words
+from physexp.analysis import domains, readings
+from physexp.analysis.replay import recording, words
 
 TIMELINE = "time"
 
@@ -145,9 +145,8 @@ def entity(reading: readings.Shown, component: str) -> str:
 def _thoughts(episode: recording.Episode, root: str) -> tuple[list[rrb.View], list[list[rrb.View]]]:
     """Returns what is believed now, and plots of it over time in groups; the first of each is to be seen first."""
     curves, chances = functools.partial(_curves, episode, root), (-0.05, 1.05)
-    ideal = [curves("belief of an ideal experimenter", ["belief/ideal"], chances)]
-    if beliefs.of_ideal(episode) is None:
-        ideal = []
+    is_known = domains.find(episode.domain).ideal is not None
+    ideal = [curves("belief of an ideal experimenter", ["belief/ideal"], chances)] if is_known else []
     if not len(episode.policies):
         return [], [ideal] if ideal else []
     now = rrb.TextDocumentView(origin=f"{root}/belief/now", name=titled(root, "belief and policy, now"))

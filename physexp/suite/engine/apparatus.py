@@ -57,6 +57,8 @@ class Apparatus:
     moving_geoms: np.ndarray
     _measures: Mapping[str, declarations.Measure]
     _indicators: tuple[tuple[int, np.ndarray, declarations.Indicator], ...]  # Geoms, their places, and what they show.
+    # What `dofs` has found: names are looked up once, since every reset asks.
+    _dofs: dict[tuple[str, ...], tuple[np.ndarray, np.ndarray]] = dataclasses.field(default_factory=dict, init=False)
 
     def shown(self, field: str, values: np.ndarray, touched: np.ndarray) -> np.ndarray:
         """Returns a field as it may be seen: held entities that were not touched are exactly as at the start.
@@ -93,10 +95,6 @@ class Apparatus:
             values = self.read(indicator.reading, sensordata)
             values = values.reshape(len(values), math.prod(values.shape[1:]))
             geom_xpos[:, geom] = place + values[:, indicator.component, None] * np.array(indicator.travel)
-
-    @functools.cached_property
-    def _dofs(self) -> dict[tuple[str, ...], tuple[np.ndarray, np.ndarray]]:
-        return {}
 
     def dofs(self, joints: tuple[str, ...]) -> tuple[np.ndarray, np.ndarray]:
         """Returns the degrees of freedom and the bodies, int [K] each, of slides or hinges by their full names."""

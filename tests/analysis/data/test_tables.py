@@ -2,6 +2,7 @@
 
 import io
 import os
+from pathlib import Path
 import random
 
 import bits
@@ -30,7 +31,7 @@ TABLE = pyarrow.table(
     },
     SCHEMA,
 )
-STORED = os.path.join(os.path.dirname(__file__), "..", "..", "results", "episodes", "learned")
+STORED = Path(__file__).parents[3] / "results" / "episodes" / "learned"
 
 
 def as_before(table=TABLE, **options):
@@ -104,7 +105,7 @@ def test_what_is_no_file_is_refused_without_waiting(tmp_path):
 
 
 def test_results_that_are_stored_are_read():
-    paths = [os.path.join(STORED, name) for name in sorted(os.listdir(STORED))]
+    paths = sorted(STORED.iterdir())
     frame = records.read(paths[:: len(paths) // 3], ["reward", "length"])
     assert len(frame) > 1000 and set(frame.reward) <= {-1.0, 1.0}
 

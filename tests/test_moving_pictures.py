@@ -9,7 +9,7 @@ import pytest
 
 from physexp import suite
 
-DOCS = Path(__file__).parents[2] / "docs"
+DOCS = Path(__file__).parent.parent / "docs"
 
 
 @pytest.fixture(scope="module")

@@ -239,7 +239,7 @@ def random_heavier(num_agents, generator, gain=0.15, ratio=1.0):
 
 def random_towers(num_agents, generator, gain=0.15, ratio=0.6):
     frame = learned_and_random(conditions.TOWERS, num_agents, generator, gain, ratio)
-    frame.attrs["ideal"] = {label(config): (4.0, 1.0) for config in conditions.TOWERS}
+    frame.attrs["ideal"] = {label(config): {"mean_interactions": 4.0, "accuracy": 1.0} for config in conditions.TOWERS}
     return frame
 
 

@@ -30,7 +30,7 @@ from physexp.analysis.evaluation import playing
 from physexp.analysis.replay import beliefs, live, recording, selection, words, writing
 from physexp.suite.parts import block, tower
 
-DOCS = Path(__file__).parents[2] / "docs"
+DOCS = Path(__file__).parents[3] / "docs"
 TASKS = [("which_is_heavier", "features"), ("towers", "fist_features"), ("towers", "direct_pixels")]
 
 

@@ -3,6 +3,7 @@
 import dataclasses
 import math
 
+import evaluation_figures
 import numpy as np
 import pytest
 from scipy import stats
@@ -14,16 +15,6 @@ from physexp.agents import pretrained
 from physexp.analysis.data import episodes, estimates
 from physexp.analysis.evaluation import playing
 from physexp.analysis.training import run as run_lib
-
-KEYS = [
-    "episodes",
-    "success_rate",
-    "success_interval",
-    "mean_return",
-    "mean_interactions",
-    "median_interactions",
-    "timeouts",
-]
 
 
 def test_the_summary_of_four_episodes_is_the_one_computed_by_hand():
@@ -43,7 +34,7 @@ def test_the_summary_of_four_episodes_is_the_one_computed_by_hand():
         actions=actions,
     )
     summary = played.summary(0.9)
-    assert list(summary) == KEYS
+    assert list(summary) == evaluation_figures.NAMES
     assert summary["episodes"] == 4
     assert summary["success_rate"] == 0.5
     # The reward of an episode of n actions is discounted n - 1 times: (1 - 0.9^2 - 0.9^99 + 0.9) / 4.
