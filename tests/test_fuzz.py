@@ -181,6 +181,7 @@ def words():
         "--resume",
         "--agent",
         "ppo",
+        "belief",
         "a3c",
         "--num-workers",
         "--run-dir",

@@ -12,6 +12,7 @@ import numpy as np
 from waiting import wait_until
 
 from physexp.agents.a3c import config as a3c
+from physexp.agents.belief import config as belief
 from physexp.agents.ppo import config as ppo
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
@@ -27,6 +28,7 @@ def fresh_seed() -> int:
 
 SMALL = {
     "a3c": a3c.A3CConfig(num_workers=1, envs_per_worker=32, checkpoint_seconds=0.2),
+    "belief": belief.BeliefConfig(num_environments=32, frames_per_step=64, checkpoint_seconds=0.2),
     "ppo": ppo.PPOConfig(num_threads=1, num_environments=32, checkpoint_seconds=0.2),
 }
 """An agent of each algorithm that makes small updates, in one process."""

@@ -11,6 +11,9 @@ from physexp.agents import core, networks, rounds
 ActionOverride = Callable[[np.ndarray, np.random.Generator], np.ndarray]
 """Maps chosen actions, int [N], and a generator to the actions that the environments get, int [N]."""
 
+Choose = Callable[[torch.Tensor, np.ndarray, int], np.ndarray]
+"""Maps logits [N, A], the indices of the environments, int [N], and the number of the step to actions, int64 [N]."""
+
 
 def as_tensors(observation: Mapping[str, np.ndarray]) -> dict[str, torch.Tensor]:
     """Returns the arrays of a batched observation as tensors."""
@@ -26,7 +29,7 @@ def sample(logits: torch.Tensor, generator: np.random.Generator) -> np.ndarray:
 
 @torch.no_grad()
 def play_round(
-    network: networks.RecurrentActorCritic,
+    network: networks.RecurrentNetwork,
     environment: core.Batch,
     episode: int,
     generator: np.random.Generator,
@@ -34,6 +37,7 @@ def play_round(
     action_override: ActionOverride | None = None,
     differentiable: bool = False,
     keep_behaviour: bool = False,
+    choose: Choose | None = None,
 ) -> rounds.Round:
     """Plays one whole episode in each environment of a batch.
 
@@ -47,20 +51,26 @@ def play_round(
       differentiable: keep the inputs of the LSTM and their graph, to learn with the parameters that the round is played
         with: what is seen then passes the torso only once.
       keep_behaviour: keep observations, probabilities and values, to learn with other parameters, too.
+      choose: chooses the actions, instead of drawing them from the policy.
     """
     timestep = environment.reset(episode=episode)
     active = np.arange(environment.num_environments)
     state = network.initial_state(len(active))
-    steps, encoded, behaviour = [], [], []
+    steps: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
+    encoded, behaviour = [], []
     lengths = np.zeros(len(active), np.int64)
     while len(active):
         observation = timestep.observation
         with torch.set_grad_enabled(differentiable):
             inputs = network.encode(as_tensors(observation))
         logits, values, state = network.step(inputs, state)
-        actions = logits.cpu().numpy().argmax(axis=1) if greedy else sample(logits, generator)
+        if choose is not None:
+            actions = choose(logits, active, len(steps))
+        else:
+            actions = logits.cpu().numpy().argmax(axis=1) if greedy else sample(logits, generator)
         if action_override is not None:
             actions = action_override(actions, generator)
+        state = network.note(torch.from_numpy(actions), state)
         timestep = environment.step(actions, active)
         steps.append((active, actions, timestep.reward))
         if differentiable:
@@ -72,7 +82,7 @@ def play_round(
         going = timestep.step_type != dm_env.StepType.LAST
         if not going.all():
             kept = torch.from_numpy(np.flatnonzero(going)).to(logits.device)
-            active, state = active[going], (state[0][:, kept], state[1][:, kept])
+            active, state = active[going], tuple(part[:, kept] for part in state)
             timestep = timestep._replace(observation={k: v[going] for k, v in timestep.observation.items()})
     actions, rewards = (np.zeros((len(steps), len(lengths)), dtype) for dtype in (np.int64, np.float32))
     for t, (active, taken, reward) in enumerate(steps):
@@ -103,7 +113,7 @@ class RecurrentActor(core.Actor):
     policy: np.ndarray
     value: float
 
-    def __init__(self, network: networks.RecurrentActorCritic, seed: int = 0, greedy: bool = False):
+    def __init__(self, network: networks.RecurrentNetwork, seed: int = 0, greedy: bool = False):
         """Wraps a network; `seed` determines the actions drawn, `greedy` takes the likeliest ones instead."""
         self._network, self._greedy = network, greedy
         self._generator = np.random.default_rng(seed)
@@ -114,15 +124,14 @@ class RecurrentActor(core.Actor):
         tensors = {name: torch.as_tensor(value)[None] for name, value in observation.items()}
         logits, values, self._state = self._network.step(self._network.encode(tensors), self._state)
         self.policy, self.value = torch.softmax(logits[0].double(), dim=-1).cpu().numpy(), float(values[0])
-        if self._greedy:
-            return int(logits.argmax())
-        return int(sample(logits, self._generator)[0])
+        return int(logits.argmax() if self._greedy else sample(logits, self._generator)[0])
 
     def observe_first(self, timestep):
         self._state = self._network.initial_state(1)
 
+    @torch.inference_mode()
     def observe(self, action, next_timestep):
-        """Does nothing: the state has moved on in `select_action`."""
+        self._state = self._network.note(torch.tensor([action]), self._state)
 
     def update(self):
         """Does nothing: the network is fixed."""

@@ -12,39 +12,21 @@ LARGEST = 2**63 - 1
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class AgentConfig:
-    """Hyperparameters of a recurrent actor-critic; a value out of range raises ValueError.
+    """Hyperparameters that every agent has; a value out of range raises ValueError.
 
     Attributes:
       discount: the agent's discount factor gamma, which is the cost of information (paper, Section 3).
       frames: environment steps to train for.
       seed: random seed of weights, environments and actions.
       learning_rate: Adam's initial learning rate; it decays linearly to zero over training.
-      entropy_cost: initial weight of the entropy bonus.
-      final_entropy_cost: final weight of the entropy bonus; the decay is exponential.
-      relative_entropy: regularize the policy towards the action prior (KL divergence) instead of towards the uniform
-        policy, as in the paper.
-      trace: lambda of generalized advantage estimation; 1, as in the paper, is Monte Carlo returns minus the baseline.
-      baseline_cost: weight of the value loss.
       max_gradient_norm: gradients are clipped to this norm.
-      lstm_units: hidden units of the LSTM (paper: 100).
-      observation_scale: factor on features (m) or on pixels in [0, 1]; choose it so that what matters in them is of the
-        order of one.
-      action_prior: initial logits of the policy, one for each action; none for a uniform policy, as in the paper.
-      relative_pixels: subtract the image at the start of episodes from every image; False is the paper's.
       device: where convolutions are computed: cpu, cuda, or auto for the GPU where there is one.
       checkpoint_seconds: time between checkpoints, s.
     """
 
     algorithm: ClassVar[str]
     """The learner's name."""
-    metrics: ClassVar[Mapping[str, str]] = {
-        "entropy": "mean entropy of the policy, nats",
-        "policy_loss": "",
-        "baseline_loss": "",
-        "gradient_norm": "before clipping",
-        "learning_rate": "",
-        "entropy_cost": "",
-    }
+    metrics: ClassVar[Mapping[str, str]] = {"gradient_norm": "before clipping", "learning_rate": ""}
     """Names of what the learner measures in each update, and what they mean where the name does not say it."""
     can_run_on_cluster: ClassVar[bool] = False
     """Whether its workers may be spread over machines."""
@@ -53,44 +35,36 @@ class AgentConfig:
     frames: int = 8_000_000
     seed: int = 0
     learning_rate: float = 5e-3
-    entropy_cost: float = 0.15
-    final_entropy_cost: float = 0.0001
-    relative_entropy: bool = False
-    trace: float = 1.0
-    baseline_cost: float = 0.5
     max_gradient_norm: float = 1.0
-    lstm_units: int = 100
-    observation_scale: float = 40.0
-    action_prior: tuple[float, ...] = ()
-    relative_pixels: bool = True
     device: Device = "auto"
     checkpoint_seconds: float = 60.0
 
     _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {  # With what they are at least and at most.
         "frames": (1, LARGEST),
         "seed": (0, LARGEST),
-        "lstm_units": (1, 65_536),
     }
-    _POSITIVE: ClassVar[tuple[str, ...]] = (
-        "learning_rate",
-        "max_gradient_norm",
-        "observation_scale",
-        "checkpoint_seconds",
-    )
+    _POSITIVE: ClassVar[tuple[str, ...]] = ("learning_rate", "max_gradient_norm", "checkpoint_seconds")
+    _NOT_NEGATIVE: ClassVar[tuple[str, ...]] = ()
+    _SHARES: ClassVar[tuple[str, ...]] = ()  # From 0 to 1.
+    _FLAGS: ClassVar[tuple[str, ...]] = ()
 
     def replace(self, **changes) -> Self:
         """Returns a copy with some values changed."""
         return dataclasses.replace(self, **changes)
 
-    @property
-    def entropy_prior(self) -> tuple[float, ...]:
-        """Returns what the entropy bonus is relative to, logits of the actions; none for the uniform policy."""
-        return self.action_prior if self.relative_entropy else ()
+    def learning_rate_at(self, progress: float) -> float:
+        """Returns the step size when this share of training is done."""
+        return self.learning_rate * (1 - progress)
 
-    def at(self, progress: float) -> tuple[float, float]:
-        """Returns step size and weight of the entropy bonus when this share of training is done."""
-        entropy_cost = self.entropy_cost ** (1 - progress) * self.final_entropy_cost**progress
-        return self.learning_rate * (1 - progress), entropy_cost
+    @property
+    def title(self) -> str:
+        """Returns the learner's name in names of runs; one that is told more has another."""
+        return self.algorithm
+
+    @property
+    def advice(self) -> str:
+        """Returns what else to try where training has come to nothing, in words."""
+        return f"a smaller --learning-rate than {self.learning_rate:g}"
 
     @property
     def num_workers(self) -> int:
@@ -102,22 +76,84 @@ class AgentConfig:
             value = getattr(self, name)
             if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
                 raise ValueError(f"{name} is {value!r}; give an integer >= {least} and <= {most}")
-        for name in (*self._POSITIVE, "entropy_cost", "final_entropy_cost", "baseline_cost"):
+        for name in (*self._POSITIVE, *self._NOT_NEGATIVE):
             value, positive = getattr(self, name), name in self._POSITIVE
-            if not _is_number(value) or value < 0 or (positive and value == 0):
+            if not is_number(value) or value < 0 or (positive and value == 0):
                 raise ValueError(f"{name} is {value!r}; give a finite number {'> 0' if positive else '>= 0'}")
-        if self.device not in get_args(Device):
-            raise ValueError(f"device is {self.device!r}; choose from {', '.join(get_args(Device))}")
-        if not isinstance(self.action_prior, tuple) or not all(map(_is_number, self.action_prior)):
-            raise ValueError(f"action_prior is {self.action_prior!r}; give finite numbers, one for each action")
-        for name in ("relative_entropy", "relative_pixels"):
+        for name in self._SHARES:
+            if not is_number(getattr(self, name)) or not 0 <= getattr(self, name) <= 1:
+                raise ValueError(f"{name} is {getattr(self, name)!r}; give a number in [0, 1]")
+        for name in self._FLAGS:
             if not isinstance(getattr(self, name), bool):
                 raise ValueError(f"{name} is {getattr(self, name)!r}; give True or False")
-        if not _is_number(self.trace) or not 0 <= self.trace <= 1:
-            raise ValueError(f"trace is {self.trace!r}; give a number in [0, 1]")
-        if not _is_number(self.discount) or not 0 < self.discount <= 1:
+        if self.device not in get_args(Device):
+            raise ValueError(f"device is {self.device!r}; choose from {', '.join(get_args(Device))}")
+        if not is_number(self.discount) or not 0 < self.discount <= 1:
             raise ValueError(f"discount is {self.discount!r}; give a number in (0, 1]")
 
 
-def _is_number(value) -> bool:
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ActorCriticConfig(AgentConfig):
+    """Hyperparameters of a recurrent actor-critic; a value out of range raises ValueError.
+
+    Attributes:
+      entropy_cost: initial weight of the entropy bonus.
+      final_entropy_cost: final weight of the entropy bonus; the decay is exponential.
+      relative_entropy: regularize the policy towards the action prior (KL divergence) instead of towards the uniform
+        policy, as in the paper.
+      trace: lambda of generalized advantage estimation; 1, as in the paper, is Monte Carlo returns minus the baseline.
+      baseline_cost: weight of the value loss.
+      lstm_units: hidden units of the LSTM (paper: 100).
+      observation_scale: factor on features (m) or on pixels in [0, 1]; choose it so that what matters in them is of the
+        order of one.
+      action_prior: initial logits of the policy, one for each action; none for a uniform policy, as in the paper.
+      relative_pixels: subtract the image at the start of episodes from every image; False is the paper's.
+    """
+
+    metrics: ClassVar[Mapping[str, str]] = {
+        "entropy": "mean entropy of the policy, nats",
+        "policy_loss": "",
+        "baseline_loss": "",
+        **AgentConfig.metrics,
+        "entropy_cost": "",
+    }
+
+    entropy_cost: float = 0.15
+    final_entropy_cost: float = 0.0001
+    relative_entropy: bool = False
+    trace: float = 1.0
+    baseline_cost: float = 0.5
+    lstm_units: int = 100
+    observation_scale: float = 40.0
+    action_prior: tuple[float, ...] = ()
+    relative_pixels: bool = True
+
+    _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {**AgentConfig._WHOLE, "lstm_units": (1, 65_536)}
+    _POSITIVE: ClassVar[tuple[str, ...]] = (*AgentConfig._POSITIVE, "observation_scale")
+    _NOT_NEGATIVE: ClassVar[tuple[str, ...]] = ("entropy_cost", "final_entropy_cost", "baseline_cost")
+    _SHARES: ClassVar[tuple[str, ...]] = ("trace",)
+    _FLAGS: ClassVar[tuple[str, ...]] = ("relative_entropy", "relative_pixels")
+
+    @property
+    def advice(self):
+        return f"a larger --entropy-cost than {self.entropy_cost:g}"
+
+    @property
+    def entropy_prior(self) -> tuple[float, ...]:
+        """Returns what the entropy bonus is relative to, logits of the actions; none for the uniform policy."""
+        return self.action_prior if self.relative_entropy else ()
+
+    def at(self, progress: float) -> tuple[float, float]:
+        """Returns step size and weight of the entropy bonus when this share of training is done."""
+        entropy_cost = self.entropy_cost ** (1 - progress) * self.final_entropy_cost**progress
+        return self.learning_rate_at(progress), entropy_cost
+
+    def __post_init__(self):
+        super().__post_init__()
+        if not isinstance(self.action_prior, tuple) or not all(map(is_number, self.action_prior)):
+            raise ValueError(f"action_prior is {self.action_prior!r}; give finite numbers, one for each action")
+
+
+def is_number(value) -> bool:
+    """Returns whether a value is a finite number."""
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)

@@ -26,6 +26,10 @@ class Batch(Protocol):
         """Returns B."""
 
     @property
+    def num_interactions(self) -> int:
+        """Returns how many actions are interactions; they come first, labels after them."""
+
+    @property
     def correct_answers(self) -> np.ndarray:
         """Returns the right labels of the current episodes, int64 [B]; never observable."""
 

@@ -1,14 +1,17 @@
 """What learners share: the variables that training moves, the targets of whole episodes, and one careful gradient."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import Generic, TypeVar
 
 import numpy as np
 import torch
 
 from physexp.agents import checkpointing, core, losses, networks, rounds
 
+Network = TypeVar("Network", bound=networks.RecurrentNetwork)
 
-class Variables:
+
+class Variables(Generic[Network]):
     """All that training moves.
 
     Attributes:
@@ -19,7 +22,7 @@ class Variables:
       rounds: rounds played by each worker, int64 [num_workers].
     """
 
-    def __init__(self, network: networks.RecurrentActorCritic, num_workers: int = 1):
+    def __init__(self, network: Network, num_workers: int = 1):
         """Gives a network an optimizer, and counters to its workers."""
         self.network = network
         self.optimizer = torch.optim.Adam(network.parameters(), eps=1e-5, foreach=False)
@@ -113,17 +116,26 @@ def targets(episodes: rounds.Round, values: torch.Tensor, discount: float, trace
 
 
 def clipped_gradients(
-    network: networks.RecurrentActorCritic, loss: torch.Tensor, max_norm: float, episodes: rounds.Round
+    network: torch.nn.Module,
+    loss: torch.Tensor,
+    max_norm: float,
+    arrays: Callable[[], dict[str, np.ndarray]],
 ) -> tuple[list[torch.Tensor], float]:
     """Returns the gradient of a loss for each parameter, scaled down to a norm, and the norm it had.
 
+    Args:
+      network: whose parameters they are of.
+      loss: the loss.
+      max_norm: the norm.
+      arrays: returns what the loss was computed from.
+
     Raises:
-      DivergedError: if the loss or the norm is not finite; it holds the round.
+      DivergedError: if the loss or the norm is not finite; it holds these arrays.
     """
     network.zero_grad()
     loss.backward()
     norm = torch.nn.utils.clip_grad_norm_(network.parameters(), max_norm)
     if not (torch.isfinite(loss) and torch.isfinite(norm)):
-        raise core.DivergedError(f"loss {loss.item()} with gradient norm {norm.item()}", episodes.arrays())
+        raise core.DivergedError(f"loss {loss.item()} with gradient norm {norm.item()}", arrays())
     gradients = [parameter.grad for parameter in network.parameters()]
     return [gradient for gradient in gradients if gradient is not None], norm.item()

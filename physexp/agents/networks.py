@@ -1,15 +1,70 @@
-"""The networks: a torso for each kind of observation, and the paper's recurrent actor-critic on top (Section 4)."""
+"""The networks: what agents have in common, torsos, and the paper's recurrent actor-critic on top (Section 4)."""
 
+import abc
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from dm_env import specs
 import numpy as np
 import torch
 from torch import nn
 
-from physexp.agents import devices, lstm
+from physexp.agents import config as config_lib
+from physexp.agents import core, devices, lstm
 
 Observation = Mapping[str, torch.Tensor]
+
+State = tuple[torch.Tensor, ...]
+"""What a network remembers of N episodes: tensors [1, N, ...]."""
+
+
+class RecurrentNetwork(nn.Module, abc.ABC):
+    """What acts: it looks, remembers, and gives each action a preference.
+
+    Attributes:
+      sees_images: whether it observes an image, or features.
+    """
+
+    sees_images: bool
+
+    @abc.abstractmethod
+    def __init__(self, observation_spec: Mapping[str, specs.Array], num_actions: int, **hyperparameters: Any):
+        """Builds the network for what is observed and so many actions; its weights follow torch's global seed."""
+        super().__init__()
+
+    @staticmethod
+    @abc.abstractmethod
+    def hyperparameters(environment: core.Batch, config: Any) -> dict[str, Any]:
+        """Returns the further arguments to build a network of, numbers by name."""
+
+    @property
+    def device(self) -> torch.device:
+        """Returns the device that the network computes on."""
+        return next(self.parameters()).device
+
+    @abc.abstractmethod
+    def initial_state(self, batch_size: int) -> State:
+        """Returns the state at the start of episodes."""
+
+    @abc.abstractmethod
+    def encode(self, observation: Observation) -> torch.Tensor:
+        """Maps observations, arrays [N, ...], to what `step` takes, float32 [N, F]."""
+
+    @abc.abstractmethod
+    def step(self, inputs: torch.Tensor, state: State) -> tuple[torch.Tensor, torch.Tensor, State]:
+        """Computes one time step of many episodes.
+
+        Args:
+          inputs: what `encode` returned, [N, F].
+          state: what is remembered of the steps before.
+
+        Returns:
+          Logits [N, A], values [N] and the next state.
+        """
+
+    def note(self, actions: torch.Tensor, state: State) -> State:
+        """Returns the state with the actions that were taken, int64 [N]; a network that does not care returns it."""
+        return state
 
 
 class FeatureTorso(nn.Module):
@@ -97,7 +152,7 @@ def _distinct(images: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
     return torch.from_numpy(first), torch.tensor(places)
 
 
-def _sees_images(observation_spec: Mapping[str, specs.Array]) -> bool:
+def sees_images(observation_spec: Mapping[str, specs.Array]) -> bool:
     """Tells whether an image is observed, or features; raises ValueError for anything else."""
     images = [name for name, spec in observation_spec.items() if spec.dtype == np.uint8]
     if not observation_spec or (images and len(observation_spec) > 1):
@@ -108,7 +163,7 @@ def _sees_images(observation_spec: Mapping[str, specs.Array]) -> bool:
     return bool(images)
 
 
-class RecurrentActorCritic(nn.Module):
+class RecurrentActorCritic(RecurrentNetwork):
     """Torso, LSTM, and two linear heads: the policy's logits and the value."""
 
     def __init__(
@@ -129,22 +184,21 @@ class RecurrentActorCritic(nn.Module):
         Raises:
           ValueError: if what is observed is neither features nor one image.
         """
-        super().__init__()
-        self.sees_images = _sees_images(observation_spec)
+        super().__init__(observation_spec, num_actions)
+        self.sees_images = sees_images(observation_spec)
         self.torso = (PixelTorso if self.sees_images else FeatureTorso)(observation_spec, observation_scale)
         self.lstm = lstm.LSTM(self.torso.num_outputs, lstm_units)
         self.policy = nn.Linear(lstm_units, num_actions)
         self.value = nn.Linear(lstm_units, 1)
 
+    @staticmethod
+    def hyperparameters(environment: core.Batch, config: config_lib.ActorCriticConfig) -> dict[str, Any]:
+        return {"lstm_units": config.lstm_units, "observation_scale": config.observation_scale}
+
     def initial_state(self, batch_size: int) -> lstm.State:
         """Returns the state at an episode's start: zeros, hidden and cell each [1, batch_size, units]."""
         shape = (1, batch_size, self.lstm.hidden_size)
         return torch.zeros(shape, device=self.device), torch.zeros(shape, device=self.device)
-
-    @property
-    def device(self) -> torch.device:
-        """Returns the device that the network computes on."""
-        return self.value.weight.device
 
     def calibrate(self, first: Observation) -> None:
         """Tells the torso what an episode's first observation looks like, arrays [N, ...]; it is always the same."""
@@ -161,23 +215,13 @@ class RecurrentActorCritic(nn.Module):
         if logits:
             self.policy.bias.data += torch.tensor(logits)
 
-    def encode(self, observation: Observation) -> torch.Tensor:
-        """Maps observations, arrays [N, ...], to what the LSTM takes, float32 [N, F]."""
+    def encode(self, observation):
         with devices.autocast(self.device):
             inputs, places = self.torso.distinct(observation)
             projected = self.lstm.project(inputs.to(self.device)).float()
             return projected if places is None else projected[places]
 
-    def step(self, inputs: torch.Tensor, state: lstm.State) -> tuple[torch.Tensor, torch.Tensor, lstm.State]:
-        """Computes one time step of many episodes.
-
-        Args:
-          inputs: what `encode` returned, [N, F].
-          state: hidden and cell state, each [1, N, units].
-
-        Returns:
-          Logits [N, A], values [N] and the next state.
-        """
+    def step(self, inputs, state):
         outputs, state = self.lstm.step(inputs, state)
         return *self._heads(outputs), state
 

@@ -5,7 +5,6 @@ import contextlib
 import dataclasses
 import hashlib
 import json
-import math
 import os
 from pathlib import Path
 import re
@@ -15,9 +14,10 @@ from dm_env import specs
 import numpy as np
 import torch
 
-from physexp.agents import acting, checkpointing, files, networks
+from physexp.agents import acting, checkpointing, config, files, networks, registry
 
 FOLDER = Path(__file__).with_name("pretrained_agents")
+_KINDS = {kind.__name__: kind for kind in registry.NETWORKS.values()}
 _WAITING = ".next.safetensors"  # Weights of a card that is about to be written, or has just been.
 
 
@@ -31,7 +31,7 @@ class Pretrained:
         frames, time, evaluation, the network's hyperparameters and the specs it was made for.
     """
 
-    network: networks.RecurrentActorCritic
+    network: networks.RecurrentNetwork
     card: dict[str, Any]
 
     def actor(self, seed: int = 0, greedy: bool = False) -> acting.RecurrentActor:
@@ -115,8 +115,9 @@ def load_named(base: str, folder: Path = FOLDER) -> Pretrained:
     card = files.read_json(path)
     try:
         _check(card, base)
+        facts = {"kind": networks.RecurrentActorCritic.__name__, **card["network"]}  # Older cards do not say it.
         with torch.device("meta"):  # Nothing is made that its weights do not fit.
-            like = _network(card["network"]).state_dict()
+            like = _network(facts).state_dict()
     except (KeyError, TypeError, ValueError, AttributeError, RuntimeError, ArithmeticError) as error:
         what = "lacks " + str(error) if isinstance(error, KeyError) else " ".join(str(error).split())[:200]
         raise ValueError(f"{path} is not what was written: {what}; publish the agent again") from None
@@ -126,9 +127,9 @@ def load_named(base: str, folder: Path = FOLDER) -> Pretrained:
         if files.read_json(path) == card:
             raise
         return load_named(base, folder)  # Another has just been written.
-    network = _network(card["network"])
+    network = _network(facts)
     network.load_state_dict(weights)
-    return Pretrained(network.eval(), {**card, "task_kwargs": _options(card, base)})
+    return Pretrained(network.eval(), {**card, "network": facts, "task_kwargs": _options(card, base)})
 
 
 def _options(card: dict[str, Any], base: str) -> dict[str, Any]:
@@ -148,17 +149,15 @@ def _check(card: dict[str, Any], base: str) -> None:
         raise ValueError(f"it is of {found}")
 
 
-def _network(facts: dict[str, Any]) -> networks.RecurrentActorCritic:
+def _network(facts: dict[str, Any]) -> networks.RecurrentNetwork:
     """Returns the network that the facts on a card describe, with some weights."""
     observation_spec = {
         key: specs.Array(tuple(shape), np.dtype(dtype), key) for key, (shape, dtype) in facts["observations"].items()
     }
-    units, scale = (facts["hyperparameters"][key] for key in ("lstm_units", "observation_scale"))
-    if not isinstance(scale, (int, float)) or not math.isfinite(scale):
-        raise ValueError(f"observation_scale is {scale!r}")
-    return networks.RecurrentActorCritic(
-        observation_spec, facts["num_actions"], lstm_units=units, observation_scale=scale
-    )
+    for key, value in facts["hyperparameters"].items():
+        if not config.is_number(value):
+            raise ValueError(f"{key} is {value!r}")
+    return _KINDS[facts["kind"]](observation_spec, facts["num_actions"], **facts["hyperparameters"])
 
 
 def _read_weights(card_path: Path, card: dict[str, Any], like: dict[str, torch.Tensor]) -> dict[str, torch.Tensor]:
@@ -171,7 +170,7 @@ def _read_weights(card_path: Path, card: dict[str, Any], like: dict[str, torch.T
     return checkpointing.read_agent(path, like, checksum)
 
 
-def save(network: networks.RecurrentActorCritic, card: Mapping[str, Any], folder: Path = FOLDER) -> Path:
+def save(network: networks.RecurrentNetwork, card: Mapping[str, Any], folder: Path = FOLDER) -> Path:
     """Writes a trained agent; returns the path of its card. Interrupted at any time, it leaves the old one or the new.
 
     Args:
@@ -217,7 +216,7 @@ def sealed(card: Mapping[str, Any]) -> bytes:
     return (json.dumps({**plain, "card_sha256": checkpointing.json_digest(plain)}, indent=1) + "\n").encode()
 
 
-def halved(network: networks.RecurrentActorCritic) -> networks.RecurrentActorCritic:
+def halved(network: networks.RecurrentNetwork) -> networks.RecurrentNetwork:
     """Rounds a network's weights, in place, to what half precision keeps of them."""
     with torch.no_grad():
         for parameter in network.parameters():

@@ -1,6 +1,6 @@
 """What training starts from: a network for an environment, and the seeds of workers and of rounds."""
 
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 import torch
@@ -8,28 +8,27 @@ import torch
 from physexp.agents import acting, core, networks
 from physexp.agents import config as config_lib
 
+Network = TypeVar("Network", bound=networks.RecurrentNetwork)
 
-def make_network(environment: core.Batch, config: config_lib.AgentConfig) -> networks.RecurrentActorCritic:
-    """Returns a network for an environment's specs, its weights drawn from the configuration's seed."""
+
+def make_network(kind: type[Network], environment: core.Batch, config: config_lib.AgentConfig) -> Network:
+    """Returns a network of a kind for an environment's specs, its weights drawn from the configuration's seed."""
     with torch.random.fork_rng():
         torch.manual_seed(config.seed)
-        return networks.RecurrentActorCritic(
-            environment.observation_spec(), environment.action_spec().num_values, **hyperparameters(config)
+        return kind(
+            environment.observation_spec(),
+            environment.action_spec().num_values,
+            **kind.hyperparameters(environment, config),
         )
 
 
-def initial_network(environment: core.Batch, config: config_lib.AgentConfig) -> networks.RecurrentActorCritic:
+def initial_network(environment: core.Batch, config: config_lib.ActorCriticConfig) -> networks.RecurrentActorCritic:
     """Returns the network that training starts from: with the initial policy that is asked for, and calibrated."""
-    network = make_network(environment, config)
+    network = make_network(networks.RecurrentActorCritic, environment, config)
     network.initialize_policy(config.action_prior)
     if config.relative_pixels:
         network.calibrate(acting.as_tensors(environment.reset().observation))
     return network
-
-
-def hyperparameters(config: config_lib.AgentConfig) -> dict[str, Any]:
-    """Returns what a configuration says of the network, as its keyword arguments."""
-    return {"lstm_units": config.lstm_units, "observation_scale": config.observation_scale}
 
 
 def worker_seed(seed: int, worker: int) -> int:

@@ -6,6 +6,7 @@ import re
 import pytest
 
 from physexp.agents.a3c import config as a3c
+from physexp.agents.belief import config as belief
 from physexp.agents.ppo import config as ppo
 
 BAD = [
@@ -16,22 +17,25 @@ BAD = [
     ("frames", 1.5),
     ("frames", True),
     ("seed", -1),
-    ("lstm_units", 0),
     ("learning_rate", 0.0),
     ("learning_rate", math.inf),
-    ("entropy_cost", -0.1),
-    ("entropy_cost", math.nan),
-    ("final_entropy_cost", -1.0),
-    ("baseline_cost", math.nan),
     ("max_gradient_norm", 0.0),
-    ("observation_scale", -1.0),
     ("trace", -0.1),
     ("trace", 1.1),
     ("trace", math.nan),
     ("checkpoint_seconds", 0.0),
 ]
+BAD_FOR_ACTOR_CRITICS = [
+    ("lstm_units", 0),
+    ("entropy_cost", -0.1),
+    ("entropy_cost", math.nan),
+    ("final_entropy_cost", -1.0),
+    ("baseline_cost", math.nan),
+    ("observation_scale", -1.0),
+]
 BAD_FOR = [
-    *((config, name, value) for config in (a3c.A3CConfig, ppo.PPOConfig) for name, value in BAD),
+    *((config, *bad) for config in (a3c.A3CConfig, belief.BeliefConfig, ppo.PPOConfig) for bad in BAD),
+    *((config, *bad) for config in (a3c.A3CConfig, ppo.PPOConfig) for bad in BAD_FOR_ACTOR_CRITICS),
     (a3c.A3CConfig, "num_workers", 0),
     (a3c.A3CConfig, "envs_per_worker", 0),
     (ppo.PPOConfig, "num_environments", 0),
@@ -39,6 +43,18 @@ BAD_FOR = [
     (ppo.PPOConfig, "num_epochs", 0),
     (ppo.PPOConfig, "num_minibatches", 0),
     (ppo.PPOConfig, "clip", 0.0),
+    (belief.BeliefConfig, "units", 0),
+    (belief.BeliefConfig, "num_environments", 0),
+    (belief.BeliefConfig, "num_threads", 0),
+    (belief.BeliefConfig, "most_interactions", 0),
+    (belief.BeliefConfig, "frames_per_step", 0),
+    (belief.BeliefConfig, "batch_size", 0),
+    (belief.BeliefConfig, "replay_episodes", 0),
+    (belief.BeliefConfig, "greedy", -1.0),
+    (belief.BeliefConfig, "cut", 1.5),
+    (belief.BeliefConfig, "exploration", -0.1),
+    (belief.BeliefConfig, "dropout", 2.0),
+    (belief.BeliefConfig, "averaging", math.nan),
 ]
 
 
@@ -51,6 +67,11 @@ def test_a_bad_value_is_refused_by_name_with_what_is_allowed(config, name, value
 def test_more_parts_than_episodes_are_refused():
     with pytest.raises(ValueError, match="num_minibatches is 9; give at most num_environments, 8"):
         ppo.PPOConfig(num_environments=8, num_minibatches=9)
+
+
+def test_less_room_than_a_round_takes_is_refused():
+    with pytest.raises(ValueError, match="replay_episodes is 15; give at least num_environments, 16"):
+        belief.BeliefConfig(replay_episodes=15)
 
 
 @pytest.mark.parametrize("name", ["relative_entropy", "relative_pixels"])

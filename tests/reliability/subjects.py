@@ -5,7 +5,7 @@ import pyarrow
 from pyarrow import parquet
 import torch
 
-from physexp.agents import networks, pretrained, starting
+from physexp.agents import networks, pretrained, registry
 from physexp.agents.ppo import config as ppo
 from physexp.analysis.evaluation import records
 from physexp.analysis.training import config as config_lib
@@ -72,7 +72,7 @@ def contents(run: run_lib.Run):
 
 def network(number: float) -> networks.RecurrentActorCritic:
     """A network of the small agent, of which every variable is a number."""
-    made = starting.make_network(trainer.make_environment(config(), 0, 1, 1), SMALL)
+    made = registry.make_network(trainer.make_environment(config(), 0, 1, 1), SMALL)
     with torch.no_grad():
         for value in made.state_dict().values():
             value.fill_(number)
@@ -96,7 +96,7 @@ def card(number: int) -> dict:
         "network": {
             "observations": observations,
             "num_actions": num_actions,
-            "hyperparameters": starting.hyperparameters(SMALL),
+            "hyperparameters": networks.RecurrentActorCritic.hyperparameters(None, SMALL),
         },
     }
 

@@ -8,7 +8,7 @@ from physexp.agents import config
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class A3CConfig(config.AgentConfig):
+class A3CConfig(config.ActorCriticConfig):
     """Hyperparameters of A3C; a value out of range raises ValueError.
 
     Attributes:
@@ -19,7 +19,7 @@ class A3CConfig(config.AgentConfig):
 
     algorithm: ClassVar[str] = "a3c"
     metrics: ClassVar[Mapping[str, str]] = {
-        **config.AgentConfig.metrics,
+        **config.ActorCriticConfig.metrics,
         "staleness": "updates of others between taking the parameters and applying the gradient",
     }
     can_run_on_cluster: ClassVar[bool] = True
@@ -29,7 +29,7 @@ class A3CConfig(config.AgentConfig):
     max_staleness: int = 100
 
     _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {
-        **config.AgentConfig._WHOLE,
+        **config.ActorCriticConfig._WHOLE,
         "num_workers": (1, 10_000),
         "envs_per_worker": (1, 65_536),
         "max_staleness": (0, config.LARGEST),

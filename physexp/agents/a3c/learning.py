@@ -188,7 +188,7 @@ class A3CLearner(core.Learner):
             self._network, episodes, config.discount, config.trace, config.entropy_prior
         )
         loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
-        gradients, norm = learning.clipped_gradients(self._network, loss, config.max_gradient_norm, episodes)
+        gradients, norm = learning.clipped_gradients(self._network, loss, config.max_gradient_norm, episodes.arrays)
         metrics = {
             "policy_loss": policy_loss.item(),
             "baseline_loss": baseline_loss.item(),

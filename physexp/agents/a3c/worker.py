@@ -9,7 +9,7 @@ from typing import Any
 
 import torch
 
-from physexp.agents import acting, core, devices, processes, rounds, starting
+from physexp.agents import acting, core, devices, networks, processes, rounds, starting
 from physexp.agents.a3c import config as config_lib
 from physexp.agents.a3c import learning as a3c_learning
 
@@ -23,7 +23,7 @@ def work(
 ) -> None:
     """Updates the shared variables, until all frames are done or the worker is stopped."""
     environment = make_environment(starting.worker_seed(config.seed, index), config.envs_per_worker, 1)
-    network = starting.make_network(environment, config)
+    network = starting.make_network(networks.RecurrentActorCritic, environment, config)
     network.to(devices.choose(config.device, network.sees_images))
 
     def play(episode: int) -> rounds.Round:

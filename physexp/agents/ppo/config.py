@@ -8,7 +8,7 @@ from physexp.agents import config
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class PPOConfig(config.AgentConfig):
+class PPOConfig(config.ActorCriticConfig):
     """Hyperparameters of PPO; a value out of range raises ValueError.
 
     Attributes:
@@ -28,13 +28,13 @@ class PPOConfig(config.AgentConfig):
     clip: float = 0.2
 
     _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {
-        **config.AgentConfig._WHOLE,
+        **config.ActorCriticConfig._WHOLE,
         "num_environments": (1, 65_536),
         "num_threads": (1, 1_024),
         "num_epochs": (1, 1_000),
         "num_minibatches": (1, 65_536),
     }
-    _POSITIVE: ClassVar[tuple[str, ...]] = (*config.AgentConfig._POSITIVE, "clip")
+    _POSITIVE: ClassVar[tuple[str, ...]] = (*config.ActorCriticConfig._POSITIVE, "clip")
 
     def __post_init__(self):
         super().__post_init__()

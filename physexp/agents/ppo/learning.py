@@ -76,7 +76,7 @@ class PPOLearner(core.Learner):
             config.entropy_prior,
         )
         loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
-        gradients, norm = learning.clipped_gradients(network, loss, config.max_gradient_norm, episodes)
+        gradients, norm = learning.clipped_gradients(network, loss, config.max_gradient_norm, episodes.arrays)
         self.variables.apply(gradients, learning_rate)
         return {
             "policy_loss": policy_loss.item(),

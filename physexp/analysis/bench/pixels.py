@@ -8,7 +8,7 @@ import numpy as np
 import torch
 
 from physexp import suite  # Before mujoco and dm_control, for which it chooses the GL backend.
-from physexp.agents import losses, starting
+from physexp.agents import losses, networks, starting
 from physexp.agents.a3c import config as a3c
 from physexp.analysis.bench import measuring
 from physexp.analysis.training import config as config_lib
@@ -152,7 +152,7 @@ def _bare_network_rate(task: measuring.Task) -> float:
     config = config_lib.preset(*task)
     assert isinstance(config, a3c.A3CConfig)
     environment = suite.load_batch(*task, 1)
-    network = starting.make_network(environment, config)
+    network = starting.make_network(networks.RecurrentActorCritic, environment, config)
     shape = (_ROUND_STEPS, config.envs_per_worker, rendering.SIZE, rendering.SIZE, 3)
     images = torch.randint(256, shape, dtype=torch.uint8, generator=torch.Generator().manual_seed(0))
     batch_sizes = torch.full((_ROUND_STEPS,), config.envs_per_worker)

@@ -93,5 +93,5 @@ class Domain:
 
 def ppo_like(preset: a3c.A3CConfig, **changes) -> ppo.PPOConfig:
     """Returns a configuration of PPO with the hyperparameters that A3C's has too, and with changes."""
-    shared = {field.name: getattr(preset, field.name) for field in dataclasses.fields(agent_config.AgentConfig)}
+    shared = {field.name: getattr(preset, field.name) for field in dataclasses.fields(agent_config.ActorCriticConfig)}
     return ppo.PPOConfig(**{**shared, **changes})

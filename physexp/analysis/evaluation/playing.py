@@ -9,7 +9,7 @@ import numpy as np
 import torch
 
 from physexp import suite
-from physexp.agents import acting, devices, networks, pretrained, starting
+from physexp.agents import acting, devices, networks, pretrained, registry
 from physexp.analysis.data.episodes import Episodes
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
@@ -20,7 +20,7 @@ INTERACTIONS = ("learned", "random")
 _BATCH = 256
 
 
-def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
+def load_network(run: run_lib.Run) -> networks.RecurrentNetwork:
     """Returns the network that a run has trained.
 
     Raises:
@@ -29,9 +29,9 @@ def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
     config = run.config
     environment = trainer.make_environment(config, 0, 1, 1)
     with torch.device("meta"):  # Nothing is made that the variables do not fit.
-        like = starting.make_network(environment, config.agent).state_dict()
+        like = registry.make_network(environment, config.agent).state_dict()
     variables = run.variables(like)
-    network = starting.make_network(environment, config.agent)
+    network = registry.make_network(environment, config.agent)
     environment.close()
     network.load_state_dict(variables)
     return network.eval()
@@ -39,7 +39,7 @@ def load_network(run: run_lib.Run) -> networks.RecurrentActorCritic:
 
 def find_agent(
     target: str, task_kwargs: Mapping[str, Any] | None = None
-) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
+) -> tuple[networks.RecurrentNetwork, config_lib.TrainConfig]:
     """Returns a trained agent's network, and what it plays.
 
     Args:
@@ -70,7 +70,7 @@ def find_agent(
 
 def shipped_agent(
     domain: str, task: str, task_kwargs: Mapping[str, Any]
-) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
+) -> tuple[networks.RecurrentNetwork, config_lib.TrainConfig]:
     """Returns the network of the agent that comes with the package for a task with these options, and what it plays.
 
     Raises:
@@ -94,7 +94,7 @@ def _check_options(target: str, config: config_lib.TrainConfig, wanted: Mapping[
             raise ValueError(f"{target} {what}, and {name} is {value}; leave that out, or name another agent")
 
 
-def _with_config(agent: pretrained.Pretrained) -> tuple[networks.RecurrentActorCritic, config_lib.TrainConfig]:
+def _with_config(agent: pretrained.Pretrained) -> tuple[networks.RecurrentNetwork, config_lib.TrainConfig]:
     config = config_of(agent)
     if agent.card["network"] != network_facts(config):
         raise ValueError(
@@ -110,11 +110,14 @@ def network_facts(config: config_lib.TrainConfig) -> dict[str, Any]:
         name: [list(spec.shape), np.dtype(spec.dtype).name] for name, spec in environment.observation_spec().items()
     }
     num_actions = environment.action_spec().num_values
+    kind = registry.NETWORKS[config.agent.algorithm]
+    hyperparameters = kind.hyperparameters(environment, config.agent)
     environment.close()
     return {
+        "kind": kind.__name__,
         "observations": observations,
         "num_actions": num_actions,
-        "hyperparameters": starting.hyperparameters(config.agent),
+        "hyperparameters": hyperparameters,
     }
 
 
@@ -145,7 +148,7 @@ def evaluate(
 
 
 def play(
-    network: networks.RecurrentActorCritic,
+    network: networks.RecurrentNetwork,
     config: config_lib.TrainConfig,
     num_episodes: int,
     interaction: str = "learned",

@@ -303,7 +303,7 @@ class Reenactor(core.Actor):
 
 
 def reenact(
-    network: networks.RecurrentActorCritic,
+    network: networks.RecurrentNetwork,
     config: config_lib.TrainConfig,
     seed: int,
     episode: int,

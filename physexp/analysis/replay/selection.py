@@ -16,7 +16,7 @@ _MOST = 10_000  # Episodes played in search of enough.
 
 
 def select(
-    network: networks.RecurrentActorCritic,
+    network: networks.RecurrentNetwork,
     config: config_lib.TrainConfig,
     count: int,
     selection: Selection = "any",

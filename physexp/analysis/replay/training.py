@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import torch
 
-from physexp.agents import starting
+from physexp.agents import registry
 from physexp.analysis.replay import recording, writing
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
@@ -40,7 +40,7 @@ class Writer:
         """
         if frames - self._last_replay(frames) < self._config.replay_every:
             return
-        network = starting.make_network(trainer.make_environment(self._config, 0, 1, 1), self._config.agent)
+        network = registry.make_network(trainer.make_environment(self._config, 0, 1, 1), self._config.agent)
         network.load_state_dict(variables)
         title = f"{self._config.name} after {frames:,} steps"
         path = self._folder / f"{frames:015d}.rrd"

@@ -9,6 +9,7 @@ from typing import Any
 
 from physexp.agents import config as agent_config
 from physexp.agents.a3c import config as a3c
+from physexp.agents.belief import config as belief
 from physexp.agents.ppo import config as ppo
 from physexp.analysis import domains
 
@@ -16,7 +17,7 @@ REPLAY_EVERY = 1_000_000
 """Environment steps between the replays that `physexp train` writes."""
 
 ALGORITHMS: dict[str, type[agent_config.AgentConfig]] = {
-    config.algorithm: config for config in (a3c.A3CConfig, ppo.PPOConfig)
+    config.algorithm: config for config in (a3c.A3CConfig, belief.BeliefConfig, ppo.PPOConfig)
 }
 """The configurations of all agents, by name."""
 
@@ -78,7 +79,7 @@ class TrainConfig:
     def name(self) -> str:
         """A name for the run's folder."""
         options = "".join(f"-{name}{shown(value)}" for name, value in sorted(self.task_kwargs.items()))
-        algorithm = "" if self.agent.algorithm == DEFAULT_ALGORITHM else f"-{self.agent.algorithm}"
+        algorithm = "" if self.agent.title == DEFAULT_ALGORITHM else f"-{self.agent.title}"
         discount = f"-discount{self.agent.discount:g}"
         return f"{self.domain}-{self.task}{options}{algorithm}{discount}-seed{self.agent.seed}"
 
@@ -90,7 +91,10 @@ class TrainConfig:
     @classmethod
     def from_json(cls, fields: dict) -> "TrainConfig":
         """Returns the configuration that `to_json`, of this version or an earlier one, has written."""
-        agent = {**fields["agent"], "action_prior": tuple(fields["agent"].get("action_prior", ()))}  # JSON has lists.
+        agent: dict[str, Any] = {
+            name: tuple(value) if isinstance(value, list) else value  # JSON has lists.
+            for name, value in fields["agent"].items()
+        }
         algorithm = ALGORITHMS[agent.pop("algorithm", DEFAULT_ALGORITHM)]
         chosen = {name: fields[name] for name in _OF_FORMAT_1 if fields.get(name) is not None}
         others = {name: value for name, value in fields.items() if name not in _OF_FORMAT_1}

@@ -52,8 +52,8 @@ def of_run(run: run_lib.Run) -> str | None:
 def advice(config: config_lib.TrainConfig) -> str:
     """Returns what may help an agent that has learned nothing."""
     agent = config.agent
-    other = "--agent ppo, " if agent.algorithm != "ppo" else ""
+    other = "--agent ppo, " if agent.algorithm == config_lib.DEFAULT_ALGORITHM else ""
     return (
-        f"train anew, in another --run-dir, with --frames {2 * agent.frames} or more (learning rate and entropy cost "
-        f"decay over them, so --resume adds none), {other}or a larger --entropy-cost than {agent.entropy_cost:g}"
+        f"train anew, in another --run-dir, with --frames {2 * agent.frames} or more (what decays does so "
+        f"over them, so --resume adds none), {other}or {agent.advice}"
     )

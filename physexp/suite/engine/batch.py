@@ -79,6 +79,11 @@ class BatchEnvironment:
         return self._task
 
     @property
+    def num_interactions(self) -> int:
+        """How many actions are interactions; they come first, labels after them."""
+        return self._task.num_interactions
+
+    @property
     def correct_answers(self) -> np.ndarray:
         """Indices of the right labels in the current episodes, int64 [B]; never observable."""
         return self._task.answers(self.hidden)

@@ -69,13 +69,23 @@ def test_the_commands_of_the_agents_that_come_with_the_package_describe_them_sti
     assert train.config == config.agent
 
 
+def _another(value):
+    """A value of a hyperparameter that differs from this one."""
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, str):
+        return {"auto": "cpu"}[value]
+    if isinstance(value, tuple):
+        return (0.5, -1.0)
+    return value + 1 if isinstance(value, int) else value / 2 + 0.001
+
+
 @pytest.mark.parametrize("algorithm", config_lib.ALGORITHMS)
 @pytest.mark.parametrize("task", suite.ALL_TASKS)
 def test_every_field_of_an_agent_survives_the_way_over_the_command_line(task, algorithm):
     domain, name = task
-    changed = config_lib.preset(domain, name, algorithm=algorithm).replace(
-        seed=3, relative_pixels=False, device="cpu", trace=0.25, action_prior=(0.5, -1.0)
-    )
+    preset = config_lib.preset(domain, name, algorithm=algorithm)
+    changed = preset.replace(**{field: _another(value) for field, value in dataclasses.asdict(preset).items()})
     config = config_lib.TrainConfig(domain=domain, task=name, agent=changed)
     _, *arguments = shlex.split(publishing.command(config))
     assert parsing.parse(arguments).config == changed

@@ -6,7 +6,7 @@ import subprocess
 import pytest
 from rerun.chunk import RrdReader
 
-from physexp.agents import starting
+from physexp.agents import registry
 from physexp.agents.ppo import config as ppo
 from physexp.analysis.replay import training, writing
 from physexp.analysis.training import config as config_lib
@@ -63,7 +63,7 @@ def test_a_run_that_goes_on_counts_steps_from_its_last_replay(tmp_path, monkeypa
     for name in ("000000000003000", "000000000009000", "mine"):  # The second is of what was lost, and learned again.
         (run.path / "replays" / f"{name}.rrd").touch()
     config = dataclasses.replace(SMALL, replay_every=2000)
-    network = starting.make_network(trainer.make_environment(config, 0, 1, 1), config.agent)
+    network = registry.make_network(trainer.make_environment(config, 0, 1, 1), config.agent)
     written = []
     monkeypatch.setattr(writing, "write", lambda path, groups: written.append(path.name))
     for frames in (4999, 5000):

@@ -7,21 +7,21 @@ from physexp.analysis.evaluation import playing
 from physexp.analysis.training import trainer
 
 # Small updates and an entropy cost that stays high: few frames suffice, and the agent does not learn to be silent.
+HIGH_ENTROPY = {"entropy_cost": 0.15, "final_entropy_cost": 0.03}
 SHORT = {
-    "a3c": {"frames": 400_000, "num_workers": 2, "envs_per_worker": 64},
-    "ppo": {"frames": 100_000, "num_environments": 64},
+    "a3c": {"frames": 400_000, "num_workers": 2, "envs_per_worker": 64, **HIGH_ENTROPY},
+    "belief": {"frames": 12_000, "num_environments": 16, "frames_per_step": 4},
+    "ppo": {"frames": 100_000, "num_environments": 64, **HIGH_ENTROPY},
 }
 
 
-@pytest.mark.parametrize("algorithm", [pytest.param("a3c", marks=pytest.mark.long), "ppo"])
+@pytest.mark.parametrize("algorithm", [pytest.param("a3c", marks=pytest.mark.long), "belief", "ppo"])
 def test_a_short_run_finds_the_heaviest_block_far_more_often_than_chance(algorithm, tmp_path):
     run = trainers.create(
         tmp_path / "run",
         algorithm,
         **SHORT[algorithm],
         seed=trainers.fresh_seed(),
-        entropy_cost=0.15,
-        final_entropy_cost=0.03,
         checkpoint_seconds=60.0,
     )
     trainer.train(run)

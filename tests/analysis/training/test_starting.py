@@ -54,7 +54,7 @@ def test_a_missing_extra_is_told_before_anything_is_made(option, module, tmp_pat
 
 
 @pytest.mark.skipif(torch.cuda.is_available(), reason="there is a GPU here")
-@pytest.mark.parametrize("agent", ["a3c", "ppo"])
+@pytest.mark.parametrize("agent", ["a3c", "belief", "ppo"])
 def test_a_gpu_that_is_not_there_is_told_before_anything_is_made(agent, tmp_path, capsys):
     options = ("--agent", agent, "--device", "cuda", "--tensorboard")
     line = refusal(capsys, "train", *TASK, "--run-dir", tmp_path / "deep" / "run", *options)

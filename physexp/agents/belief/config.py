@@ -1,0 +1,87 @@
+"""The configuration of the belief learner."""
+
+from collections.abc import Mapping
+import dataclasses
+from typing import ClassVar
+
+from physexp.agents import config
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class BeliefConfig(config.AgentConfig):
+    """Hyperparameters of the belief learner, the same for all tasks; a value out of range raises ValueError.
+
+    Attributes:
+      answers_revealed: learn from the right label, which is told when an episode is over; otherwise from the reward
+        alone, as the paper's agents did.
+      units: units of the recurrent layer and of the layers above it.
+      num_environments: environments that play side by side, one episode each between two rounds of learning.
+      num_threads: threads for simulation and for convolutions.
+      most_interactions: how many interactions an episode has at most; then it is answered.
+      greedy: share of the episodes in training that are played as well as the agent can; they say how well that is.
+      cut: share of the other episodes that are answered after a number of interactions drawn at random.
+      exploration: share of the interactions, and of the answers, in the other episodes that are drawn at random.
+      trace: lambda, how far the return of the greedy actions that followed is believed against the network's values.
+      frames_per_step: environment steps for each step of Adam; fewer learn more from each.
+      batch_size: episodes in a step of Adam.
+      replay_episodes: episodes that are kept to learn from; the oldest go.
+      dropout: share of the trunk's outputs that the heads learn without; beliefs are less sure of what was seen once.
+      averaging: the network that acts is a moving average of the one that learns; this share stays in each step.
+    """
+
+    algorithm: ClassVar[str] = "belief"
+    metrics: ClassVar[Mapping[str, str]] = {
+        "belief_loss": "cross-entropy of the labels, nats",
+        "value_loss": "squared error of the values of interactions",
+        "greedy_success_rate": "share of the greedy episodes with the right label",
+        "greedy_return": "mean discounted return of the greedy episodes",
+        "brier_score": "of the belief in the answer of the last 1024 greedy episodes",
+        "calibration_error": "of that belief, expected, in ten bins",
+        **config.AgentConfig.metrics,
+    }
+
+    frames: int = 100_000
+    learning_rate: float = 1e-3
+    answers_revealed: bool = False
+    units: int = 64
+    num_environments: int = 16
+    num_threads: int = 1
+    most_interactions: int = 8
+    greedy: float = 0.25
+    cut: float = 0.5
+    exploration: float = 0.1
+    trace: float = 0.9
+    frames_per_step: int = 4
+    batch_size: int = 64
+    replay_episodes: int = 20_000
+    dropout: float = 0.2
+    averaging: float = 0.99
+
+    _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {
+        **config.AgentConfig._WHOLE,
+        "units": (1, 65_536),
+        "num_environments": (1, 65_536),
+        "num_threads": (1, 1_024),
+        "most_interactions": (1, 10_000),
+        "frames_per_step": (1, config.LARGEST),
+        "batch_size": (1, 65_536),
+        "replay_episodes": (1, 100_000_000),
+    }
+    _SHARES: ClassVar[tuple[str, ...]] = ("greedy", "cut", "exploration", "trace", "dropout", "averaging")
+    _FLAGS: ClassVar[tuple[str, ...]] = ("answers_revealed",)
+
+    @property
+    def title(self):
+        return f"{self.algorithm}_revealed" if self.answers_revealed else self.algorithm
+
+    @property
+    def advice(self):
+        return f"fewer --frames-per-step than {self.frames_per_step}"
+
+    def __post_init__(self):
+        super().__post_init__()
+        if self.replay_episodes < self.num_environments:
+            raise ValueError(
+                f"replay_episodes is {self.replay_episodes}; give at least num_environments, {self.num_environments}: "
+                "what has been played is kept until it has been learned from"
+            )

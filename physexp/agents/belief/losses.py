@@ -1,0 +1,92 @@
+"""What a belief and the values of interactions are trained towards; pure functions on tensors [T, B] of whole episodes.
+
+With `b` the belief over the labels after some steps of an episode, to answer then is worth `S = 2 max(b) - 1`.
+"""
+
+import torch
+from torch.nn import functional
+
+
+def hindsight(logits: torch.Tensor, answers: torch.Tensor, are_right: torch.Tensor) -> torch.Tensor:
+    """Returns what an answer and its reward tell of the label, by Bayes' rule.
+
+    A right answer is the label. A wrong one is not, and leaves the others as likely as they were to each other:
+    `p[l] = b[l] / (1 - b[a])` for the labels other than the answer `a`. With these as targets, a step on the
+    cross-entropy is one on the likelihood of the reward, `log b[a]` for +1 and `log(1 - b[a])` for -1 (expectation
+    maximization: Dempster, Laird & Rubin, 1977); and it is the target of earlier steps too, which know less.
+
+    Args:
+      logits: of the belief that the answer was given with, [B, L].
+      answers: the labels that were answered, int64 [B].
+      are_right: whether that was right, bool [B].
+
+    Returns:
+      Probabilities of the labels, [B, L].
+    """
+    answered = functional.one_hot(answers, logits.shape[1]).bool()
+    others = logits.masked_fill(answered, -torch.inf).softmax(dim=1)
+    return torch.where(are_right[:, None], answered.float(), others)
+
+
+def belief_loss(logits: torch.Tensor, labels: torch.Tensor, are_counted: torch.Tensor) -> torch.Tensor:
+    """Returns the mean cross-entropy of beliefs at every step of every episode.
+
+    Args:
+      logits: of the beliefs, [T, B, L].
+      labels: what the label is, probabilities [B, L].
+      are_counted: which steps count, bool [T, B].
+    """
+    losses = -(labels * logits.log_softmax(dim=-1)).sum(-1)
+    return (losses * are_counted).sum() / are_counted.sum().clamp(min=1)
+
+
+def interaction_targets(
+    answering: torch.Tensor,
+    interacting: torch.Tensor,
+    are_greedy: torch.Tensor,
+    are_last: torch.Tensor,
+    rewards: torch.Tensor,
+    discount: float,
+    trace: float,
+) -> torch.Tensor:
+    """Returns what the interactions of whole episodes were worth.
+
+    The target of an interaction is `gamma * V` of the step that follows it, `V = max(S, max Q)`, and at the last step
+    `V = S`: nothing follows there that `Q` could be learned from, and a target that took it would follow its
+    extrapolation. As long as the interactions that follow are greedy, the return from there counts by `lambda` instead
+    of `V` (Watkins' Q(lambda): Watkins, 1989). An interaction that ends the episode is worth its reward.
+
+    Args:
+      answering: S, [T, B].
+      interacting: max Q, [T, B].
+      are_greedy: whether the interaction that was taken is the one of max Q, bool [T, B].
+      are_last: which step is the last of its episode, bool [T, B].
+      rewards: of the last actions, [B].
+      discount: gamma.
+      trace: lambda.
+
+    Returns:
+      Targets [T, B]; they mean nothing where no interaction was taken.
+    """
+    values = torch.where(are_last, answering, torch.maximum(answering, interacting))
+    goes_on = are_greedy & (interacting > answering) & ~are_last
+    targets = rewards.expand_as(values).clone()
+    for step in range(len(values) - 2, -1, -1):
+        following = torch.where(
+            goes_on[step + 1], torch.lerp(values[step + 1], targets[step + 1], trace), values[step + 1]
+        )
+        targets[step] = torch.where(are_last[step], rewards, discount * following)
+    return targets
+
+
+def calibration_error(confidences: torch.Tensor, outcomes: torch.Tensor, num_bins: int = 10) -> float:
+    """Returns how far confidence is from the share of right answers, expected (ECE: Naeini et al., 2015).
+
+    Args:
+      confidences: beliefs in what was answered, [N].
+      outcomes: 1 where that was right, 0 where it was wrong, [N].
+      num_bins: bins of equal width over [0, 1].
+    """
+    bins = (confidences * num_bins).long().clamp(0, num_bins - 1)
+    gaps = torch.zeros(num_bins, dtype=confidences.dtype).index_add_(0, bins, confidences - outcomes)
+    return float(gaps.abs().sum() / max(1, len(confidences)))

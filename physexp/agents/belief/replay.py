@@ -1,0 +1,125 @@
+"""What was played: whole episodes in memory, the oldest forgotten first."""
+
+from collections.abc import Callable
+import dataclasses
+import functools
+import math
+import os
+from typing import Any
+
+import numpy as np
+import torch
+
+from physexp.agents import acting, core, rounds
+
+_LARGEST_SHARE = 0.5  # Of the machine's memory.
+
+
+@dataclasses.dataclass(frozen=True)
+class Episodes:
+    """Episodes to learn from, B of them, padded to the longest.
+
+    Attributes:
+      observation: what was seen before each action, arrays [N, ...] by name, of the steps that were played: all first
+        steps, then all second steps, and so on.
+      actions: int64 [T, B].
+      rewards: of the last actions, float32 [B].
+      lengths: actions in each episode, int64 [B].
+      answers: the right labels, int64 [B]; to be learned from only where they are revealed.
+    """
+
+    observation: dict[str, torch.Tensor]
+    actions: torch.Tensor
+    rewards: torch.Tensor
+    lengths: torch.Tensor
+    answers: torch.Tensor
+
+    @property
+    def played(self) -> torch.Tensor:
+        """Returns which steps were played, bool [T, B]."""
+        return torch.arange(len(self.actions))[:, None] < self.lengths
+
+    def arrays(self) -> dict[str, np.ndarray]:
+        """Returns everything as plain arrays by name."""
+        named: dict[str, Any] = {**vars(self), **self.observation}
+        del named["observation"]
+        return {name: value.numpy() for name, value in named.items()}
+
+
+class Replay:
+    """Rounds of episodes, one episode in each of B environments.
+
+    An episode follows from its seed, its index and its actions, so a checkpoint needs only the actions: `restore` plays
+    them again.
+
+    Attributes:
+      actions: what was done, int16 [R, T, B], for the last R rounds; -1 where nothing was.
+    """
+
+    def __init__(self, environment: core.Batch, num_rounds: int, longest: int):
+        """Makes room for as many rounds of episodes of at most `longest` actions.
+
+        Raises:
+          ValueError: if they would take more than half of the machine's memory.
+        """
+        spec = environment.observation_spec()
+        steps = num_rounds, longest, environment.num_environments
+        num_bytes = math.prod(steps) * sum(math.prod(array.shape) * array.dtype.itemsize for array in spec.values())
+        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+        if num_bytes > _LARGEST_SHARE * memory:
+            fitting = int(num_rounds * environment.num_environments * _LARGEST_SHARE * memory / num_bytes)
+            raise ValueError(
+                f"{num_rounds * environment.num_environments:,} episodes to learn from take {num_bytes / 1e9:.1f} GB, "
+                f"and this machine has {memory / 1e9:.1f} GB; give replay_episodes at most {fitting}"
+            )
+        # Memory is taken when something is written to it.
+        self._observation = {name: np.zeros((*steps, *array.shape), array.dtype) for name, array in spec.items()}
+        self.actions = torch.full(steps, -1, dtype=torch.int16)
+        self._rewards = np.zeros((num_rounds, environment.num_environments), np.float32)
+        self._answers = np.zeros(self._rewards.shape, np.int64)
+
+    def add(self, played: rounds.Round, number: int) -> None:
+        """Keeps the round of a number, whose behaviour has what was observed; that of R rounds before is forgotten."""
+        assert played.behaviour is not None
+        slot, length = number % len(self.actions), len(played.actions)
+        self.actions[slot] = -1
+        self.actions[slot, :length] = torch.from_numpy(np.where(played.played, played.actions, -1))
+        for name, array in played.behaviour.observation.items():
+            self._observation[name][slot, :length][played.played] = array.numpy()
+        self._rewards[slot] = played.rewards.sum(axis=0)
+        self._answers[slot] = played.answers
+
+    def restore(self, play: Callable[[int, acting.Choose], rounds.Round], num_rounds: int) -> None:
+        """Has the rounds that `actions` has, of as many as there were in all, played again.
+
+        Args:
+          play: plays the round of a number, and keeps the behaviour.
+          num_rounds: how many rounds there were.
+        """
+        actions = self.actions.numpy().astype(np.int64)
+        for number in range(max(0, num_rounds - len(actions)), num_rounds):
+            self.add(play(number, functools.partial(_again, actions[number % len(actions)])), number)
+
+    def sample(self, generator: np.random.Generator, size: int, num_rounds: int) -> Episodes:
+        """Returns episodes of the last of so many rounds, drawn with replacement, from the longest to the shortest."""
+        slots = generator.integers(min(num_rounds, len(self.actions)), size=size)
+        environments = generator.integers(self.actions.shape[2], size=size)
+        lengths = (self.actions[slots, :, environments] >= 0).sum(1).numpy()
+        order = np.argsort(-lengths, kind="stable")
+        slots, environments, lengths = slots[order], environments[order], lengths[order]
+        steps, columns = np.nonzero(np.arange(lengths[0])[:, None] < lengths)
+        return Episodes(
+            {
+                name: torch.from_numpy(array[slots[columns], steps, environments[columns]])
+                for name, array in self._observation.items()
+            },
+            self.actions[slots, :, environments].T[: lengths[0]].long().clamp(min=0),
+            torch.from_numpy(self._rewards[slots, environments]),
+            torch.from_numpy(lengths),
+            torch.from_numpy(self._answers[slots, environments]),
+        )
+
+
+def _again(actions: np.ndarray, logits: torch.Tensor, active: np.ndarray, step: int) -> np.ndarray:
+    """Chooses what was done before, [T, B]; see `acting.Choose`."""
+    return actions[step, active]
