@@ -23,7 +23,7 @@ def test_ten_thousand_resets_leave_memory_as_it_is(seed, drawn):
         batch.reset()
         batch.step(np.zeros(16, int))
 
-    grown = memory.growth(play, 200, num_warm_up=20)
+    grown = memory.growth(play, 500, num_warm_up=20)
     assert sum(drawn) >= 520 * (4 + 1 + 16)
     assert grown < 2_000_000, f"{grown} bytes; an image has {EDGE * EDGE * 3}"
 
