@@ -15,7 +15,7 @@ from physexp.agents import core, devices, lstm
 Observation = Mapping[str, torch.Tensor]
 
 State = tuple[torch.Tensor, ...]
-"""What a network remembers of N episodes: tensors [1, N, ...]."""
+"""What a network remembers of N episodes, tensors [1, N, ...]."""
 
 
 class RecurrentNetwork(nn.Module, abc.ABC):

@@ -15,8 +15,7 @@ from physexp.agents.belief import config as config_lib
 
 _PIXEL_SCALE = 10.0  # What changes in an image is of the order of a tenth of its range.
 _FINEST = 0.01  # What is smaller than this share of the usual movement of features is resolved less and less.
-_TEMPERATURE = 0.01
-"""Of the policy: actions are as good as equal when their values differ by less."""
+_TEMPERATURE = 0.01  # Of the policy: actions are as good as equal when their values differ by less.
 
 
 class BeliefNetwork(networks.RecurrentNetwork):
