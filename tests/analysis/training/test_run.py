@@ -9,6 +9,7 @@ import signal
 
 import pytest
 import torch
+from waiting import wait_until
 
 from physexp.agents.a3c import config as a3c
 from physexp.agents.ppo import config as ppo
@@ -73,47 +74,48 @@ def _race(folder, number, barrier, both_have_tried):
     os._exit(min(1, wrong))
 
 
-def test_of_two_that_start_together_in_one_new_folder_one_is_refused_before_it_writes(tmp_path):
-    context = multiprocessing.get_context("fork")
-    barriers = context.Barrier(2), context.Barrier(2)
-    racers = [context.Process(target=_race, args=(tmp_path, number, *barriers)) for number in (1, 2)]
+def _all_end(racers) -> list[int]:
+    """Starts processes and returns their exit codes; a fork of this one might wait for a thread that it lacks."""
     for racer in racers:
         racer.start()
-    for racer in racers:
-        racer.join()
-    assert [racer.exitcode for racer in racers] == [0, 0]
+    wait_until(lambda: not any(racer.is_alive() for racer in racers), "the end of the race")
+    return [racer.exitcode for racer in racers]
+
+
+def test_of_two_that_start_together_in_one_new_folder_one_is_refused_before_it_writes(tmp_path):
+    context = multiprocessing.get_context("spawn")
+    barriers = context.Barrier(2), context.Barrier(2)
+    racers = [context.Process(target=_race, args=(tmp_path, number, *barriers)) for number in (1, 2)]
+    assert _all_end(racers) == [0, 0]
     for round_ in range(ROUNDS):
         run = run_lib.Run(tmp_path / "new" / str(round_))
         assert [entry["frames"] for entry in run.metrics()] == [run.config.agent.seed], "one has won, wholly"
         assert not (run.path / ".lock").exists()
 
 
+def _take_turns(path, inside, twice):
+    """Takes a run's lock 200 times; notes where somebody else has it meanwhile."""
+    run, turns = run_lib.Run(path), 0
+    while turns < 200:
+        try:
+            with run.locked():
+                with inside.get_lock():
+                    inside.value += 1
+                    twice.value |= inside.value > 1
+                with inside.get_lock():
+                    inside.value -= 1
+                turns += 1
+        except ValueError as error:
+            assert "another process is training" in str(error)
+
+
 def test_one_that_ends_while_another_starts_never_lets_two_in(tmp_path):
     """The lock file is removed by its owner: who has opened it meanwhile must not take that for the lock."""
-    context = multiprocessing.get_context("fork")
+    context = multiprocessing.get_context("spawn")
     inside = context.Value("i", 0)
     twice = context.Value("i", 0)
-
-    def take_turns():
-        run, turns = run_lib.Run(tmp_path / "run"), 0
-        while turns < 200:
-            try:
-                with run.locked():
-                    with inside.get_lock():
-                        inside.value += 1
-                        twice.value |= inside.value > 1
-                    with inside.get_lock():
-                        inside.value -= 1
-                    turns += 1
-            except ValueError as error:
-                assert "another process is training" in str(error)
-
-    racers = [context.Process(target=take_turns) for _ in range(3)]
-    for racer in racers:
-        racer.start()
-    for racer in racers:
-        racer.join()
-    assert [racer.exitcode for racer in racers] == [0, 0, 0] and twice.value == 0
+    racers = [context.Process(target=_take_turns, args=(tmp_path / "run", inside, twice)) for _ in range(3)]
+    assert _all_end(racers) == [0, 0, 0] and twice.value == 0
     assert contents(tmp_path) == {}
 
 
