@@ -3,14 +3,13 @@
 from collections.abc import Callable
 
 import numpy as np
-import torch
 
-from physexp.agents import acting, core, devices, rounds, starting
+from physexp.agents import acting, core, devices, rounds, starting, synchronous
 from physexp.agents.belief import config as config_lib
 from physexp.agents.belief import learning, networks, replay
 
 
-class Belief(core.Agent):
+class Belief(synchronous.SynchronousAgent):
     """Keeps a belief about the answer, and asks which interaction is worth its price; one process."""
 
     def __init__(
@@ -29,37 +28,15 @@ class Belief(core.Agent):
         Raises:
           ValueError: if the episodes that are to be kept do not fit into memory.
         """
-        self._config = config
-        self._seed = starting.worker_seed(config.seed, 0)
-        self._environment = make_environment(self._seed, config.num_environments, config.num_threads)
+        seed = starting.worker_seed(config.seed, 0)
+        self._environment = make_environment(seed, config.num_environments, config.num_threads)
         network = starting.make_network(networks.BeliefNetwork, self._environment, config)
         network.calibrate(acting.as_tensors(self._environment.reset().observation))
         network.to(devices.choose(config.device, network.sees_images))
         num_rounds = config.replay_episodes // config.num_environments
         episodes = replay.Replay(self._environment, num_rounds, config.most_interactions + 1)
-        self._learner = learning.BeliefLearner(learning.Variables(network, episodes), self._play, config)
-        self._stopping = False
-
-    @property
-    def frames(self):
-        return self._learner.variables.frames.item()
-
-    def updates(self, poll_seconds=0.5):
-        # More of them than the images' convolutions can use only wait for each other.
-        torch.set_num_threads(self._config.num_threads if self._learner.variables.network.sees_images else 1)
-        while not self._stopping and self.frames < self._config.frames:
-            episode = self._learner.next_episode
-            metrics = self._learner.step()
-            yield core.Update(self._seed, episode, metrics, self._learner.last_round.record())
-
-    def stop(self):
-        self._stopping = True
-
-    def save(self):
-        return self._learner.save()
-
-    def restore(self, tensors):
-        self._learner.restore(tensors)
+        learner = learning.BeliefLearner(learning.Variables(network, episodes), self._play, config)
+        super().__init__(learner, config.frames, seed, config.num_threads)
 
     def _play(self, network: networks.BeliefNetwork, number: int, choose: acting.Choose) -> rounds.Round:
         unused = np.random.default_rng()  # Whoever chooses draws.

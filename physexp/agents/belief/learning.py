@@ -9,7 +9,7 @@ import numpy as np
 import torch
 
 from physexp.agents import acting as acting_lib
-from physexp.agents import core, learning, rounds
+from physexp.agents import learning, rounds, synchronous
 from physexp.agents.belief import acting, losses, networks, replay
 from physexp.agents.belief import config as config_lib
 
@@ -58,15 +58,10 @@ class Variables(learning.Variables[networks.BeliefNetwork]):
         self.handed_out.load_state_dict(chosen.state_dict())
 
 
-class BeliefLearner(core.Learner):
-    """Plays rounds of episodes, keeps them, and learns from all that it keeps.
+class BeliefLearner(synchronous.SynchronousLearner):
+    """Plays rounds of episodes, keeps them, and learns from all that it keeps."""
 
-    Attributes:
-      variables: what it moves.
-      last_round: the last round that was played.
-    """
-
-    last_round: rounds.Round
+    variables: Variables
 
     def __init__(self, variables: Variables, play: Play, config: config_lib.BeliefConfig):
         """Joins variables to episodes.
@@ -77,11 +72,6 @@ class BeliefLearner(core.Learner):
           config: the agent's configuration.
         """
         self.variables, self._play, self._config = variables, play, config
-
-    @property
-    def next_episode(self) -> int:
-        """Returns the index of the episodes that the next step plays."""
-        return int(self.variables.rounds[0])
 
     def step(self) -> dict[str, float]:
         """Plays a round, and makes as many steps of Adam as its frames ask for."""
@@ -210,14 +200,8 @@ class BeliefLearner(core.Learner):
             variables.best.load_state_dict(variables.averaged.state_dict())
         scores[[_COUNT, _SUM, _SQUARES]] = 0.0
 
-    def get_variables(self):
-        return learning.network_variables(self.save())
-
-    def save(self):
-        return self.variables.save()
-
     def restore(self, state):
-        self.variables.restore(state)
+        super().restore(state)
         play = functools.partial(self._play, self.variables.averaged)
         self.variables.episodes.restore(play, self.next_episode)
 

@@ -5,19 +5,12 @@ from collections.abc import Callable
 import numpy as np
 import torch
 
-from physexp.agents import core, learning, losses, rounds
+from physexp.agents import learning, losses, rounds, synchronous
 from physexp.agents.ppo import config as config_lib
 
 
-class PPOLearner(core.Learner):
-    """Takes rounds of episodes, moves the variables.
-
-    Attributes:
-      variables: what it moves.
-      last_round: what the last update learned from.
-    """
-
-    last_round: rounds.Round
+class PPOLearner(synchronous.SynchronousLearner):
+    """Takes rounds of episodes, moves the variables."""
 
     def __init__(
         self, variables: learning.Variables, play: Callable[[int], rounds.Round], config: config_lib.PPOConfig
@@ -30,11 +23,6 @@ class PPOLearner(core.Learner):
           config: the agent's configuration.
         """
         self.variables, self._play, self._config = variables, play, config
-
-    @property
-    def next_episode(self) -> int:
-        """Returns the index of the episodes that the next step plays."""
-        return int(self.variables.rounds[0])
 
     def step(self) -> dict[str, float]:
         """Plays a round, and goes through it several times, in parts of whole episodes."""
@@ -84,15 +72,6 @@ class PPOLearner(core.Learner):
             "entropy": entropy.item(),
             "gradient_norm": norm,
         }
-
-    def get_variables(self):
-        return learning.network_variables(self.save())
-
-    def save(self):
-        return self.variables.save()
-
-    def restore(self, state):
-        self.variables.restore(state)
 
 
 def _standardized(advantages: torch.Tensor) -> torch.Tensor:
