@@ -67,18 +67,26 @@ def assert_refused(done, *words):
         assert word in done.stderr
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["train", "--help"], ["evaluate", "--help"]])
-def test_help_answers_in_under_half_a_second(arguments):
-    def seconds():
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = physexp(*arguments)
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        assert done.returncode == 0 and "usage" in done.stdout.lower()
-        return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+def _processor_seconds(function):
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    function()
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
-    # Processor time, the best of five: it waits for nothing, so on an idle machine this is what the clock shows; the
-    # clock itself would measure what else is running, here the other tests.
-    assert any(seconds() < 0.5 for _ in range(5))
+
+@pytest.mark.parametrize("arguments", [["--help"], ["train", "--help"], ["evaluate", "--help"]])
+def test_help_costs_little_more_than_the_library_that_writes_it(arguments):
+    def help_():
+        done = physexp(*arguments)
+        assert done.returncode == 0 and "usage" in done.stdout.lower()
+
+    def library():
+        subprocess.run([sys.executable, "-c", "import tyro"], check=True)
+
+    # In turns, the best of five each: what else the machine does costs both alike. torch alone would be ten times more.
+    pairs = [(_processor_seconds(help_), _processor_seconds(library)) for _ in range(5)]
+    mine, theirs = map(min, zip(*pairs, strict=True))
+    assert mine < 5 * theirs
 
 
 def test_help_lists_the_commands_and_train_help_the_configuration():

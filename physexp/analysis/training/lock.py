@@ -53,10 +53,10 @@ class FolderLock:
             try:
                 self._folder.mkdir(parents=True, exist_ok=True)
                 file = files.open_plain(self._path, "a")
-            except (FileExistsError, NotADirectoryError):
-                raise ValueError(f"{self._folder} is a file or lies below one; choose another folder") from None
-            except FileNotFoundError:
-                continue
+            except (FileExistsError, NotADirectoryError, FileNotFoundError):
+                if any(os.path.lexists(path) and not path.is_dir() for path in (self._folder, *self._folder.parents)):
+                    raise ValueError(f"{self._folder} is a file or lies below one; choose another folder") from None
+                continue  # Its last owner has removed it meanwhile.
             try:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
