@@ -22,10 +22,16 @@ class Variables(Generic[Network]):
       rounds: rounds played by each worker, int64 [num_workers].
     """
 
-    def __init__(self, network: Network, num_workers: int = 1):
-        """Gives a network an optimizer, and counters to its workers."""
+    def __init__(self, network: Network, num_workers: int = 1, weight_decay: float = 0.0):
+        """Gives a network an optimizer, and counters to its workers.
+
+        Args:
+          network: the network.
+          num_workers: how many workers there are.
+          weight_decay: each step shrinks the weights by this, times the learning rate (Loshchilov & Hutter, 2019).
+        """
         self.network = network
-        self.optimizer = torch.optim.Adam(network.parameters(), eps=1e-5, foreach=False)
+        self.optimizer = torch.optim.AdamW(network.parameters(), eps=1e-5, weight_decay=weight_decay, foreach=False)
         for parameter in network.parameters():  # At once, so that they are there to be shared or restored.
             self.optimizer.state[parameter] = {
                 "step": torch.zeros(()),

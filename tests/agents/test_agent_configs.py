@@ -44,7 +44,7 @@ BAD_FOR = [
     (ppo.PPOConfig, "num_minibatches", 0),
     (ppo.PPOConfig, "clip", 0.0),
     (belief.BeliefConfig, "units", 0),
-    (belief.BeliefConfig, "num_environments", 0),
+    (belief.BeliefConfig, "num_environments", 1),  # Of two members one would learn nothing.
     (belief.BeliefConfig, "num_threads", 0),
     (belief.BeliefConfig, "most_interactions", 0),
     (belief.BeliefConfig, "frames_per_step", 0),
@@ -54,6 +54,7 @@ BAD_FOR = [
     (belief.BeliefConfig, "cut", 1.5),
     (belief.BeliefConfig, "exploration", -0.1),
     (belief.BeliefConfig, "dropout", 2.0),
+    (belief.BeliefConfig, "weight_decay", -0.1),
     (belief.BeliefConfig, "averaging", math.nan),
 ]
 
@@ -72,6 +73,8 @@ def test_more_parts_than_episodes_are_refused():
 def test_less_room_than_a_round_takes_is_refused():
     with pytest.raises(ValueError, match="replay_episodes is 15; give at least num_environments, 16"):
         belief.BeliefConfig(replay_episodes=15)
+    with pytest.raises(ValueError, match="units is 6; give a multiple of 4"):
+        belief.BeliefConfig(units=6)
 
 
 @pytest.mark.parametrize("name", ["relative_entropy", "relative_pixels"])

@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from physexp import suite
-from physexp.agents import acting, starting
+from physexp.agents import acting, learning, starting
 from physexp.agents.belief import acting as belief_acting
 from physexp.agents.belief import agent as belief
 from physexp.agents.belief import config as config_lib
@@ -121,20 +121,78 @@ def test_acting_and_training_compute_the_same(domain, task):
     episodes = replay.Replay(environment, 1, SMALL.most_interactions + 1)
     episodes.add(played, 0)
     drawn = episodes.sample(np.random.default_rng(seed), 32, 1)
-    inputs = torch.zeros(*drawn.played.shape, network.torso.num_outputs)
     with torch.no_grad():
-        inputs[drawn.played] = network.encode(drawn.observation)
-        logits, values = network.unroll(inputs, drawn.actions)
+        packed = network.encode(drawn.observation)
+        inputs = torch.zeros(*drawn.played.shape, packed.shape[1])
+        inputs[drawn.played] = packed
+        opinions = [network.unroll(member, inputs, drawn.actions) for member in range(2)]
+        beliefs = sum(logits.softmax(-1) for logits, _ in opinions) / 2
+        values = network.values(beliefs, sum(shares for _, shares in opinions) / 2)
         state = network.initial_state(32)
         for step in range(len(drawn.actions)):
             found, _, state = network.step(inputs[step], state)
             worths = network.worths(found)
             state = network.note(drawn.actions[step], state)
-            expected = torch.cat([values[:, step].min(0).values, 2 * logits[step].softmax(-1) - 1], dim=1)
+            expected = torch.cat([values[step], 2 * beliefs[step] - 1], dim=1)
             if step == network.most_interactions:
                 expected[:, : network.num_interactions] = -1
             rows = drawn.played[step]
             torch.testing.assert_close(worths[rows], expected[rows], rtol=1e-3, atol=1e-4)
+    environment.close()
+
+
+def test_values_lie_between_answering_a_step_later_and_knowing_a_step_later():
+    network = make_network(load("which_is_heavier", "features", 0), 0)
+    beliefs = torch.tensor([[0.7, 0.1, 0.1, 0.1]])
+    found = network.values(beliefs, torch.tensor([[0.0, 0.5, 1.0]]))
+    answering = 2 * 0.7 - 1
+    expected = network.discount * torch.tensor([[answering, (answering + 1) / 2, 1.0]])
+    torch.testing.assert_close(found, expected)
+
+
+def test_what_an_episode_was_worth_is_judged_by_the_member_that_does_not_learn_from_it():
+    config = SMALL.replace(dropout=0.0, averaging=1.0, seed=fresh_seed())
+    agent = belief.Belief(lambda seed, size, threads: load("which_is_heavier", "features", seed, size), config)
+    learner = agent._learner
+    learner.step()
+    variables = learner.variables
+    drawn = variables.episodes.sample(np.random.default_rng(0), 64, 1)
+    only_the_first = replay.Episodes(**{**vars(drawn), "members": torch.zeros_like(drawn.members)})
+    gradients = {}
+
+    def note(network, loss, *_):
+        network.zero_grad()
+        loss.backward()
+        gradients.update({name: parameter.grad for name, parameter in network.named_parameters()})
+        return list(gradients.values()), 1.0
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(learning, "clipped_gradients", note)
+        found = learner._learn(only_the_first, 0.0)
+        assert all((gradient == 0).all() == ("members.1." in name) for name, gradient in gradients.items())
+        # The second one's opinion is all that targets are made from.
+        for parameter in variables.averaged.members[0].parameters():
+            parameter.data.normal_()
+        again = learner._learn(only_the_first, 0.0)
+        for parameter in variables.averaged.members[1].parameters():
+            parameter.data.normal_()
+        other = learner._learn(only_the_first, 0.0)
+    assert again["value_loss"] == found["value_loss"] != other["value_loss"]
+
+
+def test_the_environments_explore_from_much_to_little():
+    seed = fresh_seed()
+    config = SMALL.replace(num_environments=6000, replay_episodes=6000, greedy=0.5, cut=0.0, exploration=0.6, seed=seed)
+    environment = load("which_is_heavier", "features", seed, 1)
+    network = make_network(environment, seed, config)
+    # The first interaction is best by far, so any other was drawn; of the drawn ones, three of four are others.
+    worths = torch.tensor([1.0, 0, 0, 0, -1, -1, -1, -1]).repeat(6000, 1)
+    scale = network.worths(torch.ones(1)).item()
+    explorer = belief_acting.Explorer(network, config, 0)
+    others = explorer.choose(worths / scale, np.arange(6000), 0) != 0
+    assert not others[:3000].any()
+    assert others[3000:3100].mean() == pytest.approx(0.75 * 0.6, abs=0.25)  # Five standard errors.
+    assert others[-1000:].mean() < 0.75 * 0.6 / 5
     environment.close()
 
 
@@ -156,14 +214,14 @@ def test_an_episode_has_no_more_interactions_than_were_trained_for(greedy):
     seed = fresh_seed()
     environment = load("which_is_heavier", "features", seed)
     network = make_network(environment, seed)
-    for head in network.values:  # It would interact for ever.
-        head[-1].bias.data += 10.0
+    for member in network.members:  # It would interact for ever.
+        member.shares[-1].bias.data += 10.0
     played = acting.play_round(network, environment, 0, np.random.default_rng(seed), greedy)
     assert (played.lengths == SMALL.most_interactions + 1).all()
     environment.close()
 
 
-def test_answers_while_it_learns_are_drawn_from_its_belief():
+def test_answers_while_it_learns_are_drawn_from_its_belief_and_a_tenth_from_all_labels_alike():
     seed = fresh_seed()
     config = SMALL.replace(num_environments=4000, replay_episodes=4000, greedy=0.0, cut=0.0, exploration=0.0, seed=seed)
     environment = load("threshold", "features", seed, 1)
@@ -175,7 +233,8 @@ def test_answers_while_it_learns_are_drawn_from_its_belief():
     answers = explorer.choose(worths / scale, np.arange(4000), 0) - network.num_interactions
     shares = np.bincount(answers, minlength=8) / 4000
     # Five standard errors of a share of 4000 draws: 5 * sqrt(0.5 * 0.5 / 4000) = 0.04.
-    np.testing.assert_allclose(shares, belief_now[0], atol=0.04)
+    np.testing.assert_allclose(shares, 0.9 * belief_now[0] + 0.1 / 8, atol=0.04)
+    assert (shares > 0).all()
     np.testing.assert_allclose(explorer.beliefs, belief_now[0][answers], atol=1e-6)
     environment.close()
 
@@ -251,9 +310,11 @@ def test_what_is_handed_out_is_the_best_once_the_last_has_become_worse():
     learner.step()
     named = {name: value for name, value in variables.tensors().items() if value.is_floating_point()}
     for prefix in ("averaged", "network"):
-        torch.testing.assert_close(named[f"{prefix}/belief.0.bias"], variables.averaged.belief[0].bias)
-    variables.best.belief[0].bias.data.fill_(7.0)
+        torch.testing.assert_close(
+            named[f"{prefix}/members.0.belief.0.bias"], variables.averaged.members[0].belief[0].bias
+        )
+    variables.best.members[0].belief[0].bias.data.fill_(7.0)
     variables.scores[5] = 1.0  # Worse.
     variables.hand_out()
-    assert (agent.save()["network/belief.0.bias"] == 7.0).all()
-    assert not (agent.save()["averaged/belief.0.bias"] == 7.0).any()
+    assert (agent.save()["network/members.0.belief.0.bias"] == 7.0).all()
+    assert not (agent.save()["averaged/members.0.belief.0.bias"] == 7.0).any()

@@ -7,13 +7,16 @@ from physexp.agents import starting
 from physexp.agents.belief import config as config_lib
 from physexp.agents.belief import networks
 
+_RANDOM_ANSWERS = 0.1  # Share of the answers that are drawn from all labels alike.
+_LEAST = 1 / 30  # How much is explored where least is, of what is explored where most is.
+
 
 class Explorer:
     """Acts in one round of episodes: greedily in the first of them, and so as to learn in the others.
 
-    There some interactions and answers are drawn at random, some episodes are answered after a number of interactions
-    that was drawn, and the other answers are drawn from the belief: a label that is never answered is never found to be
-    right.
+    There some interactions are drawn at random, in some environments more than in others (Horgan et al., 2018); some
+    episodes are answered after a number of interactions that was drawn; and answers are drawn from the belief, some of
+    them from all labels alike: a label that is never answered is never found to be right.
 
     Attributes:
       are_greedy: which episodes it plays greedily, bool [B].
@@ -29,8 +32,12 @@ class Explorer:
         """Draws how many interactions the episodes of the round of a number have at most."""
         num_environments, generator = config.num_environments, starting.round_generator(config.seed, 0, number)
         self.beliefs = np.full(num_environments, np.nan)
-        self._network, self._generator, self._exploration = network, generator, config.exploration
+        self._network, self._generator = network, generator
         self.are_greedy = np.arange(num_environments) < round(config.greedy * num_environments)
+        self._exploration = np.zeros(num_environments)
+        self._exploration[~self.are_greedy] = config.exploration * np.geomspace(
+            1, _LEAST, int((~self.are_greedy).sum())
+        )
         is_cut = (generator.random(num_environments) < config.cut) & ~self.are_greedy
         drawn = generator.integers(config.most_interactions + 1, size=num_environments)
         self._most = np.where(is_cut, drawn, config.most_interactions)
@@ -41,11 +48,11 @@ class Explorer:
         worths = self._network.worths(logits).cpu().numpy().astype(np.float64)
         interacting, answering = worths[:, :num_interactions], worths[:, num_interactions:]
         is_greedy = self.are_greedy[active]
-        is_random = (generator.random(len(worths)) < self._exploration) & ~is_greedy
+        is_random = generator.random(len(worths)) < self._exploration[active]
         drawn = generator.integers(num_interactions, size=len(worths))
         interactions = np.where(is_random, drawn, interacting.argmax(1))
         beliefs = (answering + 1) / 2
-        shares = (1 - self._exploration) * beliefs + self._exploration / beliefs.shape[1]
+        shares = (1 - _RANDOM_ANSWERS) * beliefs + _RANDOM_ANSWERS / beliefs.shape[1]
         cumulative = shares.cumsum(1)
         thresholds = generator.random((len(worths), 1)) * cumulative[:, -1:]
         labels = (cumulative <= thresholds).sum(1).clip(max=beliefs.shape[1] - 1)

@@ -35,7 +35,7 @@ class Belief(synchronous.SynchronousAgent):
         network.to(devices.choose(config.device, network.sees_images))
         num_rounds = config.replay_episodes // config.num_environments
         episodes = replay.Replay(self._environment, num_rounds, config.most_interactions + 1)
-        learner = learning.BeliefLearner(learning.Variables(network, episodes), self._play, config)
+        learner = learning.BeliefLearner(learning.Variables(network, episodes, config.weight_decay), self._play, config)
         super().__init__(learner, config.frames, seed, config.num_threads)
 
     def _play(self, network: networks.BeliefNetwork, number: int, choose: acting.Choose) -> rounds.Round:

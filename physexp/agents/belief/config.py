@@ -6,6 +6,9 @@ from typing import ClassVar
 
 from physexp.agents import config
 
+NUM_HEADS = 4
+"""Heads of the attention; they share the units."""
+
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class BeliefConfig(config.AgentConfig):
@@ -14,18 +17,19 @@ class BeliefConfig(config.AgentConfig):
     Attributes:
       answers_revealed: learn from the right label, which is told when an episode is over; otherwise from the reward
         alone, as the paper's agents did.
-      units: units of the recurrent layer and of the layers above it.
+      units: units of each layer, a multiple of 4.
       num_environments: environments that play side by side, one episode each between two rounds of learning.
       num_threads: threads for simulation and for convolutions.
       most_interactions: how many interactions an episode has at most; then it is answered.
       greedy: share of the episodes in training that are played as well as the agent can; they say how well that is.
       cut: share of the other episodes that are answered after a number of interactions drawn at random.
-      exploration: share of the interactions, and of the answers, in the other episodes that are drawn at random.
+      exploration: share of the interactions that are drawn at random in the environment that explores most.
       trace: lambda, how far the return of the greedy actions that followed is believed against the network's values.
       frames_per_step: environment steps for each step of Adam; fewer learn more from each.
       batch_size: episodes in a step of Adam.
       replay_episodes: episodes that are kept to learn from; the oldest go.
-      dropout: share of the trunk's outputs that the heads learn without; beliefs are less sure of what was seen once.
+      dropout: share of what is remembered that the heads learn without; beliefs are less sure of what was seen once.
+      weight_decay: each step of Adam shrinks the weights by this, times the learning rate.
       averaging: the network that acts is a moving average of the one that learns; this share stays in each step.
     """
 
@@ -49,24 +53,26 @@ class BeliefConfig(config.AgentConfig):
     most_interactions: int = 8
     greedy: float = 0.25
     cut: float = 0.5
-    exploration: float = 0.1
+    exploration: float = 0.6
     trace: float = 0.9
     frames_per_step: int = 4
     batch_size: int = 64
     replay_episodes: int = 20_000
-    dropout: float = 0.2
+    dropout: float = 0.1
+    weight_decay: float = 0.1
     averaging: float = 0.99
 
     _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {
         **config.AgentConfig._WHOLE,
         "units": (1, 65_536),
-        "num_environments": (1, 65_536),
+        "num_environments": (2, 65_536),  # Each member learns from its own half of them.
         "num_threads": (1, 1_024),
         "most_interactions": (1, 10_000),
         "frames_per_step": (1, config.LARGEST),
         "batch_size": (1, 65_536),
         "replay_episodes": (1, 100_000_000),
     }
+    _NOT_NEGATIVE: ClassVar[tuple[str, ...]] = ("weight_decay",)
     _SHARES: ClassVar[tuple[str, ...]] = ("greedy", "cut", "exploration", "trace", "dropout", "averaging")
     _FLAGS: ClassVar[tuple[str, ...]] = ("answers_revealed",)
 
@@ -80,6 +86,8 @@ class BeliefConfig(config.AgentConfig):
 
     def __post_init__(self):
         super().__post_init__()
+        if self.units % NUM_HEADS:
+            raise ValueError(f"units is {self.units}; give a multiple of {NUM_HEADS}, the heads of the attention")
         if self.replay_episodes < self.num_environments:
             raise ValueError(
                 f"replay_episodes is {self.replay_episodes}; give at least num_environments, {self.num_environments}: "

@@ -36,9 +36,9 @@ class Variables(learning.Variables[networks.BeliefNetwork]):
         count, sum of returns and of their squares; and whether the last window was worse than the best, float64 [6].
     """
 
-    def __init__(self, network: networks.BeliefNetwork, episodes: replay.Replay):
-        """Gives a network an optimizer, its averages, and what it has played."""
-        super().__init__(network)
+    def __init__(self, network: networks.BeliefNetwork, episodes: replay.Replay, weight_decay: float):
+        """Gives a network an optimizer with a weight decay, its averages, and what it has played."""
+        super().__init__(network, weight_decay=weight_decay)
         self.averaged, self.best, self.handed_out = (copy.deepcopy(network) for _ in range(3))
         self.episodes = episodes
         self.moments = torch.zeros(2, dtype=torch.float64)
@@ -109,15 +109,12 @@ class BeliefLearner(synchronous.SynchronousLearner):
     def _learn(self, episodes: replay.Episodes, learning_rate: float) -> dict[str, float]:
         """Makes one step of Adam on some episodes; returns its metrics."""
         config, network, averaged = self._config, self.variables.network, self.variables.averaged
-        device, played = network.device, episodes.played
-        actions, lengths = episodes.actions, episodes.lengths
-        logits, values = network.unroll(
-            _padded(network.encode(episodes.observation), played), actions.to(device), config.dropout
-        )
-        with torch.no_grad():
-            inputs = _padded(averaged.encode(episodes.observation), played)
-            their_logits, their_values = (part.cpu() for part in averaged.unroll(inputs, actions.to(device)))
-        logits, values = logits.cpu(), values.cpu()
+        played, actions, lengths = episodes.played, episodes.actions, episodes.lengths
+        logits, shares = _opinions(network, episodes, episodes.members, config.dropout)
+        with torch.no_grad():  # The member that has not learned from an episode is no surer of it than it should be.
+            their_logits, their_shares = _opinions(averaged, episodes, 1 - episodes.members)
+        beliefs = their_logits.softmax(-1)
+        values, their_values = network.values(beliefs, shares), network.values(beliefs, their_shares)
         each = torch.arange(len(lengths))
         last_actions = actions[lengths - 1, each]
         are_answered = last_actions >= network.num_interactions
@@ -130,19 +127,19 @@ class BeliefLearner(synchronous.SynchronousLearner):
             are_counted = played & are_answered
         belief_loss = losses.belief_loss(logits, labels, are_counted)
         are_last = torch.arange(len(actions))[:, None] == lengths - 1
-        best = their_values.min(0).values.max(-1)
+        best = shares.detach().argmax(-1)
         targets = losses.interaction_targets(
-            2 * their_logits.softmax(-1).amax(-1) - 1,
-            best.values,
-            best.indices == actions,
+            2 * beliefs.amax(-1) - 1,
+            their_values.gather(-1, best[..., None])[..., 0],
+            best == actions,
             are_last,
             episodes.rewards,
             config.discount,
             config.trace,
         )
         are_interactions = played & (actions < network.num_interactions)
-        taken = actions.clamp(max=network.num_interactions - 1).expand(len(values), -1, -1)[..., None]
-        errors = (values.gather(-1, taken)[..., 0] - targets).square().mean(0)
+        taken = actions.clamp(max=network.num_interactions - 1)[..., None]
+        errors = (values.gather(-1, taken)[..., 0] - targets).square()
         value_loss = (errors * are_interactions).sum() / are_interactions.sum().clamp(min=1)
         gradients, norm = learning.clipped_gradients(
             network, belief_loss + value_loss, config.max_gradient_norm, episodes.arrays
@@ -204,6 +201,23 @@ class BeliefLearner(synchronous.SynchronousLearner):
         super().restore(state)
         play = functools.partial(self._play, self.variables.averaged)
         self.variables.episodes.restore(play, self.next_episode)
+
+
+def _opinions(
+    network: networks.BeliefNetwork, episodes: replay.Episodes, members: torch.Tensor, dropout: float = 0.0
+) -> tuple[torch.Tensor, torch.Tensor]:
+    """Returns what one member, int64 [B], makes of each episode: logits [T, B, L] and shares [T, B, I]."""
+    inputs = _padded(network.encode(episodes.observation), episodes.played)
+    actions = episodes.actions.to(network.device)
+    logits, shares, places = [], [], []
+    for member in range(len(network.members)):
+        (chosen,) = torch.nonzero(members == member, as_tuple=True)
+        found = network.unroll(member, inputs[:, chosen], actions[:, chosen], dropout)
+        logits.append(found[0].cpu())
+        shares.append(found[1].cpu())
+        places.append(chosen)
+    back = torch.cat(places).argsort()
+    return torch.cat(logits, dim=1)[:, back], torch.cat(shares, dim=1)[:, back]
 
 
 def _padded(packed: torch.Tensor, played: torch.Tensor) -> torch.Tensor:

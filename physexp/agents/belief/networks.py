@@ -13,23 +13,23 @@ from torch.nn import functional
 from physexp.agents import core, devices, networks
 from physexp.agents.belief import config as config_lib
 
+_NUM_MEMBERS = 2
 _PIXEL_SCALE = 10.0  # What changes in an image is of the order of a tenth of its range.
 _FINEST = 0.01  # What is smaller than this share of the usual movement of features is resolved less and less.
 _TEMPERATURE = 0.01  # Of the policy: actions are as good as equal when their values differ by less.
 
 
 class BeliefNetwork(networks.RecurrentNetwork):
-    """A recurrent trunk over what was seen and done, with two kinds of heads.
+    """Two members, each of which has a belief about the label and values the interactions.
 
-    One is the belief `b` over the labels: to answer is worth `S = 2 max(b) - 1`, the expected reward. The others are
-    values `Q` of the interactions. What an interaction shows can be left out of account, and cannot tell more than the
-    label (the value of perfect information: Howard, 1966), so `gamma S <= Q <= gamma`, and the heads say where in
-    between: `Q = gamma (S + (1 - S) x)` with `x` in [0, 1]. There are two of each, of which the lesser counts (Fujimoto
-    et al., 2018), since the best of many noisy values is too good. The best action is the greatest of `S` and `Q`.
+    To answer is worth `S = 2 max(b) - 1`, the expected reward, with the mean `b` of the members' beliefs. What an
+    interaction shows can be left out of account, and cannot tell more than the label (the value of perfect information:
+    Howard, 1966), so `gamma S <= Q <= gamma`, and the members say where in between: `Q = gamma (S + (1 - S) x)` with
+    the mean of their shares `x` in [0, 1]. The best action is the greatest of `S` and `Q`.
 
-    Features are taken relative to those at the start of the episode, in units of how far they move, which the learner
-    measures, and once more on a scale that shows small movements beside large ones (the inverse hyperbolic sine). An
-    image is taken relative to the one that training began with.
+    Features are taken relative to those at the start of the episode and to those of the step before, in units of how
+    far they move, which the learner measures, and once more on a scale that shows small movements beside large ones
+    (the inverse hyperbolic sine). An image is taken relative to the one that training began with.
     """
 
     log_scale: torch.Tensor
@@ -50,7 +50,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
           observation_spec: what is observed: features, or one image.
           num_actions: how many actions there are.
           num_interactions: how many of them are interactions; they come first, labels after them.
-          units: of the recurrent layer and of the layers above it.
+          units: of each layer of a member.
           most_interactions: after so many it prefers to answer.
           discount: gamma.
 
@@ -65,11 +65,14 @@ class BeliefNetwork(networks.RecurrentNetwork):
             self.torso = networks.PixelTorso(observation_spec, _PIXEL_SCALE)
         else:
             self.torso = networks.FeatureTorso(observation_spec, 1.0)
-        scales = 1 if self.sees_images else 2
-        self.embedding = nn.Linear(scales * self.torso.num_outputs + num_interactions + 1, units)
-        self.recurrent = nn.GRU(units, units)
-        self.belief = _head(units, num_actions - num_interactions)
-        self.values = nn.ModuleList(_head(units, num_interactions) for _ in range(2))
+        self._num_inputs = self.torso.num_outputs
+        if self.sees_images:
+            self.projection = nn.Linear(self.torso.num_outputs, units)
+            self._num_inputs = units
+        num_seen = (2 if self.sees_images else 3) * self._num_inputs + num_interactions + 1
+        self.members = nn.ModuleList(
+            Member(num_seen, num_actions - num_interactions, num_interactions, units) for _ in range(_NUM_MEMBERS)
+        )
         self.register_buffer("log_scale", torch.zeros(()))
 
     @staticmethod
@@ -82,9 +85,9 @@ class BeliefNetwork(networks.RecurrentNetwork):
         }
 
     def initial_state(self, batch_size):
-        """Returns the state at the start of episodes: memory, first inputs, what was done last, how often."""
-        sizes = (self.recurrent.hidden_size, self.torso.num_outputs, self.num_interactions, 1)
-        return tuple(torch.zeros(1, batch_size, size, device=self.device) for size in sizes)
+        """Returns the state at the start of episodes: all that was seen, and what was done before each of it."""
+        seen = torch.zeros(1, batch_size, 0, self._num_inputs, device=self.device)
+        return seen, torch.zeros(1, batch_size, 1, self.num_interactions, device=self.device)
 
     def calibrate(self, first: networks.Observation) -> None:
         """Tells the torso what an episode's first observation looks like, arrays [N, ...]."""
@@ -93,62 +96,91 @@ class BeliefNetwork(networks.RecurrentNetwork):
     def encode(self, observation):
         with devices.autocast(self.device) if self.sees_images else contextlib.nullcontext():
             inputs, places = self.torso.distinct(observation)
-        inputs = inputs.to(self.device).float()
+            inputs = inputs.to(self.device)
+            if self.sees_images:
+                inputs = self.projection(inputs)
+        inputs = inputs.float()
         return inputs if places is None else inputs[places]
 
     def step(self, inputs, state):
-        memory, first, done, time = state
-        first = torch.where(time == 0, inputs, first)
-        embedded = self._embed(inputs - first[0], done[0], time[0])
-        outputs, memory = self.recurrent(embedded[None], memory)
-        belief, values = self._heads(outputs[0])
-        values = values.min(0).values.masked_fill(time[0] >= self.most_interactions, -1.0)
-        worths = torch.cat([values, 2 * belief.softmax(-1) - 1], dim=1)
-        return worths / _TEMPERATURE, worths.max(1).values, (memory, first, done, time + 1)
+        seen, done = state
+        seen = torch.cat([seen, inputs[None, :, None]], dim=2)
+        history = self._history(seen[0], done[0])
+        opinions = [member(history) for member in self.members]
+        beliefs = torch.stack([logits[:, -1].softmax(-1) for logits, _ in opinions]).mean(0)
+        values = self.values(beliefs, torch.stack([shares[:, -1] for _, shares in opinions]).mean(0))
+        if seen.shape[2] > self.most_interactions:
+            values = torch.full_like(values, -1.0)
+        worths = torch.cat([values, 2 * beliefs - 1], dim=1)
+        return worths / _TEMPERATURE, worths.max(1).values, (seen, done)
 
     def note(self, actions, state):
-        memory, first, _, time = state
-        return memory, first, self._one_hot(actions.to(self.device))[None], time
+        seen, done = state
+        return seen, torch.cat([done, self._one_hot(actions.to(self.device))[None, :, None]], dim=2)
 
     def worths(self, logits: torch.Tensor) -> torch.Tensor:
         """Returns what each action is worth, [N, A], of the logits of `step`."""
         return logits * _TEMPERATURE
 
+    def values(self, beliefs: torch.Tensor, shares: torch.Tensor) -> torch.Tensor:
+        """Returns the values Q of interactions, [..., I], of beliefs [..., L] and shares x, [..., I]."""
+        answering = 2 * beliefs.amax(-1, keepdim=True) - 1
+        return self.discount * (answering + (1 - answering) * shares)
+
     def unroll(
-        self, inputs: torch.Tensor, actions: torch.Tensor, dropout: float = 0.0
+        self, member: int, inputs: torch.Tensor, actions: torch.Tensor, dropout: float = 0.0
     ) -> tuple[torch.Tensor, torch.Tensor]:
-        """Computes whole episodes from their first steps, padded to the longest.
+        """Computes what a member makes of whole episodes from their first steps, padded to the longest.
 
         Args:
+          member: its number.
           inputs: what `encode` returned, [T, B, F].
           actions: what was done then, int64 [T, B].
-          dropout: share of the trunk's outputs that the heads do without, drawn anew for each step.
+          dropout: share of the outputs of the attention that the heads do without, drawn anew for each step.
 
         Returns:
-          Logits of the belief, [T, B, L], and both values of each interaction, [2, T, B, I].
+          Logits of the belief, [T, B, L], and the share x of each interaction, [T, B, I].
         """
         done = functional.pad(self._one_hot(actions[:-1]), (0, 0, 0, 0, 1, 0))
-        times = torch.arange(len(inputs), device=self.device).float()[:, None, None].expand(-1, inputs.shape[1], 1)
-        outputs, _ = self.recurrent(self._embed(inputs - inputs[:1], done, times))
-        return self._heads(functional.dropout(outputs, dropout))
+        history = self._history(inputs.transpose(0, 1), done.transpose(0, 1))
+        logits, shares = self.members[member](history, dropout)
+        return logits.transpose(0, 1), shares.transpose(0, 1)
 
-    def _embed(self, change, done, time):
-        seen = [change]
+    def _history(self, seen, done):
+        """Returns what members look at, [B, T, H], of inputs [B, T, F] and of what was done before them, [B, T, I]."""
+        first = seen[:, :1]
+        changes = [seen - first, torch.diff(seen, dim=1, prepend=first)]
         if not self.sees_images:
-            scaled = change * torch.exp(-self.log_scale)
-            seen = [scaled, torch.asinh(scaled / _FINEST) / math.asinh(1 / _FINEST)]
-        return functional.relu(self.embedding(torch.cat([*seen, done, time / self.most_interactions], dim=-1)))
-
-    def _heads(self, outputs):
-        belief = self.belief(outputs)
-        answering = 2 * belief.detach().softmax(-1).amax(-1, keepdim=True) - 1
-        shares = torch.stack([head(outputs).sigmoid() for head in self.values])
-        return belief, self.discount * torch.lerp(answering, torch.ones_like(answering), shares)
+            changes = [change * torch.exp(-self.log_scale) for change in changes]
+            changes.append(torch.asinh(changes[0] / _FINEST) / math.asinh(1 / _FINEST))
+        times = torch.arange(seen.shape[1], device=seen.device)[:, None] / self.most_interactions
+        return torch.cat([*changes, done, times.expand(len(seen), -1, -1)], dim=-1)
 
     def _one_hot(self, actions):
         """Maps actions to one number for each interaction, all 0 for a label."""
         num_interactions = self.num_interactions
         return functional.one_hot(actions.clamp(max=num_interactions), num_interactions + 1)[..., :-1].float()
+
+
+class Member(nn.Module):
+    """Looks back with attention (Vaswani et al., 2017) at each step of an episode on the steps until then."""
+
+    def __init__(self, num_inputs: int, num_labels: int, num_interactions: int, units: int):
+        """Builds one layer of attention, and two heads on it."""
+        super().__init__()
+        self.embedding = nn.Linear(num_inputs, units)
+        self.attention = nn.Linear(units, 3 * units)
+        self.belief, self.shares = _head(units, num_labels), _head(units, num_interactions)
+
+    def forward(self, history: torch.Tensor, dropout: float = 0.0) -> tuple[torch.Tensor, torch.Tensor]:
+        """Maps histories, [B, T, H], to logits of the belief, [B, T, L], and shares of the interactions, [B, T, I]."""
+        embedded = functional.relu(self.embedding(history))
+        heads = self.attention(embedded).unflatten(-1, (3 * config_lib.NUM_HEADS, -1)).transpose(1, 2)
+        queries, keys, values = heads.chunk(3, dim=1)
+        recalled = functional.scaled_dot_product_attention(queries, keys, values, is_causal=True)
+        outputs = functional.relu(embedded + recalled.transpose(1, 2).flatten(2))
+        outputs = functional.dropout(outputs, dropout)
+        return self.belief(outputs), self.shares(outputs).sigmoid()
 
 
 def _head(units: int, num_outputs: int) -> nn.Module:

@@ -26,6 +26,7 @@ class Episodes:
       rewards: of the last actions, float32 [B].
       lengths: actions in each episode, int64 [B].
       answers: the right labels, int64 [B]; to be learned from only where they are revealed.
+      members: which of two members learns from each episode, int64 [B]; that of every other environment is the same.
     """
 
     observation: dict[str, torch.Tensor]
@@ -33,6 +34,7 @@ class Episodes:
     rewards: torch.Tensor
     lengths: torch.Tensor
     answers: torch.Tensor
+    members: torch.Tensor
 
     @property
     def played(self) -> torch.Tensor:
@@ -117,6 +119,7 @@ class Replay:
             torch.from_numpy(self._rewards[slots, environments]),
             torch.from_numpy(lengths),
             torch.from_numpy(self._answers[slots, environments]),
+            torch.from_numpy(environments % 2),
         )
 
 
