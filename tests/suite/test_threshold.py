@@ -10,13 +10,6 @@ TASKS = [("threshold", "features"), ("threshold", "pixels")]
 LEVELS = threshold.LEVEL_SPACING * np.arange(1, threshold.NUM_LEVELS + 1)  # N
 
 
-@pytest.fixture
-def seed():
-    value = int(np.random.SeedSequence().generate_state(1)[0])
-    print("seed", value)
-    return value
-
-
 def _edges_of_intervals() -> np.ndarray:
     """The least and the greatest friction of each label, N [2 * NUM_LEVELS]: the hardest cases."""
     below = LEVELS - threshold.LEVEL_SPACING
