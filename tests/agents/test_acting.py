@@ -107,7 +107,8 @@ def test_what_was_encoded_to_act_is_what_there_is_to_learn_from(task):
         torch.autograd.grad((anew * weights).sum(), parameters),
         strict=True,
     ):
-        torch.testing.assert_close(ours, theirs, rtol=1e-3, atol=1e-4)
+        # A sum of many numbers is rounded as they are, however small it is.
+        torch.testing.assert_close(ours, theirs, rtol=1e-3, atol=1e-4 * theirs.abs().max().item())
 
 
 def test_packing_lays_out_all_first_steps_then_all_second_steps_in_the_given_order():

@@ -73,8 +73,6 @@ def test_more_parts_than_episodes_are_refused():
 def test_less_room_than_a_round_takes_is_refused():
     with pytest.raises(ValueError, match="replay_episodes is 15; give at least num_environments, 16"):
         belief.BeliefConfig(replay_episodes=15)
-    with pytest.raises(ValueError, match="units is 6; give a multiple of 4"):
-        belief.BeliefConfig(units=6)
 
 
 @pytest.mark.parametrize("name", ["relative_entropy", "relative_pixels"])

@@ -14,7 +14,7 @@ from physexp.agents.belief import config as config_lib
 from physexp.agents.belief import losses, networks, replay
 
 torch.set_num_threads(1)
-SMALL = config_lib.BeliefConfig(num_environments=8, units=16, batch_size=16, frames=600, replay_episodes=64)
+SMALL = config_lib.BeliefConfig(num_environments=8, units=4, batch_size=16, frames=600, replay_episodes=64)
 
 
 def fresh_seed() -> int:

@@ -6,9 +6,6 @@ from typing import ClassVar
 
 from physexp.agents import config
 
-NUM_HEADS = 4
-"""Heads of the attention; they share the units."""
-
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class BeliefConfig(config.AgentConfig):
@@ -17,7 +14,7 @@ class BeliefConfig(config.AgentConfig):
     Attributes:
       answers_revealed: learn from the right label, which is told when an episode is over; otherwise from the reward
         alone, as the paper's agents did.
-      units: units of each layer, a multiple of 4.
+      units: units of each of the four heads of the attention; a layer has as many as all of them.
       num_environments: environments that play side by side, one episode each between two rounds of learning.
       num_threads: threads for simulation and for convolutions.
       most_interactions: how many interactions an episode has at most; then it is answered.
@@ -47,7 +44,7 @@ class BeliefConfig(config.AgentConfig):
     frames: int = 100_000
     learning_rate: float = 1e-3
     answers_revealed: bool = False
-    units: int = 64
+    units: int = 16
     num_environments: int = 16
     num_threads: int = 1
     most_interactions: int = 8
@@ -86,8 +83,6 @@ class BeliefConfig(config.AgentConfig):
 
     def __post_init__(self):
         super().__post_init__()
-        if self.units % NUM_HEADS:
-            raise ValueError(f"units is {self.units}; give a multiple of {NUM_HEADS}, the heads of the attention")
         if self.replay_episodes < self.num_environments:
             raise ValueError(
                 f"replay_episodes is {self.replay_episodes}; give at least num_environments, {self.num_environments}: "

@@ -14,6 +14,7 @@ from physexp.agents import core, devices, networks
 from physexp.agents.belief import config as config_lib
 
 _NUM_MEMBERS = 2
+_NUM_HEADS = 4
 _PIXEL_SCALE = 10.0  # What changes in an image is of the order of a tenth of its range.
 _FINEST = 0.01  # What is smaller than this share of the usual movement of features is resolved less and less.
 _TEMPERATURE = 0.01  # Of the policy: actions are as good as equal when their values differ by less.
@@ -50,7 +51,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
           observation_spec: what is observed: features, or one image.
           num_actions: how many actions there are.
           num_interactions: how many of them are interactions; they come first, labels after them.
-          units: of each layer of a member.
+          units: of each head of a member's attention; a layer has as many as all of them.
           most_interactions: after so many it prefers to answer.
           discount: gamma.
 
@@ -65,13 +66,14 @@ class BeliefNetwork(networks.RecurrentNetwork):
             self.torso = networks.PixelTorso(observation_spec, _PIXEL_SCALE)
         else:
             self.torso = networks.FeatureTorso(observation_spec, 1.0)
+        width = _NUM_HEADS * units
         self._num_inputs = self.torso.num_outputs
         if self.sees_images:
-            self.projection = nn.Linear(self.torso.num_outputs, units)
-            self._num_inputs = units
+            self.projection = nn.Linear(self.torso.num_outputs, width)
+            self._num_inputs = width
         num_seen = (2 if self.sees_images else 3) * self._num_inputs + num_interactions + 1
         self.members = nn.ModuleList(
-            Member(num_seen, num_actions - num_interactions, num_interactions, units) for _ in range(_NUM_MEMBERS)
+            Member(num_seen, num_actions - num_interactions, num_interactions, width) for _ in range(_NUM_MEMBERS)
         )
         self.register_buffer("log_scale", torch.zeros(()))
 
@@ -165,17 +167,17 @@ class BeliefNetwork(networks.RecurrentNetwork):
 class Member(nn.Module):
     """Looks back with attention (Vaswani et al., 2017) at each step of an episode on the steps until then."""
 
-    def __init__(self, num_inputs: int, num_labels: int, num_interactions: int, units: int):
+    def __init__(self, num_inputs: int, num_labels: int, num_interactions: int, width: int):
         """Builds one layer of attention, and two heads on it."""
         super().__init__()
-        self.embedding = nn.Linear(num_inputs, units)
-        self.attention = nn.Linear(units, 3 * units)
-        self.belief, self.shares = _head(units, num_labels), _head(units, num_interactions)
+        self.embedding = nn.Linear(num_inputs, width)
+        self.attention = nn.Linear(width, 3 * width)
+        self.belief, self.shares = _head(width, num_labels), _head(width, num_interactions)
 
     def forward(self, history: torch.Tensor, dropout: float = 0.0) -> tuple[torch.Tensor, torch.Tensor]:
         """Maps histories, [B, T, H], to logits of the belief, [B, T, L], and shares of the interactions, [B, T, I]."""
         embedded = functional.relu(self.embedding(history))
-        heads = self.attention(embedded).unflatten(-1, (3 * config_lib.NUM_HEADS, -1)).transpose(1, 2)
+        heads = self.attention(embedded).unflatten(-1, (3 * _NUM_HEADS, -1)).transpose(1, 2)
         queries, keys, values = heads.chunk(3, dim=1)
         recalled = functional.scaled_dot_product_attention(queries, keys, values, is_causal=True)
         outputs = functional.relu(embedded + recalled.transpose(1, 2).flatten(2))
@@ -183,5 +185,5 @@ class Member(nn.Module):
         return self.belief(outputs), self.shares(outputs).sigmoid()
 
 
-def _head(units: int, num_outputs: int) -> nn.Module:
-    return nn.Sequential(nn.Linear(units, units), nn.ReLU(), nn.Linear(units, num_outputs))
+def _head(width: int, num_outputs: int) -> nn.Module:
+    return nn.Sequential(nn.Linear(width, width), nn.ReLU(), nn.Linear(width, num_outputs))
