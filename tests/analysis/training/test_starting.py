@@ -90,8 +90,11 @@ def test_a_disk_without_room_for_checkpoints_is_told_before_training(tmp_path, m
 
 @pytest.fixture
 def starting(tmp_path):
-    """`physexp train` in a new folder, as soon as its worker's process is there: seconds before it learns anything."""
-    options = ["--num-workers", 1, "--frames", 10**9, "--run-dir", tmp_path / "a" / "run"]
+    """`physexp train` in a new folder, as soon as its worker is there: a round of many episodes before it learns.
+
+    Many more than by default: what takes the test a moment to see takes the worker much longer.
+    """
+    options = ["--num-workers", 1, "--frames", 10**9, "--run-dir", tmp_path / "a" / "run", "--envs-per-worker", 3000]
     with commands.start("train", *TASK, *options) as process:
         wait_until(lambda: trainers.workers(process), "a worker")
         yield process
