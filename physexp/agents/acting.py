@@ -94,7 +94,7 @@ def play_round(
 
 
 def _joined(parts: Sequence[rounds.BehaviourData]) -> rounds.BehaviourData:
-    """Returns the data of all steps, from those of each point in time."""
+    """Concatenates the behaviour data of all steps."""
     return rounds.BehaviourData(
         {name: torch.cat([part.observation[name] for part in parts]) for name in parts[0].observation},
         torch.cat([part.log_probabilities for part in parts]),
@@ -107,7 +107,7 @@ class RecurrentActor(core.Actor):
 
     Attributes:
       policy: probabilities of the actions when the last one was selected, float64 [A].
-      value: what the network expected of the rest of the episode then.
+      value: the network's estimate of the return then.
     """
 
     policy: np.ndarray

@@ -1,7 +1,7 @@
 """Checkpoints: tensors as safetensors, everything else as JSON, written so that a crash leaves the last one whole.
 
-What is read may be of anybody's making: nothing in it is run, and nothing but finite numbers of the right names, shapes
-and types is taken from it.
+A file may come from anybody: nothing in it is executed, and only finite numbers of the right names, shapes and types
+are taken from it.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -232,7 +232,7 @@ def json_digest(value: Any) -> str:
 
 
 def _read(path: Path, most: int | None) -> tuple[dict[str, torch.Tensor], dict[str, Any]]:
-    """Reads a checkpoint; nothing in it is run, and nothing is looked at whose checksum differs."""
+    """Reads a checkpoint; nothing in it is executed, and nothing whose checksum differs is used."""
     facts_path = path.with_suffix(".json")
     try:
         card = files.read_json(facts_path)

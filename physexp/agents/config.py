@@ -58,12 +58,12 @@ class AgentConfig:
 
     @property
     def title(self) -> str:
-        """Returns the learner's name in names of runs; one that is told more has another."""
+        """Returns the learner's name in names of runs; a variant that is trained with more information has its own."""
         return self.algorithm
 
     @property
     def advice(self) -> str:
-        """Returns what else to try where training has come to nothing, in words."""
+        """Returns, in words, what to try when an agent has learned nothing."""
         return f"a smaller --learning-rate than {self.learning_rate:g}"
 
     @property

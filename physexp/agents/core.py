@@ -1,4 +1,4 @@
-"""The nouns of agents, as in Acme: actors, learners, agents, what they act in, what they hand out, and their errors.
+"""The interfaces of agents, as in Acme: actors, learners and agents, their environments, updates and errors.
 
 Imports nothing heavy.
 """
@@ -129,7 +129,7 @@ class Update:
 
 
 class Agent(abc.ABC):
-    """Acts and learns until it has had its frames."""
+    """Acts and learns until it has trained for its configured number of frames."""
 
     @property
     @abc.abstractmethod
@@ -162,7 +162,7 @@ class Agent(abc.ABC):
 
 
 class AgentError(RuntimeError):
-    """Training cannot go on; `batch` holds the arrays of the round that is to blame, where it is known."""
+    """Training cannot go on; `batch` holds the arrays of the round that caused it, where one did."""
 
     def __init__(self, message: str, batch: dict[str, Any] | None = None):
         super().__init__(message)
@@ -182,4 +182,4 @@ class VariablesLostError(AgentError):
 
 
 class DamagedError(Exception):
-    """A checkpoint is not what was written."""
+    """A checkpoint has changed since it was written."""

@@ -1,4 +1,4 @@
-"""Where a network computes, and how precisely."""
+"""The device that a network computes on, and its precision."""
 
 import contextlib
 import functools
@@ -11,8 +11,8 @@ def choose(device: str, sees_images: bool) -> torch.device:
     """Chooses the device to compute on.
 
     Args:
-      device: `cpu`, `cuda`, or `auto`: the GPU where there is one and convolutions to compute. Without them a processor
-        is quicker.
+      device: `cpu`, `cuda`, or `auto`: the GPU where there is one and convolutions to compute. Without
+        them a CPU is faster.
       sees_images: whether there are convolutions.
 
     Raises:

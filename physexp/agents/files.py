@@ -1,4 +1,4 @@
-"""Files of others' making: replaced whole, never written through a link, never one that makes its reader wait."""
+"""Reads and writes files safely: replaces them as a whole, follows no link, and refuses pipes and devices."""
 
 from collections.abc import Iterator
 import contextlib
@@ -58,7 +58,7 @@ def remove_litter(folder: Path) -> None:
 
 
 def open_plain(path: Path, mode: str = "rb", **options: Any) -> IO[Any]:
-    """Opens a regular file, as `open` does; never follows a link and never waits for somebody at the other end.
+    """Opens a regular file, as `open` does; never follows a link and never waits for a writer at the other end.
 
     Raises:
       OSError: as `open`.
@@ -85,7 +85,7 @@ def open_plain(path: Path, mode: str = "rb", **options: Any) -> IO[Any]:
 
 
 def read_plain(path: Path, most: int) -> bytes:
-    """Returns the content of a regular file of at most so many bytes.
+    """Returns the content of a regular file of at most `most` bytes.
 
     Raises:
       OSError, ValueError: as `open_plain`; ValueError also if the file is larger.

@@ -1,4 +1,4 @@
-"""What learners share: the variables that training moves, the targets of whole episodes, and one careful gradient."""
+"""What learners share: the variables that training changes, the targets of whole episodes, and clipped gradients."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Generic, TypeVar
@@ -12,7 +12,7 @@ Network = TypeVar("Network", bound=networks.RecurrentNetwork)
 
 
 class Variables(Generic[Network]):
-    """All that training moves.
+    """All that training changes.
 
     Attributes:
       network: the network.
@@ -58,11 +58,11 @@ class Variables(Generic[Network]):
         return {**named, "frames": self.frames, "updates": self.updates, "rounds": self.rounds}
 
     def save(self) -> dict[str, torch.Tensor]:
-        """Returns copies of everything, by name, on the processor."""
+        """Returns copies of everything, by name, on the CPU."""
         return {name: value.to("cpu", copy=True) for name, value in self.tensors().items()}
 
     def restore(self, tensors: Mapping[str, torch.Tensor]) -> None:
-        """Takes up what `save` returned.
+        """Restores everything from what `save` returned.
 
         Raises:
           ValueError: if the tensors do not fit, are not finite, or count what cannot be; nothing has changed then.
@@ -127,12 +127,12 @@ def clipped_gradients(
     max_norm: float,
     arrays: Callable[[], dict[str, np.ndarray]],
 ) -> tuple[list[torch.Tensor], float]:
-    """Returns the gradient of a loss for each parameter, scaled down to a norm, and the norm it had.
+    """Returns the gradient of a loss for each parameter, clipped to a global norm, and the norm before clipping.
 
     Args:
       network: whose parameters they are of.
       loss: the loss.
-      max_norm: the norm.
+      max_norm: the greatest global norm.
       arrays: returns what the loss was computed from.
 
     Raises:

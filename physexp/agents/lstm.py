@@ -1,6 +1,6 @@
-"""An LSTM layer with torch's parameters and torch's results, made quick on a processor.
+"""An LSTM layer with torch's parameters and torch's results, faster on a CPU.
 
-On a processor, an LSTM of 100 units spends most of its time not on matrix products but on tanh, which costs several
+On a CPU, an LSTM of 100 units spends most of its time not on matrix products but on tanh, which costs several
 times as much as the logistic function, and on small gradients of the weights at every time step. Here all four gates
 go through one logistic function (tanh x = 2 sigma(2x) - 1), and the gradients of the weights are one product over all
 time steps. On a GPU torch's own kernels are used.
@@ -24,7 +24,9 @@ class LSTM(nn.LSTM):
         super().__init__(num_inputs, num_units)
 
     def project(self, inputs: torch.Tensor) -> torch.Tensor:
-        """Returns what `step` and `unroll` take: on a processor what inputs [N, F] and biases add to gates [N, 4 H].
+        """Returns the input of `step` and `unroll`, from inputs [N, F].
+
+        On a CPU it is what inputs and biases contribute to the gates, [N, 4 H]; on a GPU, the inputs themselves.
 
         It depends on no state, so what is known of a time step when it is acted on need not be computed again to learn.
         """

@@ -19,7 +19,7 @@ State = tuple[torch.Tensor, ...]
 
 
 class RecurrentNetwork(nn.Module, abc.ABC):
-    """What acts: it looks, remembers, and gives each action a preference.
+    """A recurrent policy: maps observations and a state to logits, values and the next state.
 
     Attributes:
       sees_images: whether it observes an image, or features.
@@ -63,7 +63,7 @@ class RecurrentNetwork(nn.Module, abc.ABC):
         """
 
     def note(self, actions: torch.Tensor, state: State) -> State:
-        """Returns the state with the actions that were taken, int64 [N]; a network that does not care returns it."""
+        """Returns the state updated with the actions taken, int64 [N]; by default, the state unchanged."""
         return state
 
 
@@ -81,7 +81,7 @@ class FeatureTorso(nn.Module):
         """Does nothing: features are taken as they are."""
 
     def distinct(self, observation: Observation) -> tuple[torch.Tensor, None]:
-        """Returns what `forward` does, and None: each observation is taken for itself."""
+        """Returns what `forward` does, and None: every observation is mapped, also when some are equal."""
         return self(observation), None
 
     def forward(self, observation: Observation) -> torch.Tensor:
@@ -153,7 +153,7 @@ def _distinct(images: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
 
 
 def sees_images(observation_spec: Mapping[str, specs.Array]) -> bool:
-    """Tells whether an image is observed, or features; raises ValueError for anything else."""
+    """Returns True for one image and False for features; raises ValueError for anything else."""
     images = [name for name, spec in observation_spec.items() if spec.dtype == np.uint8]
     if not observation_spec or (images and len(observation_spec) > 1):
         raise ValueError(
@@ -179,7 +179,7 @@ class RecurrentActorCritic(RecurrentNetwork):
         Args:
           observation_spec: what is observed.
           num_actions: how many actions there are.
-          lstm_units, observation_scale: see `AgentConfig`.
+          lstm_units, observation_scale: see `ActorCriticConfig`.
 
         Raises:
           ValueError: if what is observed is neither features nor one image.

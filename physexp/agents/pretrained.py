@@ -1,4 +1,4 @@
-"""Trained agents that come with the package: weights in half precision, and a card that says where they come from."""
+"""Trained agents that come with the package: weights in half precision, and a card with their provenance."""
 
 from collections.abc import Mapping, Sequence
 import contextlib
@@ -27,7 +27,7 @@ class Pretrained:
 
     Attributes:
       network: its network.
-      card: where it comes from: domain, task, the options that the task had (`task_kwargs`), command, commit, seed,
+      card: its provenance: domain, task, the options that the task had (`task_kwargs`), command, commit, seed,
         frames, time, evaluation, the network's hyperparameters and the specs it was made for.
     """
 
@@ -161,7 +161,7 @@ def _network(facts: dict[str, Any]) -> networks.RecurrentNetwork:
 
 
 def _read_weights(card_path: Path, card: dict[str, Any], like: dict[str, torch.Tensor]) -> dict[str, torch.Tensor]:
-    """Reads the weights that a card is about; those that wait to be put in place, where their writer was killed."""
+    """Reads the weights that a card is about, under their temporary name where their writer was killed."""
     checksum = card.get("sha256")
     path, waiting = card_path.with_suffix(".safetensors"), card_path.with_suffix(_WAITING)
     if waiting.exists() and checksum is not None:
@@ -199,7 +199,7 @@ def save(network: networks.RecurrentNetwork, card: Mapping[str, Any], folder: Pa
 
 
 def _put_in_place(card_path: Path) -> None:
-    """Gives the weights that a card is about their name, where they wait for it."""
+    """Gives the weights that a card is about their final name, where their writer was killed before it did."""
     waiting = card_path.with_suffix(_WAITING)
     # Without a card, or with one that is damaged or older than checksums, they are nobody's.
     with contextlib.suppress(FileNotFoundError, ValueError, KeyError, TypeError):

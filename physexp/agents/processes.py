@@ -1,4 +1,4 @@
-"""Processes that work for this one: what they inherit, and that none outlives its parent."""
+"""Child processes: what they inherit, and that none outlives its parent."""
 
 import contextlib
 import multiprocessing
@@ -15,10 +15,10 @@ _DEATH_SECONDS = 5.0  # For the system to take away what was killed.
 
 @contextlib.contextmanager
 def unheard_by_children():
-    """Returns a context in which processes are started that do not hear requests to end.
+    """Returns a context in which the stop signals are blocked, for the processes that are started in it.
 
-    Terminals and schedulers send those to every process; it is the parent that asks its children to stop. What comes
-    meanwhile is heard afterwards.
+    Terminals and schedulers send those signals to every process, but it is the parent that asks its children to stop.
+    A signal that comes meanwhile is delivered afterwards.
     """
     resource_tracker.ensure_running()  # Starting it would make them heard again.
     before = signal.pthread_sigmask(signal.SIG_BLOCK, STOP_SIGNALS)

@@ -1,4 +1,4 @@
-"""The agents that there are, by the name of their algorithm, here and on a cluster."""
+"""All agents, by the name of their algorithm, on this machine and on a cluster."""
 
 from collections.abc import Callable, Mapping
 

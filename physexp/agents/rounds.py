@@ -14,7 +14,7 @@ class BehaviourData:
     Attributes:
       observation: what was seen before each action, arrays [N, ...] by name.
       log_probabilities: of the actions, by the policy that took them, float32 [N].
-      values: what that network expected of the rest of the episode, float32 [N].
+      values: that network's estimates of the return, float32 [N].
     """
 
     observation: dict[str, torch.Tensor]
@@ -86,7 +86,7 @@ class Round:
         )
 
     def record(self) -> "Round":
-        """Returns the same round, to be looked at but not to be learned from."""
+        """Returns the same round without what is only for learning."""
         return dataclasses.replace(self, inputs=None, behaviour=None)
 
     def arrays(self) -> dict[str, np.ndarray]:

@@ -9,7 +9,7 @@ class SynchronousLearner(core.Learner):
     """Plays a round at each step, with all that was learned from the rounds before.
 
     Attributes:
-      variables: what it moves.
+      variables: what training changes.
       last_round: the round that was played last.
     """
 

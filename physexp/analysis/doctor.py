@@ -1,4 +1,4 @@
-"""What this machine offers, and what to do about what it lacks."""
+"""Examines this machine: what it offers, what is missing, and what to do about it."""
 
 from collections.abc import Iterator
 import importlib

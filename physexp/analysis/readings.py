@@ -1,4 +1,4 @@
-"""How the readings of a task are shown to people: as which curves, of which things, in which unit and bounds."""
+"""How readings are shown to people: the curves of each, their things, unit and bounds."""
 
 from collections.abc import Mapping, Sequence
 import dataclasses
@@ -34,7 +34,7 @@ class Shown:
 
     @property
     def is_position(self) -> bool:
-        """Whether it tells where things are, in metres."""
+        """Whether its values are positions, in metres."""
         return (self.components, self.unit) == POSITION
 
     def values(self, observed: np.ndarray) -> np.ndarray:

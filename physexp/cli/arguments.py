@@ -1,4 +1,4 @@
-"""The kinds of arguments that commands have, with the names that help gives their values."""
+"""The types of the commands' arguments, with the names that help shows for their values."""
 
 from pathlib import Path
 from typing import Annotated

@@ -1,4 +1,4 @@
-"""What commands print: figures, tables and lines, for people or as JSON."""
+"""Prints the output of commands: figures, tables and lines, for people or as JSON."""
 
 import io
 import json

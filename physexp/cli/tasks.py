@@ -1,4 +1,4 @@
-"""Commands that say what there is and what works here."""
+"""Commands that list the tasks and examine this machine."""
 
 import dataclasses
 import sys

@@ -39,7 +39,7 @@ ALL_TASKS = tuple((domain, task) for domain, tasks in TASKS_BY_DOMAIN.items() fo
 
 
 def tags(domain_name, task_name) -> frozenset[str]:
-    """Returns what kind of task it is: `features` or `pixels`, and the domain's own words.
+    """Returns a task's tags: `features` or `pixels`, and those of its domain, such as `fist`.
 
     Raises:
       ValueError: for an unknown name.
@@ -134,7 +134,7 @@ def _call(function, name, kwargs, *args):
 
 
 def _spelled(key) -> str:
-    """A name as it was given, in a message: in quotes only if it is none."""
+    """Returns a name as a message shows it: in quotes unless it is a plain word."""
     return key if isinstance(key, str) and key.isidentifier() else checks.shown(key)
 
 

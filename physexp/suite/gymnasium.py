@@ -43,19 +43,19 @@ def observation_space(spec) -> spaces.Dict:
 
 
 def check_render_mode(render_mode: str | None, known: tuple[str, ...] = ("rgb_array",)) -> None:
-    """Raises ValueError for a way to render that there is not."""
+    """Raises ValueError unless the render mode is None or one of `known`."""
     if render_mode is not None and render_mode not in known:
         choices = " or ".join(map(repr, (None, *known)))
         raise ValueError(f"render_mode is {checks.shown(render_mode)}; choose {choices}")
 
 
 def check_num_envs(num_envs: int) -> int:
-    """Returns the number of environments; raises ValueError for one that there cannot be."""
+    """Returns the number of environments as an int; raises ValueError if it is out of range."""
     return checks.integer("num_envs", num_envs, 1, batch_lib.MOST_ENVIRONMENTS)
 
 
 def images(batch: suite.BatchEnvironment) -> tuple[np.ndarray, ...]:
-    """One image for each environment, uint8 [size, size, 3]; they grow smaller as they grow more.
+    """Returns one image for each environment, uint8 [size, size, 3]; the more environments, the smaller the images.
 
     Side by side they fit into a square of 1920 pixels: up to 16 environments are drawn with 480 pixels, 64 with 240.
     """
@@ -101,7 +101,7 @@ class Environment(gymnasium.Env):
 
     @property
     def dm_env(self) -> suite.Environment:
-        """The environment behind it."""
+        """The dm_env environment that this one wraps."""
         return self._environment
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None):
@@ -191,7 +191,7 @@ class VectorEnvironment(vector_env.VectorEnv):
 
     @property
     def batch(self) -> suite.BatchEnvironment:
-        """The batch behind it."""
+        """The batch that this one wraps."""
         return self._batch
 
     def reset(self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None):
@@ -238,12 +238,12 @@ class VectorEnvironment(vector_env.VectorEnv):
 
 
 def frames_per_second(task) -> int:
-    """How many images make a second of an episode."""
+    """Returns how many images a second of an episode has."""
     return max(1, round(1 / task.control_timestep))
 
 
 def check_started(started: bool) -> None:
-    """Raises `gymnasium.error.ResetNeeded` where there is no episode to step in."""
+    """Raises `gymnasium.error.ResetNeeded` if no episode has begun."""
     if not started:
         raise error.ResetNeeded("there is no episode to step in; call reset() first")
 

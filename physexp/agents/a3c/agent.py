@@ -18,11 +18,11 @@ _LOCK_SECONDS = 5.0  # To get the lock that is held for milliseconds.
 
 @dataclasses.dataclass(frozen=True)
 class Patience(watching.Patience):
-    """How long is waited for a worker, s.
+    """Time limits for workers, s.
 
     Attributes:
-      locked: while it keeps the shared variables to itself; then training ends.
-      told: when training ends, until a line says for whom it waits.
+      locked: for one hold of the lock of the shared variables; after it, training ends with an error.
+      told: for the last rounds when training ends; after it, a line says which workers are waited for.
     """
 
     locked: float = 60.0
@@ -30,7 +30,7 @@ class Patience(watching.Patience):
 
 
 class A3C(core.Agent):
-    """Runs the workers and hands out what they do.
+    """Runs the workers and yields their updates.
 
     A worker's state between updates is one number, the rounds it has played: environments start their episodes, and
     actions their random numbers, from it. So a checkpoint is the shared variables and nothing else.

@@ -20,11 +20,11 @@ from physexp.agents.a3c import parameter_server, remote_worker, supervision, wat
 
 @dataclasses.dataclass(frozen=True)
 class Patience(watching.Patience):
-    """How long is waited for whom, s.
+    """Time limits for workers and the parameter server, s.
 
     Attributes:
-      room: for a worker to be placed, until a line says how many are not.
-      answer: for the parameter server; then it is taken for dead.
+      room: for the cluster to place all workers; after it, a line says how many are not placed.
+      answer: for an answer of the parameter server; after it, the server counts as dead.
     """
 
     room: float = 60.0
@@ -32,7 +32,7 @@ class Patience(watching.Patience):
 
 
 class DistributedA3C(core.Agent):
-    """Runs the actors and hands out what they do. The cluster must have been joined with `ray.init`."""
+    """Runs the actors and yields their updates. The cluster must have been joined with `ray.init`."""
 
     def __init__(
         self,

@@ -18,8 +18,9 @@ class Traffic:
     Attributes:
       updates: gradients applied.
       dropped: gradients that were too old.
-      busy_seconds: time spent on all of them.
-      bytes_in, bytes_out: gradients with their records, and parameters.
+      busy_seconds: time spent on exchanges, s.
+      bytes_in: size of the gradients and records received.
+      bytes_out: size of the parameters sent.
     """
 
     updates: int = 0
@@ -34,9 +35,9 @@ class Taken:
     """What the parameter server hands to the driver.
 
     Attributes:
-      updates: those since it was asked last.
+      updates: the updates since the last call of `take`.
       rounds: how many each worker has played.
-      is_done: whether all frames are.
+      is_done: whether all frames have been trained on.
     """
 
     updates: list[core.Update]
@@ -60,7 +61,7 @@ class Reply:
 
 
 class ParameterServer:
-    """Keeps the variables. It does one thing at a time, so nobody sees half an update."""
+    """Keeps the variables. It handles one call at a time, so nobody reads half an update."""
 
     def __init__(self, network: networks.RecurrentActorCritic, tensors, config: config_lib.A3CConfig):
         """Takes up variables.

@@ -16,10 +16,10 @@ from physexp.agents.a3c import worker as worker_lib
 
 
 class RemoteVariables(a3c_learning.Shared):
-    """The variables that a parameter server keeps, as a worker sees them.
+    """A worker's access to the variables that a parameter server keeps.
 
-    With `overlaps`, the worker plays on while its gradient is on its way, with the parameters that came last: it looks
-    at the answer one round later.
+    With `overlaps`, the worker plays the next round while its gradient is sent, with the parameters that came last: it
+    reads the answer one round later.
     """
 
     def __init__(self, server, seed: int, overlaps: bool):
@@ -77,7 +77,7 @@ class Worker:
     """Acts and learns."""
 
     def ready(self) -> None:
-        """Answers once there is a process to do so."""
+        """Returns once the worker's process runs."""
 
     def run(
         self,

@@ -1,4 +1,4 @@
-"""Supervision of A3C's workers on a cluster: they are placed, set to work, and started again when they die."""
+"""Supervises A3C's workers on a cluster: places them, sets them to work, and restarts those that die."""
 
 from collections.abc import Callable, Collection
 import time
@@ -67,7 +67,7 @@ class Workers:
                 self._start(reference, self._coming.pop(reference))
 
     def forgive(self) -> None:
-        """Forgets deaths: somebody has learned something since."""
+        """Resets the count of deaths, after an update."""
         self._deaths = [0] * len(self._deaths)
 
     def kill(self) -> None:
@@ -86,7 +86,7 @@ class Workers:
             self._running[self._run(self._actors[index], index)] = index
 
     def _revive(self, index: int) -> None:
-        """Asks a worker whether it is there; Ray starts it again where it is not."""
+        """Calls a worker, so that Ray restarts it if it has died."""
         self._coming[self._actors[index].ready.remote()] = index
 
     def _has_ended(self, reference, index: int, is_stopping: bool) -> bool:

@@ -1,4 +1,4 @@
-"""Watching workers, in processes or on a cluster: who has not ended its round for long is told of."""
+"""Watches workers, in processes or on a cluster, and reports those that have not ended their round for long."""
 
 from collections.abc import Callable, Collection, Sequence
 import dataclasses
@@ -10,11 +10,11 @@ TICK_SECONDS = 1.0
 
 @dataclasses.dataclass(frozen=True)
 class Patience:
-    """How long is waited for any worker, s. Rounds of images take the longest: half a minute on a slow machine.
+    """Time limits for workers, s. Rounds of images take the longest: half a minute on a slow machine.
 
     Attributes:
-      silent: until a line says that it has not ended its round.
-      stop: when training ends, for the round that it is at; then it is killed.
+      silent: for a round; a worker that takes longer is reported.
+      stop: for the round under way when training ends; a worker that takes longer is killed.
     """
 
     silent: float = 120.0
@@ -22,7 +22,7 @@ class Patience:
 
 
 class Clock:
-    """Measures the time between looks in which this process ran."""
+    """Measures the time between ticks, without the time in which this process did not run."""
 
     def __init__(self):
         self._looked = time.monotonic()
@@ -35,7 +35,7 @@ class Clock:
 
 
 class Watch:
-    """Measures for how long each worker has been at its round, and reports those that fall silent or are back."""
+    """Measures for how long each worker has been at its round; reports those that fall silent or resume."""
 
     def __init__(
         self, rounds: Sequence[int], name: Callable[[int], str], patience: Patience, tell: Callable[[str], None]

@@ -1,4 +1,4 @@
-"""A worker: acts, learns and shares what it has learned, until training ends; and the process that it does so in."""
+"""A worker, which acts, learns and shares what it has learned until training ends, and its process."""
 
 from collections.abc import Callable
 import contextlib
@@ -55,7 +55,7 @@ class Worker:
 
     @property
     def name(self) -> str:
-        """Returns what people are told of it."""
+        """Returns its name in messages."""
         return f"worker {self.index} (process {self.process.pid})"
 
     def start(self, context, received: queue.SimpleQueue, *arguments) -> None:

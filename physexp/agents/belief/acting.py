@@ -20,7 +20,7 @@ class Explorer:
 
     Attributes:
       are_greedy: which episodes it plays greedily, bool [B].
-      beliefs: in what each episode was answered, float64 [B]; not a number where it was not.
+      beliefs: the belief in the answer that each episode ended with, float64 [B]; NaN where it has none.
     """
 
     def __init__(
@@ -29,7 +29,7 @@ class Explorer:
         config: config_lib.BeliefConfig,
         number: int,
     ):
-        """Draws how many interactions the episodes of the round of a number have at most."""
+        """Draws, for the round `number`, the most interactions of each of its episodes."""
         num_environments, generator = config.num_environments, starting.round_generator(config.seed, 0, number)
         self.beliefs = np.full(num_environments, np.nan)
         self._network, self._generator = network, generator

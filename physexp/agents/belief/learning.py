@@ -23,7 +23,7 @@ Play = Callable[[networks.BeliefNetwork, int, acting_lib.Choose], rounds.Round]
 
 
 class Variables(learning.Variables[networks.BeliefNetwork]):
-    """All that training moves; `network` is the one that learns.
+    """All that training changes; `network` is the one that learns.
 
     Attributes:
       averaged: the network that acts while it learns, a moving average.
@@ -53,7 +53,7 @@ class Variables(learning.Variables[networks.BeliefNetwork]):
         return {**named, **own, "episodes/actions": self.episodes.actions}
 
     def hand_out(self) -> None:
-        """Brings `handed_out` up to date."""
+        """Sets `handed_out` to the averaged network, or to the best one."""
         chosen = self.best if self.scores[_IS_WORSE] else self.averaged
         self.handed_out.load_state_dict(chosen.state_dict())
 
@@ -206,7 +206,7 @@ class BeliefLearner(synchronous.SynchronousLearner):
 def _opinions(
     network: networks.BeliefNetwork, episodes: replay.Episodes, members: torch.Tensor, dropout: float = 0.0
 ) -> tuple[torch.Tensor, torch.Tensor]:
-    """Returns what one member, int64 [B], makes of each episode: logits [T, B, L] and shares [T, B, I]."""
+    """Returns, for each episode, the outputs of the member given, int64 [B]: logits [T, B, L] and shares [T, B, I]."""
     inputs = _padded(network.encode(episodes.observation), episodes.played)
     actions = episodes.actions.to(network.device)
     logits, shares, places = [], [], []

@@ -132,7 +132,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
     def unroll(
         self, member: int, inputs: torch.Tensor, actions: torch.Tensor, dropout: float = 0.0
     ) -> tuple[torch.Tensor, torch.Tensor]:
-        """Computes what a member makes of whole episodes from their first steps, padded to the longest.
+        """Computes a member's outputs for whole episodes, padded to the longest.
 
         Args:
           member: its number.

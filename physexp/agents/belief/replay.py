@@ -1,4 +1,4 @@
-"""What was played: whole episodes in memory, the oldest forgotten first."""
+"""The replay memory: whole episodes, of which the oldest are replaced first."""
 
 from collections.abc import Callable
 import dataclasses
@@ -81,7 +81,7 @@ class Replay:
         self._answers = np.zeros(self._rewards.shape, np.int64)
 
     def add(self, played: rounds.Round, number: int) -> None:
-        """Keeps the round of a number, whose behaviour has what was observed; that of R rounds before is forgotten."""
+        """Keeps the round `number`, whose behaviour has what was observed, in place of the one R rounds before."""
         assert played.behaviour is not None
         slot, length = number % len(self.actions), len(played.actions)
         self.actions[slot] = -1
@@ -92,11 +92,11 @@ class Replay:
         self._answers[slot] = played.answers
 
     def restore(self, play: Callable[[int, acting.Choose], rounds.Round], num_rounds: int) -> None:
-        """Has the rounds that `actions` has, of as many as there were in all, played again.
+        """Plays the rounds in `actions` again, to get back what was observed.
 
         Args:
           play: plays the round of a number, and keeps the behaviour.
-          num_rounds: how many rounds there were.
+          num_rounds: how many rounds were played in all.
         """
         actions = self.actions.numpy().astype(np.int64)
         for number in range(max(0, num_rounds - len(actions)), num_rounds):

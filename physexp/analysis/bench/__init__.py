@@ -1,4 +1,4 @@
-"""Performance figures, each a ratio of two things measured in turn in the same run, with what each was on its own.
+"""Performance figures: each is a ratio of two rates measured in turns in the same run, with both rates beside it.
 
 Machines are noisy: a figure is the median over repetitions in which both sides take their turn. A section is imported
 when it is measured, so the command line can name all of them at no cost.

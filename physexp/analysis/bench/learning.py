@@ -1,4 +1,4 @@
-"""What the feature agents of the experiments reach, and how long experiments, report and ideal experimenters take."""
+"""The returns of the experiments' feature agents, and the time of experiments, report and ideal experimenters."""
 
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What pixels cost: drawing them, and learning from them, each beside what bounds it."""
+"""The speed of drawing pixels and of learning from them, each beside its upper bound."""
 
 from collections.abc import Callable, Iterator
 import multiprocessing

@@ -1,4 +1,4 @@
-"""What it costs to record, to write replays, and to start."""
+"""The time that recording, writing replays and starting take."""
 
 from collections.abc import Iterator
 from pathlib import Path

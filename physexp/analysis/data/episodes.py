@@ -1,4 +1,4 @@
-"""The one table of episodes, a row an episode, from acting to Parquet: stored files are selections of its columns."""
+"""The table of episodes, one row each, from acting to Parquet: stored files are selections of its columns."""
 
 from collections.abc import Sequence
 import dataclasses

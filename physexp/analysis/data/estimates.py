@@ -1,6 +1,6 @@
-"""Estimates with their 95 % intervals.
+"""Estimates with their 95 % confidence intervals.
 
-The unit of what is averaged is the agent, since episodes of one are not independent of how it was trained.
+Means are over agents, since the episodes of one agent depend on how it was trained.
 """
 
 from collections.abc import Callable, Sequence
@@ -60,7 +60,7 @@ def mean(values: Sequence[float] | np.ndarray) -> Estimate:
 
 
 def mean_share(shares: Sequence[float] | np.ndarray) -> Estimate:
-    """Returns the mean of independent shares, [N] in [0, 1], with what of Student's interval a share can lie in."""
+    """Returns the mean of independent shares, [N] in [0, 1], with Student's interval, cut to [0, 1]."""
     estimate = mean(shares)
     return Estimate(estimate.value, max(0.0, estimate.low), min(1.0, estimate.high))
 

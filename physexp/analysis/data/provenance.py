@@ -1,4 +1,4 @@
-"""Where results come from: the commit and the versions that make them."""
+"""The provenance of results: the commit and the versions that made them."""
 
 import importlib.metadata
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Tables in Parquet files, with a checksum: what is read is what was written, or it is refused in one line.
+"""Tables in Parquet files with a checksum: a file that has changed since it was written is refused in one line.
 
 A Parquet file ends with its description of itself, which says where everything is. Just before it is our mark
 with the SHA-256 of all bytes but the mark's own; other readers pass over it. Files without a mark are read, too.
@@ -23,7 +23,7 @@ _LONGEST = 2**20  # Bytes of a text, or entries of a list, in a file's descripti
 
 
 def write(path: Path, table: pyarrow.Table, **options: Any) -> None:
-    """Writes a table; there is the whole file or none.
+    """Writes a table: the whole file, or nothing.
 
     Args:
       path: the file.

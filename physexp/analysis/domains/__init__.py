@@ -1,4 +1,4 @@
-"""The domains, as the analysis sees them; one that is not here has the defaults of `base.Domain`."""
+"""What the analysis knows of each domain; one that is not listed here has the defaults of `base.Domain`."""
 
 from physexp.analysis.domains import base, threshold, towers, which_is_heavier
 
@@ -11,5 +11,5 @@ DOMAINS = {module.DOMAIN.name: module.DOMAIN for module in _MODULES}
 
 
 def find(domain_name: str) -> base.Domain:
-    """Returns what the analysis knows of a domain: the defaults, for one that it was not told of."""
+    """Returns what the analysis knows of a domain: the defaults, for one that is not listed."""
     return DOMAINS.get(domain_name) or base.Domain(name=domain_name)

@@ -22,7 +22,7 @@ class Column:
       name: the column's name.
       type: Arrow's name of the type of its values.
       is_list: whether each episode has a list of values.
-      is_varied: whether hardly a value comes twice, which is how it is packed.
+      is_varied: whether almost all values differ; the file packs such a column in another way.
       is_everywhere: whether files with episodes of other domains have the column too, null, before the reward. It is
         kept for files that were written so; a column of a new domain is only in its own files, as the last.
     """
@@ -53,13 +53,13 @@ class Ideal:
 
 
 def nothing(hidden: "np.ndarray") -> "Mapping[str, np.ndarray]":
-    """Returns the columns of a domain that has none of its own."""
+    """Returns no columns: those of a domain without columns of its own."""
     return {}
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Domain:
-    """A domain, as the analysis sees it.
+    """What the analysis knows of a domain.
 
     Attributes:
       name: the domain's name, as `suite.load` takes it.

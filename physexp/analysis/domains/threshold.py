@@ -1,4 +1,4 @@
-"""Threshold, as the analysis sees it: presets of its agents, its ideal, its columns."""
+"""What the analysis knows of Threshold: presets of its agents, its ideal, its columns."""
 
 from collections.abc import Mapping
 import dataclasses

@@ -1,4 +1,4 @@
-"""Towers, as the analysis sees it: presets, the paper's names of conditions, its ideal, its columns."""
+"""What the analysis knows of Towers: presets, the paper's names of conditions, its ideal, its columns."""
 
 from collections.abc import Mapping
 import dataclasses
@@ -26,7 +26,7 @@ _PIXELS = _FEATURES.replace(learning_rate=1e-3, observation_scale=16.0)
 
 
 def _prior(num_interactions: int, label: float) -> tuple[float, ...]:
-    """Interactions first: an episode that ends before the tower is touched teaches nothing but luck."""
+    """Returns an action prior that prefers interactions: an answer before the tower was touched can only be a guess."""
     return (0.0,) * num_interactions + (label,) * _NUM_LABELS
 
 

@@ -1,4 +1,4 @@
-"""Which is Heavier, as the analysis sees it: presets, the paper's names of conditions, its ideal, its columns."""
+"""What the analysis knows of Which is Heavier: presets, the paper's names of conditions, its ideal, its columns."""
 
 from collections.abc import Mapping
 import dataclasses

@@ -1,4 +1,4 @@
-"""How figures look: sober, readable in grey and by colour-blind readers, each as a vector file and as PNG."""
+"""The style of figures: readable in grey and by colour-blind readers; each is saved as SVG and as PNG."""
 
 import contextlib
 import io
@@ -73,7 +73,7 @@ def save(figure, folder: Path, name: str) -> list[Path]:
 def reference(
     axes, level: float, text: str, vertical: bool = False, dashes: Any = (0, (1, 2)), at: float = 1.0
 ) -> None:
-    """A thin line at a level, with its name at a place along it, from 0 to 1."""
+    """Draws a thin line at a level, with its name at a place along it, from 0 to 1."""
     line, words = (axes.axvline, axes.get_xaxis_transform()) if vertical else (axes.axhline, axes.get_yaxis_transform())
     line(level, color=GREY, linewidth=0.8, linestyle=dashes, zorder=0)
     if not text:
@@ -85,7 +85,7 @@ def reference(
 
 
 def seeds(frame) -> str:
-    """How many agents stand behind a figure: `10 agents each`."""
+    """Returns how many agents a figure is made from, in words: `10 agents each`."""
     counts = frame.groupby("condition").training_seed.nunique()
     low, high = int(counts.min()), int(counts.max())
     many = "agent" if high == 1 else "agents"

@@ -1,4 +1,4 @@
-"""Publishing: turns a run's agent into one that comes with the package, with a card that says where it comes from."""
+"""Publishing: turns a run's agent into one that comes with the package, with a card of its provenance."""
 
 import dataclasses
 from pathlib import Path

@@ -90,7 +90,7 @@ def _filled(domain: base.Domain, hidden: np.ndarray) -> dict[str, np.ndarray | p
 
 
 def write(path: Path, rows: pyarrow.Table) -> None:
-    """Writes rows and the commit that made them; there is the whole file or none.
+    """Writes rows and the commit that made them: the whole file, or nothing.
 
     Raises:
       OSError: if it cannot be written.

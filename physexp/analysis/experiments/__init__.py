@@ -1,4 +1,4 @@
-"""The experiments: every one of the paper, and those that it could not make."""
+"""The experiments: all of the paper's, and ours."""
 
 import importlib
 from typing import TYPE_CHECKING, Any
@@ -26,7 +26,7 @@ NAMES = (
 
 
 def __getattr__(name: str) -> Any:
-    """Imports what is asked for: the command line's help has only the names, and the rest takes seconds."""
+    """Imports an experiment when it is used: the command line's help needs only names, and imports take seconds."""
     if name == "Experiment":
         return importlib.import_module(f"{__name__}.base").Experiment
     if name != "EXPERIMENTS":

@@ -1,4 +1,4 @@
-"""What an experiment is: a question, the agents it needs, what they play, and what follows from the rows."""
+"""The parts of an experiment: the agents it needs, the episodes they play, its claims and its figure."""
 
 from collections.abc import Callable, Sequence
 import dataclasses

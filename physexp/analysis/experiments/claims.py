@@ -18,8 +18,8 @@ class Claim:
       condition: what it was tested on.
       statistic: what was measured, in words.
       estimate: what came out, with its 95 % interval.
-      above, below: the claim holds where the statistic lies between these.
-      reason: what we think why it fails, if it does.
+      above, below: the claim holds if the statistic lies between these.
+      reason: our explanation, if it fails.
     """
 
     text: str
@@ -43,7 +43,7 @@ class Claim:
 
     @property
     def wanted(self) -> str:
-        """The range in words."""
+        """Returns the claim's range in words."""
         if math.isinf(self.below):
             return f"> {self.above:g}"
         if math.isinf(self.above):

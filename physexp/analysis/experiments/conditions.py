@@ -1,4 +1,4 @@
-"""What agents are trained on: every condition of the paper, each with a budget that flattens its curve."""
+"""The conditions that agents are trained in: all of the paper's, each for as long as it takes to level off."""
 
 import re
 from typing import Any

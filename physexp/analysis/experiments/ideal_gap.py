@@ -1,4 +1,4 @@
-"""Every agent against the ideal experimenter, and what the difference is made of (ours; docs/ideal.md)."""
+"""The return of every agent against the ideal experimenter's, and the kinds of loss (ours; docs/ideal.md)."""
 
 import numpy as np
 

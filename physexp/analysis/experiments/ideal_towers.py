@@ -56,7 +56,7 @@ def _is_summary(row: Any) -> bool:
 
 
 def best(rows: list[dict], objective: str = "return") -> dict:
-    """The summary for the observer who sees every bit."""
+    """Returns the summary for the observer who distinguishes every bit."""
     for row in rows:
         if row["resolution"] == 0 and row["objective"] == objective:
             return row
@@ -66,7 +66,7 @@ def best(rows: list[dict], objective: str = "return") -> dict:
 
 
 def summaries(results: base.Results) -> dict[str, dict]:
-    """By the name of a condition, the summary for the observer who sees every bit."""
+    """Returns, by the name of a condition, the summary for the observer who distinguishes every bit."""
     return {conditions.label("towers", task): best(rows) for task, rows in read(results).items()}
 
 

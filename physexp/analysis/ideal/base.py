@@ -1,4 +1,4 @@
-"""What every ideal experimenter offers, whatever family it is of."""
+"""The interface of all ideal experimenters."""
 
 from collections.abc import Mapping
 from typing import Any, Protocol
@@ -32,8 +32,8 @@ class Solution(Protocol):
     """The best policy for a question, and what it is worth.
 
     Attributes:
-      value: what it earns: expected discounted return from an episode's start.
-      bound: what nobody can beat; equal to the value where that is exact.
+      value: its expected discounted return from an episode's start.
+      bound: an upper bound on any experimenter's; equal to the value where that is exact.
     """
 
     @property

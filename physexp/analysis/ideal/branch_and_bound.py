@@ -19,7 +19,7 @@ Group = tuple[int, ...]  # Hypotheses that cannot be told apart, in increasing o
 
 @dataclasses.dataclass(frozen=True)
 class Objective:
-    """What is to be as large as possible: the sum of what is earned, discounted for each interaction before it.
+    """What the search maximizes: a reward, discounted for each interaction before it.
 
     Attributes:
       discount: for each interaction.
@@ -51,7 +51,7 @@ def split(group: Group, apart: np.ndarray, resolution: float, prior: np.ndarray)
 
     Args:
       group: the hypotheses.
-      apart: how far apart they have looked at most, [H, H].
+      apart: the largest distances between their observations so far, [H, H].
       resolution: of the observer.
       prior: their probabilities, float64 [H].
 

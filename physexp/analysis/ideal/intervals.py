@@ -55,7 +55,7 @@ class Solution:
 
     @property
     def bound(self) -> float:
-        """What nobody can beat, which is the value, since that is exact."""
+        """Returns the upper bound, which is the value, since that is exact."""
         return self.value
 
     @property

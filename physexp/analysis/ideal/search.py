@@ -60,12 +60,12 @@ class Solution:
 
     @property
     def value(self) -> float:
-        """What it earns, the expected discounted return or the expected interactions until the right label is known."""
+        """Returns the expected discounted return, or the expected interactions until the right label is known."""
         return self._found[0]
 
     @property
     def bound(self) -> float:
-        """What nobody can beat; equal to the value where the search was complete."""
+        """Returns an upper bound on the value; equal to it where the search was complete."""
         return self._found[1]
 
     @property

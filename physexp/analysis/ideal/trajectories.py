@@ -1,4 +1,4 @@
-"""What is seen of finitely many hypotheses after sequences of actions: simulated when asked for, and remembered."""
+"""The observations of finitely many hypotheses after sequences of actions, simulated when needed and kept."""
 
 from collections.abc import Iterator, Mapping, Sequence
 import functools
@@ -15,7 +15,7 @@ Actions = tuple[int, ...]  # A sequence of interaction actions.
 
 
 class Trajectories:
-    """How far apart H hypotheses about what is hidden look under sequences of actions.
+    """Distances between the observations of H hypotheses about what is hidden, under sequences of actions.
 
     Physics is deterministic: a hypothesis and a sequence of actions make one trajectory.
 
@@ -58,7 +58,7 @@ class Trajectories:
         return (*sequence, 0) in self._apart
 
     def apart(self, sequence: Actions) -> np.ndarray:
-        """Returns how far apart the hypotheses have looked at most so far, [H, H]; of a sequence that was simulated."""
+        """Returns the largest distances between the hypotheses' observations along a simulated sequence, [H, H]."""
         return self._apart[sequence]
 
     def expand(self, sequences: Sequence[Actions]) -> None:
@@ -69,7 +69,7 @@ class Trajectories:
             self._apart[sequence] = np.maximum(self._apart[sequence[:-1]], self.distances(observation))
 
     def observe(self, sequences: Sequence[Actions]) -> list[dict[str, np.ndarray]]:
-        """Returns what is seen at the end of each sequence: arrays with a leading axis [H]."""
+        """Returns the observations at the end of each sequence: arrays with a leading axis [H]."""
         found: dict[Actions, dict[str, np.ndarray]] = {}
         for length in {len(sequence) for sequence in sequences}:
             alike = [sequence for sequence in sequences if len(sequence) == length]
@@ -82,7 +82,7 @@ class Trajectories:
         return [found[sequence] for sequence in sequences]
 
     def follow(self, sequence: Actions) -> Iterator[np.ndarray]:
-        """Returns how far apart the hypotheses have looked at most after each action of a sequence, [H, H] each."""
+        """Returns the largest distances so far after each action of a sequence, [H, H] each."""
         apart = self._apart[()]
         for observation in self._play([sequence]) if sequence else ():
             apart = np.maximum(apart, self.distances(observation))

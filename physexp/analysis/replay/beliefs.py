@@ -1,4 +1,4 @@
-"""What could be believed: by an agent, and by an ideal experimenter that has seen the same."""
+"""The belief of an agent, and that of an ideal experimenter with the same observations."""
 
 import functools
 

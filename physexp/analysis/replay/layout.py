@@ -1,4 +1,4 @@
-"""How a recording opens: the scene at the left, what was seen and believed at the right, time standing still."""
+"""The layout of a recording: the scene at the left, observations and beliefs at the right, time paused."""
 
 from collections.abc import Sequence
 import functools

@@ -1,4 +1,4 @@
-"""What the names and colours of a replay stand for: a thing's colour is used for that thing alone."""
+"""The names and colours of a replay: a thing's colour is used for that thing alone."""
 
 from collections.abc import Sequence
 import re

@@ -68,7 +68,7 @@ class Episode:
       actions: int64 [T].
       rewards: float64 [T].
       policies: probabilities of all actions before each, float64 [T, A]; of no length where the actor has none.
-      values: what the actor expected before each action, float64 [T], or of no length.
+      values: the return that the actor expected before each action, float64 [T], or of no length.
       shapes: what is in the scene.
       times: when they were where, s, float64 [F].
       positions, rotations: their true poses at every physics step, float64 [F, K, 3] and [F, K, 3, 3].
@@ -99,8 +99,8 @@ class Episode:
 class EpisodeRecorder(environment_loop.Observer):
     """Watches an environment and records each episode.
 
-    While it watches it only keeps what it is shown. The poses of everything at every physics step are found when they
-    are asked for: an episode follows from its seed, its index and its actions, so it can be had again.
+    While it watches, it keeps only timesteps and actions. The poses of everything at every physics step are found when
+    they are needed: an episode follows from its seed, its index and its actions, so it can be played again.
     """
 
     def __init__(
@@ -159,7 +159,7 @@ class EpisodeRecorder(environment_loop.Observer):
         """Returns the episode so far.
 
         Raises:
-          RuntimeError: if the same seed, index and actions do not show again what was seen.
+          RuntimeError: if the same seed, index and actions lead to other observations.
         """
         if self._rebuilder is None:
             self._rebuilder = _Rebuilder(self._remade_task())
@@ -193,7 +193,7 @@ class EpisodeRecorder(environment_loop.Observer):
 
 
 class _Rebuilder:
-    """Plays episodes again and looks closely."""
+    """Plays episodes again, and records all poses."""
 
     def __init__(self, task: task_lib.QuestionTask):
         self._environment = suite.Environment(task)
@@ -272,11 +272,11 @@ def _half_sizes(kind: str, size: np.ndarray) -> np.ndarray:
 
 
 class Reenactor(core.Actor):
-    """Does what was done before, while another actor says what it would think of it.
+    """Repeats recorded actions, while another actor gives its policy and value for each step.
 
     Attributes:
       policy: the other actor's probabilities of all actions; None where it has none.
-      value: what the other actor expects; not a number where it does not say.
+      value: the other actor's estimate of the return; NaN where it has none.
     """
 
     policy: np.ndarray | None = None

@@ -1,4 +1,4 @@
-"""Which episodes to look at."""
+"""The selection of episodes for a replay."""
 
 from collections.abc import Iterator
 from typing import Literal

@@ -1,4 +1,4 @@
-"""Replays that a run in training leaves: the agent as it becomes, always on the same instance."""
+"""Replays written during training: the agent as it is then, always on the same instance."""
 
 from collections.abc import Mapping
 

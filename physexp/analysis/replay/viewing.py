@@ -1,4 +1,4 @@
-"""Opening rerun's viewer so that this machine alone can reach it: it knows no password."""
+"""Opens rerun's viewer for this machine alone, since it has no password."""
 
 from collections.abc import Callable
 import contextlib

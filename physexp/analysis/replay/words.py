@@ -1,4 +1,4 @@
-"""What a replay says: the question, how the episode ended, and how to read what is shown."""
+"""The texts of a replay: the question, how the episode ended, and how to read what is shown."""
 
 from collections.abc import Sequence
 

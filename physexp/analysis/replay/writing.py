@@ -1,4 +1,4 @@
-"""Writing recorded episodes as recordings for the rerun viewer, with a blueprint that opens ready to read.
+"""Writes recorded episodes for the rerun viewer, with a blueprint.
 
 world/things/NAME      what is in the scene, with its true pose at every physics step; world/room the floor
 world/action           the force or velocity applied, as an arrow

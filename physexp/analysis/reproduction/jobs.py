@@ -1,4 +1,4 @@
-"""Jobs in processes of their own, some at a time: one that is killed, or hangs, is one that failed, and no more."""
+"""Jobs in processes of their own, some at a time: one that is killed or hangs fails, and the others go on."""
 
 from collections.abc import Callable
 from concurrent import futures

@@ -107,7 +107,7 @@ def _number(value: float) -> str:
 
 
 def _reasons(found: list[claims_lib.Claim]) -> list[str]:
-    """Returns what we think of the claims that fail, each once."""
+    """Returns our explanations of the claims that fail, each once."""
     failing = [claim for claim in found if claim.verdict == claims_lib.FAILS and claim.reason]
     return list(dict.fromkeys(f'Why "{claim.text}" fails: {claim.reason}' for claim in failing))
 

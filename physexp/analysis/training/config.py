@@ -1,4 +1,4 @@
-"""What a training run is: the task, its options, and the agent's configuration.
+"""The configuration of a training run: the task, its options, and the agent's configuration.
 
 Imports nothing heavy, since the command line is made from it.
 """

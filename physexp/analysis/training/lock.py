@@ -14,7 +14,7 @@ _ATTEMPTS = 100  # Each but the first because an owner has just ended, and remov
 
 
 class FolderLock:
-    """Belongs to one process at a time; the operating system gives it back when that ends, however it does."""
+    """A lock of one process at a time; the operating system releases it when that process ends, however it does."""
 
     def __init__(self, folder: Path):
         self._folder, self._path = folder, folder / ".lock"

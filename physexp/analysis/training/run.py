@@ -1,4 +1,4 @@
-"""A run's folder: what was asked for, how training went, and the agent it made.
+"""A run's folder: its configuration, its records, and the agent.
 
 In it are::
 
@@ -70,7 +70,7 @@ class Run:
 
     @property
     def config(self) -> config_lib.TrainConfig:
-        """Returns what was asked for.
+        """Returns the run's configuration.
 
         Raises:
           ValueError: if the folder holds no run, or one of another format, or what was asked for makes no sense.
@@ -303,6 +303,6 @@ class Run:
 
 
 def _renderer(config: config_lib.TrainConfig) -> str:
-    """Returns what draws the images of a run, or that none are drawn."""
+    """Returns the name of the renderer of a run's images, or that none are drawn."""
     task = suite.load_task(config.domain, config.task, config.task_kwargs)
     return gl.renderer_name() if task.sense.needs_gl else "none is needed"

@@ -30,7 +30,7 @@ class Interrupted(KeyboardInterrupt):
 
 
 def exit_status(error: KeyboardInterrupt) -> int:
-    """Returns what a process exits with that was asked to end: 128 and the signal's number, as 130 for Ctrl-C."""
+    """Returns the exit status after a signal: 128 and its number, as 130 for Ctrl-C."""
     return 128 + getattr(error, "number", signal.SIGINT)
 
 

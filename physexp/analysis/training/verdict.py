@@ -1,4 +1,4 @@
-"""Whether an agent has learned anything: training that came to nothing ends like any other, so it has to be said."""
+"""The verdict on a run: whether its agent has learned anything, since training ends alike where it has not."""
 
 from collections.abc import Sequence
 

@@ -28,7 +28,7 @@ MARGIN = 0.2
 # MuJoCo's friction is soft: with its defaults a block creeps by 18 mm under nine tenths of the force that moves it.
 # With these settings it creeps by 0.1 mm in a push of 0.1 s, and by 1 mm in an episode of 1.5 s.
 _FRICTION = dict(solimpfriction=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreffriction=[2 * PHYSICS_TIMESTEP, 1.0])
-# Underdamped by 0.6, a stop loses most of what a block has gone into it with each physics step, and none bounces.
+# At a damping ratio of 0.6, a stop pushes a block out within a few physics steps, and none bounces.
 _STOP = dict(solimplimit=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreflimit=[2 * PHYSICS_TIMESTEP, 0.6])
 
 # s: the smallest surplus of force, MARGIN * LEVEL_SPACING, takes 0.05 s from one stop to the other.
@@ -80,7 +80,7 @@ def prior(difficulty: float) -> np.ndarray:
 
 
 def draw_frictions(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
-    """Returns the friction of some episodes, N, float64 [N].
+    """Returns the friction of some episodes, in newtons, float64 [N].
 
     The label follows `prior`; friction is uniform between the forces of two neighbouring levels, away from both.
 
@@ -94,7 +94,7 @@ def draw_frictions(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -
 
 
 def _is_right(positions: np.ndarray) -> np.ndarray:
-    """Returns whether a block leans on the right stop, from its position on the rail, m."""
+    """Returns whether a block leans on the right-hand stop, from its position on the rail, m."""
     return positions > TRAVEL / 2
 
 
@@ -180,7 +180,7 @@ class Threshold(task.QuestionTask):
         ]
 
     def draw(self, seeds, episodes):
-        """Returns frictions, N, float64 [N]."""
+        """Returns frictions, in newtons, float64 [N]."""
         return draw_frictions(seeds, episodes, self.options.difficulty)
 
     def answers(self, hidden):

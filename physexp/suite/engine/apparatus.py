@@ -28,7 +28,7 @@ class _Held:
 
     Attributes:
       qpos: addresses of its coordinates, int [K].
-      shows: for each field of `LOOKED_AT`, the addresses of what shows it.
+      shows: for each field of `LOOKED_AT`, the addresses of its values that show the entity.
     """
 
     qpos: np.ndarray
@@ -61,7 +61,7 @@ class Apparatus:
     _dofs: dict[tuple[str, ...], tuple[np.ndarray, np.ndarray]] = dataclasses.field(default_factory=dict, init=False)
 
     def shown(self, field: str, values: np.ndarray, touched: np.ndarray) -> np.ndarray:
-        """Returns a field as it may be seen: held entities that were not touched are exactly as at the start.
+        """Returns a field as observations may have it: held entities that were not touched are exactly as at the start.
 
         Args:
           field: one of `LOOKED_AT`.
@@ -90,7 +90,7 @@ class Apparatus:
         return self._measures[name](values) if name in self._measures else values
 
     def indicate(self, geom_xpos: np.ndarray, sensordata: np.ndarray) -> None:
-        """Puts the indicators where the readings have them: writes to `geom_xpos`, [N, ngeom, 3]."""
+        """Moves the indicators to where the readings place them: writes to `geom_xpos`, [N, ngeom, 3]."""
         for geom, place, indicator in self._indicators:
             values = self.read(indicator.reading, sensordata)
             values = values.reshape(len(values), math.prod(values.shape[1:]))
@@ -161,7 +161,7 @@ def build(
 
 
 def _find_held(model: mujoco.MjModel, frame: mjcf.Element) -> _Held:
-    """Finds what belongs to an entity: the bodies from its frame on, their joints and geoms, and who senses them."""
+    """Finds what belongs to an entity: the bodies below its frame, their joints, geoms and sensors."""
     bodies = {model.body(frame.full_identifier).id}
     for body in range(model.nbody):  # A parent comes before its children.
         if model.body_parentid[body] in bodies:

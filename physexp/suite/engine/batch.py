@@ -37,7 +37,7 @@ class BatchEnvironment:
           num_threads: threads that simulate, from 1 to 1,024.
 
         Raises:
-          ValueError: if one of the numbers is another.
+          ValueError: if one of the numbers is not such an integer.
         """
         self._guard = guard.Guard("batch")
         self.num_environments = checks.integer("num_environments", num_environments, 1, MOST_ENVIRONMENTS)
@@ -117,7 +117,7 @@ class BatchEnvironment:
           As `step`.
 
         Raises:
-          ValueError: for indices that there are not, or if `hidden` has not the shape of what would be drawn.
+          ValueError: for indices out of range, or if `hidden` does not have the shape of what would be drawn.
           RuntimeError: if the batch is closed, or another thread is using it.
         """
         with self._guard:
@@ -167,9 +167,9 @@ class BatchEnvironment:
         return self._time_step(chosen, step_types, all_rewards, np.where(step_types == _LAST, 0.0, 1.0))
 
     def view(self, field: str, environment: int) -> np.ndarray:
-        """Returns a field of `MjData` in one environment, as it stands after a step; it may be written to.
+        """Returns a field of `MjData` in one environment, as it is after a step; it may be written to.
 
-        It is for analysis: what is written is not part of any episode that can be rebuilt.
+        It is for analysis: an episode that was written to cannot be rebuilt from its seed and actions.
         """
         with self._guard:
             structure = int(self._ledger.structures[environment])
@@ -320,7 +320,7 @@ class _Group:
     def poses(self, rows) -> tuple[np.ndarray, np.ndarray]:
         """Returns where the geoms are: positions, m, and rotations, [number of rows, ngeom, 3 and 9].
 
-        They follow from the coordinates alone: what a row keeps of them is older after a reset.
+        They are computed from the coordinates, since a reset leaves a row's own `geom_xpos` and `geom_xmat` outdated.
         """
         model = self.apparatus.model
         data = mujoco.MjData(model)

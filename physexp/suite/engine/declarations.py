@@ -32,7 +32,7 @@ class Interaction:
 
 @dataclasses.dataclass(frozen=True)
 class Reading:
-    """A feature: what some sensors show.
+    """A feature: the values of some sensors, or what is measured from them.
 
     Attributes:
       sensors: the MJCF sensors that make it up.
@@ -40,7 +40,7 @@ class Reading:
       unit: of its values.
       components: names of the values of one sensor, as `x`, `y`, `z`; none where each sensor has one value.
       bounds: the least and the greatest values that it ever has, where they are known.
-      measure: makes the reading coarser than the sensors; observations never hold more than it returns.
+      measure: computes the reading where it is less than the sensors' values; observations hold only what it returns.
     """
 
     sensors: Sequence[Any]
@@ -74,7 +74,7 @@ class Revealed:
 
     Attributes:
       marks: texts beside things, by the thing's name.
-      joined: pairs of things that are one, by their names.
+      joined: pairs of things that are one rigid body, by their names.
     """
 
     marks: Mapping[str, str] = dataclasses.field(default_factory=dict)

@@ -47,7 +47,7 @@ class Environment(composer.Environment):
           hidden: its hidden property, for analysis; by default it is drawn.
 
         Raises:
-          ValueError: if `hidden` has not the shape of what would be drawn.
+          ValueError: if `hidden` does not have the shape of what would be drawn.
           RuntimeError: if the environment is closed, or another thread is using it.
         """
         with self._guard:

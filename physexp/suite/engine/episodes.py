@@ -8,7 +8,7 @@ from physexp.suite.engine import checks
 
 
 class Ledger:
-    """Keeps, for N environments of a task, which episode each plays and how far it is.
+    """Keeps, for N environments of a task, which episode each plays and how many steps it has taken.
 
     Attributes:
       seeds: of the environments, int64 [N].

@@ -1,4 +1,4 @@
-"""The choice of a GL backend, its contexts, and what draws here."""
+"""Chooses the GL backend, makes its off-screen contexts, and names the renderer that draws."""
 
 import contextlib
 import ctypes
@@ -20,7 +20,7 @@ _SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software rasterizer")
 
 
 def choose_backend() -> str:
-    """Settles MUJOCO_GL: as the user set it, or EGL where it works, or OSMesa where its library is, or `disable`.
+    """Sets MUJOCO_GL, unless the user has: EGL if it works, else OSMesa if it is installed, else `disable`; returns it.
 
     To be called before mujoco and dm_control are imported, which look at it once. Feature tasks need no backend.
     """
@@ -50,7 +50,7 @@ def _load_triton() -> None:
 
 
 def _egl_works(library: str) -> bool:
-    """Whether EGL has a device to draw with: the library may be here without a driver, and dm_control then fails."""
+    """Whether EGL has a device to draw with: it may be installed without a driver, and dm_control then fails."""
     try:
         egl = ctypes.CDLL(library)
     except OSError:
@@ -72,7 +72,7 @@ def _egl_works(library: str) -> bool:
 
 
 def make_context(size: int):
-    """Makes an off-screen GL context for images of so many pixels' edge.
+    """Makes an off-screen GL context for images of `size` by `size` pixels.
 
     Raises:
       RuntimeError: if no GL backend works; it says what to install.
@@ -123,7 +123,7 @@ def current(context):
 
 
 def gl_renderer_name() -> str:
-    """What the current GL context is drawn by, in its own words."""
+    """Returns the name of the current GL context's renderer, GL_RENDERER."""
     from OpenGL import GL
 
     return GL.glGetString(GL.GL_RENDERER).decode()
@@ -140,7 +140,7 @@ def check() -> None:
 
 @functools.cache
 def renderer_name() -> str:
-    """What draws images in this process: the GL renderer's own name, or why there is none."""
+    """Returns the name of the GL renderer that draws images in this process, or why there is none."""
     try:
         context = make_context(8)
     except RuntimeError as error:
@@ -152,12 +152,12 @@ def renderer_name() -> str:
 
 
 def is_software(name: str) -> bool:
-    """Whether a GL renderer of this name draws on the processor."""
+    """Whether a GL renderer of this name draws on the CPU."""
     return any(software in name.lower() for software in _SOFTWARE)
 
 
 def warn_if_software(name: str) -> None:
-    """Says once that images are drawn on the processor although the machine has a GPU."""
+    """Warns, once in all processes, that images are drawn on the CPU although the machine has a GPU."""
     if is_software(name) and gpu_is_present() and _SAID not in os.environ:
         os.environ[_SAID] = "1"
         warnings.warn(

@@ -1,12 +1,13 @@
-"""One simulation is for one thread at a time: two at once corrupt it, or end the process."""
+"""A guard that keeps a simulation to one thread at a time: two at once would corrupt it, or crash the process."""
 
 import threading
 
 
 class Guard:
-    """What surrounds every use of a simulation: `with guard: ...`, also within each other.
+    """A context manager for every use of a simulation; within one thread it may be nested.
 
-    It never waits. Whoever holds a guard can be neither pickled nor copied deeply, no more than the simulation.
+    While another thread is inside, it raises RuntimeError instead of waiting. An object that has a guard can be neither
+    pickled nor deeply copied, since its simulation cannot.
     """
 
     def __init__(self, name: str):

@@ -1,4 +1,4 @@
-"""What a user may choose of every task."""
+"""The options that every task has."""
 
 import dataclasses
 import math
@@ -11,7 +11,7 @@ _LONGEST = 1e6  # s
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Options:
-    """What a user may choose of every task: the `task_kwargs` of `suite.load`.
+    """The options that every task has: the `task_kwargs` of `suite.load`.
 
     Attributes:
       random: an integer seed, a `numpy.random.RandomState`, or None for a seed from the operating system.
@@ -20,7 +20,7 @@ class Options:
       visualize_reward: colour the floor by the outcome at the end of an episode.
 
     Raises:
-      ValueError: for a value that makes no sense.
+      ValueError: if a value has the wrong type or is out of range.
     """
 
     physics_timestep: ClassVar[float]

@@ -25,24 +25,24 @@ class OddOneOut:
     difficulty: float
 
     def odd_cdf(self, values):
-        """Returns the probability that the odd one's value is at most `values`."""
+        """Returns the cumulative distribution function of the odd one's value, at `values`."""
         return values**self.difficulty
 
     def odd_quantile(self, levels):
-        """Returns the value that the odd one's is at most with probability `levels`."""
+        """Returns the quantiles of the odd one's value, at the probabilities `levels`."""
         return np.exp(np.log(levels) / self.difficulty)
 
     def common_cdf(self, values):
-        """Returns the probability that a common one's value is at most `values`."""
+        """Returns the cumulative distribution function of a common one's value, at `values`."""
         with np.errstate(divide="ignore"):
             return -np.expm1(self.difficulty * np.log1p(-values))
 
     def common_quantile(self, levels):
-        """Returns the value that a common one's is at most with probability `levels`."""
+        """Returns the quantiles of a common one's value, at the probabilities `levels`."""
         return -np.expm1(np.log1p(-levels) / self.difficulty)
 
     def log_ratio(self, values):
-        """Returns the logarithm of the odd one's density over a common one's."""
+        """Returns the log likelihood ratio of `values`: of the odd one's density to a common one's."""
         with np.errstate(divide="ignore"):
             return (self.difficulty - 1) * (np.log(values) - np.log1p(-values))
 

@@ -22,8 +22,9 @@ class Renderer:
 
     Attributes:
       size: edge of an image, pixels.
-      context: its GL context.
-      scene, buffers: what MuJoCo draws, and with what.
+      context: its GL context; None once it is closed.
+      scene: the `MjvScene` that is drawn.
+      buffers: the `MjrContext` that it is drawn with.
     """
 
     def __init__(self, model, moving_geoms: np.ndarray, camera: str = "observer", size: int = SIZE):
@@ -106,7 +107,7 @@ def _with_buffer(model, size: int):
 
 
 def _make_scene(model, camera: str):
-    """The abstract scene that MuJoCo draws, in the initial state, without the effects that cost and show nothing."""
+    """Returns the scene in the initial state, without effects that take time and change no pixel."""
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     scene = mujoco.MjvScene(model, maxgeom=64)
@@ -125,8 +126,8 @@ def _make_scene(model, camera: str):
 def _poses(scene) -> tuple[np.ndarray, np.ndarray]:
     """Positions [number of geoms, 3] and rotations [.., 9] of a scene's geoms, as views: written all at once.
 
-    A scene's geoms are one array of structs; MuJoCo's bindings show them one by one, at a cost that drawing so small an
-    image makes felt.
+    A scene's geoms are one array of structs. MuJoCo's bindings give access to one geom at a time, which would take a
+    good part of the time of drawing so small an image.
     """
     first, second = scene.geoms[0], scene.geoms[1]
     stride = second.pos.__array_interface__["data"][0] - first.pos.__array_interface__["data"][0]

@@ -9,7 +9,7 @@ import numpy as np
 from physexp.suite.engine import checks
 
 LARGEST_SEED = 2**63 - 1
-LAST_EPISODE = 2**62 - 1  # Nobody plays on from there to where 64 bits end.
+LAST_EPISODE = 2**62 - 1  # Far enough from the largest int64 that counting on never overflows.
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 

@@ -1,6 +1,6 @@
 """The senses: how a task shows its state, as features or as pixels.
 
-One environment and a batch look through the same sense, which is why they see the same.
+One environment and a batch share the same sense, so their observations are equal.
 """
 
 import abc
@@ -50,7 +50,7 @@ class Sense(abc.ABC):
 
     @abc.abstractmethod
     def close(self) -> None:
-        """Frees what the sense holds."""
+        """Frees the resources that the sense holds."""
 
 
 class Features(Sense):
@@ -67,7 +67,7 @@ class Features(Sense):
             observations[name][rows] = apparatus.read(name, state["sensordata"])
 
     def close(self):
-        """Needs nothing: features hold nothing."""
+        """Does nothing: features hold no resources."""
 
 
 class Pixels(Sense):

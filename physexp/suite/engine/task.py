@@ -21,7 +21,7 @@ _ROW = np.zeros(1, np.intp)  # The only row of a single environment.
 
 
 class _Observable(observable.Generic):
-    """An observable that knows what it shows before it is asked."""
+    """An observable whose spec is known before it is first evaluated."""
 
     def __init__(self, raw_observation_callable, spec: specs.Array):
         super().__init__(raw_observation_callable)
@@ -124,7 +124,7 @@ class QuestionTask(composer.Task):
         return np.zeros(len(hidden), np.int64)
 
     def arrange(self, structure: int) -> None:
-        """Puts the MJCF into the form of a structure."""
+        """Changes the MJCF model into the one that a structure stands for."""
 
     def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
         """Returns the model fields that follow from hidden properties: any that `Batch.expand` takes."""
@@ -250,7 +250,7 @@ class QuestionTask(composer.Task):
         self.sense.close()
 
     def note_divergence(self) -> None:
-        """Tells the task that the simulation has diverged: nothing more is seen of this episode."""
+        """Tells the task that the simulation has diverged: the last observation stays the one before."""
         self.num_divergences += 1
         self._diverged = True
 
@@ -258,7 +258,7 @@ class QuestionTask(composer.Task):
         self.look(self.apparatus, state, self._ledger.touched, _ROW, self._seen)
 
     def _recall(self, name: str, physics) -> np.ndarray:
-        """Returns what was last seen: composer may ask many times, and it is looked at once for each control step."""
+        """Returns the last observation: composer may ask many times, and it is made once for each control step."""
         return self._seen[name][0].copy()
 
     # The composer task.

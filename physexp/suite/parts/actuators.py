@@ -26,12 +26,12 @@ class DirectActuator:
         self._axes = room.mjcf_model.worldbody.add("site", name="axes", size=[0.001], group=5)
 
     def equip(self, built: tower.Tower) -> None:
-        """Gives a tower what it needs to be pushed."""
+        """Adds the force actuators of a tower's blocks."""
         built.add_pushers(self._axes)
 
     @property
     def interactions(self) -> list[declarations.Interaction]:
-        """Action 4 * block + direction pushes the block in that direction, N [20]."""
+        """20 actions, of which `4 * block + direction` pushes that block with `PUSH_FORCE` in that direction."""
         found = []
         for block in range(tower.NUM_BLOCKS):
             for name, (x, y) in _DIRECTIONS.items():
@@ -54,7 +54,7 @@ class FistActuator:
 
     @property
     def readings(self) -> dict[str, declarations.Reading]:
-        """Where the fist is."""
+        """The position of the fist's centre, m (3,)."""
         return {"fist_position": declarations.Reading([self.fist.position_sensor], (3,), components=("x", "y", "z"))}
 
     def attach_to(self, room: arena.Laboratory) -> None:
@@ -64,11 +64,11 @@ class FistActuator:
         self.fist.create_root_joints(frame)
 
     def equip(self, built: tower.Tower) -> None:
-        """Does nothing: the fist needs nothing of the tower."""
+        """Does nothing: the fist has its own actuators."""
 
     @property
     def interactions(self) -> list[declarations.Interaction]:
-        """Action `direction` holds the velocity in that direction, m/s [4]."""
+        """4 actions, each of which drives the fist in its direction with `FIST_SPEED`."""
         return [
             declarations.Interaction(
                 f"move the fist {name}",

@@ -1,4 +1,4 @@
-"""The block: the one thing that every question is built from."""
+"""The block: a cube, which every question so far is about."""
 
 from dm_control import composer, mjcf
 

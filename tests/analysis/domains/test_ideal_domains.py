@@ -4,6 +4,7 @@ import math
 import types
 
 import numpy as np
+import observers
 import pyarrow
 import pytest
 from trainers import fresh_seed
@@ -19,18 +20,8 @@ from physexp.analysis.training import config as config_lib
 IDEALS = [(domain, task) for domain, task in suite.tagged("features") if domains.find(domain).ideal is not None]
 
 
-class Recorder(environment_loop.Observer):
+class Recorder(observers.Watcher):
     """Keeps what an ideal experimenter is told of an episode."""
-
-    def observe_first(self, environment, timestep):
-        self.seen, self.actions = [timestep.observation], []
-
-    def observe(self, environment, timestep, action):
-        self.seen.append(timestep.observation)
-        self.actions.append(action)
-
-    def get_metrics(self):
-        return {}
 
     def episode(self, environment):
         return types.SimpleNamespace(

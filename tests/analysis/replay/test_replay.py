@@ -14,6 +14,7 @@ import urllib.request
 
 import commands
 import numpy as np
+import observers
 from PIL import Image
 import pytest
 from rerun.chunk import RrdReader
@@ -58,27 +59,13 @@ class Careless(core.Actor):
         pass
 
 
-class Watcher:
-    """Keeps what the loop shows it."""
-
-    def observe_first(self, environment, timestep):
-        self.seen, self.actions = [timestep.observation], []
-
-    def observe(self, environment, timestep, action):
-        self.seen.append(timestep.observation)
-        self.actions.append(action)
-
-    def get_metrics(self):
-        return {}
-
-
 def record(domain, task, interactions=5, seed=None, make_task=None):
     """A recorded episode, and what another observer has seen of it."""
     seed = fresh_seed() if seed is None else seed
     options = {"random": seed}
     played = suite.load_task(domain, task, options) if make_task is None else make_task(**options)
     environment = suite.Environment(played)
-    actor, watcher = Careless(environment, interactions, seed), Watcher()
+    actor, watcher = Careless(environment, interactions, seed), observers.Watcher()
     recorder = replay.EpisodeRecorder(environment, domain, task, options, actor, "a careless agent", make_task)
     environment_loop.EnvironmentLoop(environment, actor, [watcher, recorder]).run_episode()
     return recorder.episode, watcher, environment
