@@ -28,10 +28,14 @@ class Variables(Generic[Network]):
         Args:
           network: the network.
           num_workers: how many workers there are.
-          weight_decay: each step shrinks the weights by this, times the learning rate (Loshchilov & Hutter, 2019).
+          weight_decay: each step shrinks the weights, but not the biases, by this times the learning rate (Loshchilov &
+            Hutter, 2019).
         """
         self.network = network
-        self.optimizer = torch.optim.AdamW(network.parameters(), eps=1e-5, weight_decay=weight_decay, foreach=False)
+        biases = [parameter for name, parameter in network.named_parameters() if "bias" in name]
+        weights = [parameter for name, parameter in network.named_parameters() if "bias" not in name]
+        groups = [{"params": weights, "weight_decay": weight_decay}, {"params": biases, "weight_decay": 0.0}]
+        self.optimizer = torch.optim.AdamW(groups, eps=1e-5, foreach=False)
         for parameter in network.parameters():  # At once, so that they are there to be shared or restored.
             self.optimizer.state[parameter] = {
                 "step": torch.zeros(()),

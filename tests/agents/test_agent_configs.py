@@ -44,7 +44,8 @@ BAD_FOR = [
     (ppo.PPOConfig, "num_minibatches", 0),
     (ppo.PPOConfig, "clip", 0.0),
     (belief.BeliefConfig, "units", 0),
-    (belief.BeliefConfig, "num_environments", 1),  # Of two members one would learn nothing.
+    (belief.BeliefConfig, "num_members", 1),  # It would judge what it learns from.
+    (belief.BeliefConfig, "num_environments", 1),
     (belief.BeliefConfig, "num_threads", 0),
     (belief.BeliefConfig, "most_interactions", 0),
     (belief.BeliefConfig, "frames_per_step", 0),
@@ -73,6 +74,16 @@ def test_more_parts_than_episodes_are_refused():
 def test_less_room_than_a_round_takes_is_refused():
     with pytest.raises(ValueError, match="replay_episodes is 15; give at least num_environments, 16"):
         belief.BeliefConfig(replay_episodes=15)
+
+
+def test_members_without_environments_of_their_own_are_refused():
+    with pytest.raises(ValueError, match="num_environments is 3; give at least num_members, 4"):
+        belief.BeliefConfig(num_environments=3)
+
+
+def test_episodes_that_cannot_be_shared_out_equally_are_refused():
+    with pytest.raises(ValueError, match="batch_size is 30; give a multiple of num_members, 4"):
+        belief.BeliefConfig(batch_size=30)
 
 
 @pytest.mark.parametrize("name", ["relative_entropy", "relative_pixels"])

@@ -11,6 +11,7 @@ from physexp.agents import acting, learning, starting
 from physexp.agents.belief import acting as belief_acting
 from physexp.agents.belief import agent as belief
 from physexp.agents.belief import config as config_lib
+from physexp.agents.belief import learning as learning_lib
 from physexp.agents.belief import losses, networks, replay
 
 torch.set_num_threads(1)
@@ -54,7 +55,7 @@ def test_a_step_on_the_hindsight_label_is_a_step_on_the_likelihood_of_the_reward
     logits = torch.randn(1, 5, dtype=torch.float64, requires_grad=True)
     answer, are_right = torch.tensor([2]), torch.tensor([is_right])
     labels = losses.hindsight(logits.detach(), answer, are_right)
-    losses.belief_loss(logits[None], labels, torch.ones(1, 1, dtype=torch.bool)).backward()
+    losses.belief_loss(logits[None, None], labels, torch.ones(1, 1, 1, dtype=torch.bool)).sum().backward()
     found, logits.grad = logits.grad, None
     belief_in_answer = logits.softmax(1)[0, 2]
     (-torch.log(belief_in_answer if is_right else 1 - belief_in_answer)).backward()
@@ -66,7 +67,7 @@ def test_every_step_of_an_episode_is_trained_towards_the_label_and_none_beyond_i
     logits[2, 1] = 100.0  # Beyond the end of the second episode.
     labels = torch.tensor([[1.0, 0, 0, 0], [0, 1.0, 0, 0]])
     played = torch.arange(3)[:, None] < torch.tensor([3, 2])
-    assert losses.belief_loss(logits, labels, played).item() == pytest.approx(math.log(4))
+    assert losses.belief_loss(logits[None], labels, played[None]).tolist() == pytest.approx([math.log(4)])
 
 
 def targets(answering, interacting, are_greedy, length, reward=0.0, trace=0.5):
@@ -120,14 +121,18 @@ def test_acting_and_training_compute_the_same(domain, task):
     played = play(network, environment, 0)
     episodes = replay.Replay(environment, 1, SMALL.most_interactions + 1)
     episodes.add(played, 0)
-    drawn = episodes.sample(np.random.default_rng(seed), 32, 1)
+    drawn = episodes.sample(np.random.default_rng(seed), 32, SMALL.num_members, 1)
     with torch.no_grad():
         packed = network.encode(drawn.observation)
         inputs = torch.zeros(*drawn.played.shape, packed.shape[1])
         inputs[drawn.played] = packed
-        opinions = [network.unroll(member, inputs, drawn.actions) for member in range(2)]
-        beliefs = sum(logits.softmax(-1) for logits, _ in opinions) / 2
-        values = network.values(beliefs, sum(shares for _, shares in opinions) / 2)
+        logits, shares = network.unroll(inputs, drawn.actions)
+        judged_logits, judged_shares = network.judge(inputs, drawn.actions)
+        for row, judge in enumerate(drawn.judges):
+            torch.testing.assert_close(judged_logits[:, row], logits[judge, :, row], rtol=1e-3, atol=1e-4)
+            torch.testing.assert_close(judged_shares[:, row], shares[judge, :, row], rtol=1e-3, atol=1e-4)
+        beliefs = logits.softmax(-1).mean(0)
+        values = network.values(beliefs, shares.mean(0))
         state = network.initial_state(32)
         for step in range(len(drawn.actions)):
             found, _, state = network.step(inputs[step], state)
@@ -150,34 +155,64 @@ def test_values_lie_between_answering_a_step_later_and_knowing_a_step_later():
     torch.testing.assert_close(found, expected)
 
 
-def test_what_an_episode_was_worth_is_judged_by_the_member_that_does_not_learn_from_it():
-    config = SMALL.replace(dropout=0.0, averaging=1.0, seed=fresh_seed())
+def test_an_episode_is_judged_by_the_member_that_does_not_learn_from_it():
+    config = SMALL.replace(dropout=0.0, averaging=1.0, num_members=2, seed=fresh_seed())
     agent = belief.Belief(lambda seed, size, threads: load("which_is_heavier", "features", seed, size), config)
     learner = agent._learner
     learner.step()
     variables = learner.variables
-    drawn = variables.episodes.sample(np.random.default_rng(0), 64, 1)
-    only_the_first = replay.Episodes(**{**vars(drawn), "members": torch.zeros_like(drawn.members)})
-    gradients = {}
+    drawn = variables.episodes.sample(np.random.default_rng(0), 64, 2, 1)
+    their_own = [replay.Episodes(**{**vars(drawn), "judges": torch.full_like(drawn.judges, judge)}) for judge in (0, 1)]
+    gradients = []
 
     def note(network, loss, *_):
         network.zero_grad()
         loss.backward()
-        gradients.update({name: parameter.grad for name, parameter in network.named_parameters()})
-        return list(gradients.values()), 1.0
+        found = [parameter.grad for parameter in network.members.parameters()]
+        gradients.append([sum(float(gradient[member].abs().sum()) for gradient in found) for member in (0, 1)])
+        return [torch.zeros_like(parameter) for parameter in network.parameters()], 1.0
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(learning, "clipped_gradients", note)
-        found = learner._learn(only_the_first, 0.0)
-        assert all((gradient == 0).all() == ("members.1." in name) for name, gradient in gradients.items())
-        # The second one's opinion is all that targets are made from.
-        for parameter in variables.averaged.members[0].parameters():
-            parameter.data.normal_()
-        again = learner._learn(only_the_first, 0.0)
-        for parameter in variables.averaged.members[1].parameters():
-            parameter.data.normal_()
-        other = learner._learn(only_the_first, 0.0)
-    assert again["value_loss"] == found["value_loss"] != other["value_loss"]
+        for episodes in their_own:
+            learner._learn(episodes, 0.0)
+        assert gradients[0][0] == gradients[1][1] == 0 < min(gradients[0][1], gradients[1][0])
+        # What the judges of the first half think of it changes its targets, and nothing else of them does.
+        losses_of = [learner._learn(drawn, 0.0)["value_loss"]]
+        inputs = learning_lib._padded(variables.averaged.encode(drawn.observation), drawn.played)
+        before = variables.averaged.judge(inputs, drawn.actions)[0]
+        for parameter in variables.averaged.members.parameters():
+            parameter.data[0].normal_()
+        after = variables.averaged.judge(inputs, drawn.actions)[0]
+        are_same = [torch.equal(before[:, row], after[:, row]) for row in range(64)]
+        assert are_same == (drawn.judges == 1).tolist()
+        losses_of.append(learner._learn(drawn, 0.0)["value_loss"])
+    assert losses_of[0] != losses_of[1]
+
+
+def test_each_member_judges_as_many_episodes_as_another_and_each_environment_has_one_judge():
+    seed = fresh_seed()
+    environment = load("which_is_heavier", "features", seed, 7)
+    network = make_network(environment, seed)
+    kept = replay.Replay(environment, 1, SMALL.most_interactions + 1)
+    played = play(network, environment, 0, SMALL.replace(num_environments=7))
+    kept.add(played, 0)
+    drawn = kept.sample(np.random.default_rng(seed), 300, 3, 1)
+    assert np.bincount(drawn.judges).tolist() == [100, 100, 100]
+    # Environments 0, 3 and 6 have the first judge, 1 and 4 the second, 2 and 5 the third: an episode is known by its
+    # actions, its answer and its reward.
+    ends = played.rewards.sum(axis=0)
+    for row in range(300):
+        length = int(drawn.lengths[row])
+        fitting = [
+            environment
+            for environment in range(7)
+            if played.lengths[environment] == length
+            and (played.actions[:length, environment] == drawn.actions[:length, row].numpy()).all()
+            and (played.answers[environment], ends[environment]) == (drawn.answers[row], drawn.rewards[row])
+        ]
+        assert int(drawn.judges[row]) in [environment % 3 for environment in fitting]
+    environment.close()
 
 
 def test_the_environments_explore_from_much_to_little():
@@ -214,8 +249,7 @@ def test_an_episode_has_no_more_interactions_than_were_trained_for(greedy):
     seed = fresh_seed()
     environment = load("which_is_heavier", "features", seed)
     network = make_network(environment, seed)
-    for member in network.members:  # It would interact for ever.
-        member.shares[-1].bias.data += 10.0
+    network.members.shares.bias.data += 10.0  # It would interact for ever.
     played = acting.play_round(network, environment, 0, np.random.default_rng(seed), greedy)
     assert (played.lengths == SMALL.most_interactions + 1).all()
     environment.close()
@@ -259,7 +293,9 @@ def test_what_was_played_is_played_again_from_its_actions_to_the_last_bit(domain
         )
 
     again.restore(play_again, 3)
-    drawn, expected = (each.sample(np.random.default_rng(0), 64, 3).arrays() for each in (again, kept))
+    drawn, expected = (
+        each.sample(np.random.default_rng(0), 64, SMALL.num_members, 3).arrays() for each in (again, kept)
+    )
     for name, array in expected.items():
         np.testing.assert_array_equal(drawn[name], array)
     environment.close()
@@ -310,11 +346,9 @@ def test_what_is_handed_out_is_the_best_once_the_last_has_become_worse():
     learner.step()
     named = {name: value for name, value in variables.tensors().items() if value.is_floating_point()}
     for prefix in ("averaged", "network"):
-        torch.testing.assert_close(
-            named[f"{prefix}/members.0.belief.0.bias"], variables.averaged.members[0].belief[0].bias
-        )
-    variables.best.members[0].belief[0].bias.data.fill_(7.0)
+        torch.testing.assert_close(named[f"{prefix}/members.belief.bias"], variables.averaged.members.belief.bias)
+    variables.best.members.belief.bias.data.fill_(7.0)
     variables.scores[5] = 1.0  # Worse.
     variables.hand_out()
-    assert (agent.save()["network/members.0.belief.0.bias"] == 7.0).all()
-    assert not (agent.save()["averaged/members.0.belief.0.bias"] == 7.0).any()
+    assert (agent.save()["network/members.belief.bias"] == 7.0).all()
+    assert not (agent.save()["averaged/members.belief.bias"] == 7.0).any()

@@ -14,6 +14,8 @@ class BeliefConfig(config.AgentConfig):
     Attributes:
       answers_revealed: learn from the right label, which is told when an episode is over; otherwise from the reward
         alone, as the paper's agents did.
+      num_members: members of the network, each of which learns from all environments but its own share of them, and
+        judges what was played there.
       units: units of each of the four heads of the attention; a layer has as many as all of them.
       num_environments: environments that play side by side, one episode each between two rounds of learning.
       num_threads: threads for simulation and for convolutions.
@@ -23,10 +25,10 @@ class BeliefConfig(config.AgentConfig):
       exploration: share of the interactions that are drawn at random in the environment that explores most.
       trace: lambda, how far the return of the greedy actions that followed is believed against the network's values.
       frames_per_step: environment steps for each step of Adam; fewer learn more from each.
-      batch_size: episodes in a step of Adam.
+      batch_size: episodes in a step of Adam, a multiple of the members.
       replay_episodes: episodes that are kept to learn from; the oldest go.
       dropout: share of what is remembered that the heads learn without; beliefs are less sure of what was seen once.
-      weight_decay: each step of Adam shrinks the weights by this, times the learning rate.
+      weight_decay: each step of Adam shrinks the weights, but not the biases, by this times the learning rate.
       averaging: the network that acts is a moving average of the one that learns; this share stays in each step.
     """
 
@@ -44,6 +46,7 @@ class BeliefConfig(config.AgentConfig):
     frames: int = 100_000
     learning_rate: float = 1e-3
     answers_revealed: bool = False
+    num_members: int = 4
     units: int = 16
     num_environments: int = 16
     num_threads: int = 1
@@ -61,8 +64,9 @@ class BeliefConfig(config.AgentConfig):
 
     _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {
         **config.AgentConfig._WHOLE,
+        "num_members": (2, 1_024),
         "units": (1, 65_536),
-        "num_environments": (2, 65_536),  # Each member learns from its own half of them.
+        "num_environments": (2, 65_536),
         "num_threads": (1, 1_024),
         "most_interactions": (1, 10_000),
         "frames_per_step": (1, config.LARGEST),
@@ -83,6 +87,13 @@ class BeliefConfig(config.AgentConfig):
 
     def __post_init__(self):
         super().__post_init__()
+        if self.num_environments < self.num_members:
+            raise ValueError(
+                f"num_environments is {self.num_environments}; give at least num_members, {self.num_members}: "
+                "what is played in some of them each member judges"
+            )
+        if self.batch_size % self.num_members:
+            raise ValueError(f"batch_size is {self.batch_size}; give a multiple of num_members, {self.num_members}")
         if self.replay_episodes < self.num_environments:
             raise ValueError(
                 f"replay_episodes is {self.replay_episodes}; give at least num_environments, {self.num_environments}: "

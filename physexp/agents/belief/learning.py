@@ -93,7 +93,7 @@ class BeliefLearner(synchronous.SynchronousLearner):
         with torch.random.fork_rng(devices=[]):  # Which draws what drops out.
             torch.manual_seed(int(generator.integers(2**63)))
             for _ in range(int(variables.frames) // config.frames_per_step - steps_before):
-                drawn = variables.episodes.sample(generator, config.batch_size, number + 1)
+                drawn = variables.episodes.sample(generator, config.batch_size, config.num_members, number + 1)
                 figures.append(self._learn(drawn, config.learning_rate_at(progress)))
         variables.hand_out()
         return {
@@ -110,11 +110,14 @@ class BeliefLearner(synchronous.SynchronousLearner):
         """Makes one step of Adam on some episodes; returns its metrics."""
         config, network, averaged = self._config, self.variables.network, self.variables.averaged
         played, actions, lengths = episodes.played, episodes.actions, episodes.lengths
-        logits, shares = _opinions(network, episodes, episodes.members, config.dropout)
-        with torch.no_grad():  # The member that has not learned from an episode is no surer of it than it should be.
-            their_logits, their_shares = _opinions(averaged, episodes, 1 - episodes.members)
-        beliefs = their_logits.softmax(-1)
-        values, their_values = network.values(beliefs, shares), network.values(beliefs, their_shares)
+        done = actions.to(network.device)
+        outputs = network.unroll(_padded(network.encode(episodes.observation), played), done, config.dropout)
+        with torch.no_grad():
+            judgement = averaged.judge(_padded(averaged.encode(episodes.observation), played), done)
+        (logits, shares), (their_logits, their_shares) = (
+            [part.cpu() for part in parts] for parts in (outputs, judgement)
+        )
+        learns = torch.arange(config.num_members)[:, None, None] != episodes.judges
         each = torch.arange(len(lengths))
         last_actions = actions[lengths - 1, each]
         are_answered = last_actions >= network.num_interactions
@@ -125,29 +128,33 @@ class BeliefLearner(synchronous.SynchronousLearner):
             answers = (last_actions - network.num_interactions).clamp(min=0)
             labels = losses.hindsight(their_logits[lengths - 1, each], answers, episodes.rewards > 0)
             are_counted = played & are_answered
-        belief_loss = losses.belief_loss(logits, labels, are_counted)
-        are_last = torch.arange(len(actions))[:, None] == lengths - 1
-        best = shares.detach().argmax(-1)
+        belief_loss = losses.belief_loss(logits, labels, are_counted & learns)
+        beliefs = their_logits.softmax(-1)
+        best = (shares.detach() * learns[..., None]).sum(0).argmax(-1)  # As those who learn from the episode see it.
         targets = losses.interaction_targets(
             2 * beliefs.amax(-1) - 1,
-            their_values.gather(-1, best[..., None])[..., 0],
+            network.values(beliefs, their_shares).gather(-1, best[..., None])[..., 0],
             best == actions,
-            are_last,
+            torch.arange(len(actions))[:, None] == lengths - 1,
             episodes.rewards,
             config.discount,
             config.trace,
         )
-        are_interactions = played & (actions < network.num_interactions)
-        taken = actions.clamp(max=network.num_interactions - 1)[..., None]
-        errors = (values.gather(-1, taken)[..., 0] - targets).square()
-        value_loss = (errors * are_interactions).sum() / are_interactions.sum().clamp(min=1)
+        are_interactions = actions < network.num_interactions
+        taken = actions.clamp(max=network.num_interactions - 1).expand(config.num_members, *actions.shape)
+        values = network.values(beliefs, shares).gather(-1, taken[..., None])[..., 0]
+        value_loss = losses.value_loss(values, targets, played & are_interactions & learns)
         gradients, norm = learning.clipped_gradients(
-            network, belief_loss + value_loss, config.max_gradient_norm, episodes.arrays
+            network, (belief_loss + value_loss).sum(), config.max_gradient_norm, episodes.arrays
         )
         self.variables.apply(gradients, learning_rate)
         with torch.no_grad():
             torch._foreach_lerp_(list(averaged.parameters()), list(network.parameters()), 1 - config.averaging)
-        return {"belief_loss": belief_loss.item(), "value_loss": value_loss.item(), "gradient_norm": norm}
+        return {
+            "belief_loss": belief_loss.mean().item(),
+            "value_loss": value_loss.mean().item(),
+            "gradient_norm": norm,
+        }
 
     def _measure_features(self, played: rounds.Round) -> None:
         """Notes how far features are from where they were at the start of their episode: the unit they are taken in."""
@@ -201,23 +208,6 @@ class BeliefLearner(synchronous.SynchronousLearner):
         super().restore(state)
         play = functools.partial(self._play, self.variables.averaged)
         self.variables.episodes.restore(play, self.next_episode)
-
-
-def _opinions(
-    network: networks.BeliefNetwork, episodes: replay.Episodes, members: torch.Tensor, dropout: float = 0.0
-) -> tuple[torch.Tensor, torch.Tensor]:
-    """Returns, for each episode, the outputs of the member given, int64 [B]: logits [T, B, L] and shares [T, B, I]."""
-    inputs = _padded(network.encode(episodes.observation), episodes.played)
-    actions = episodes.actions.to(network.device)
-    logits, shares, places = [], [], []
-    for member in range(len(network.members)):
-        (chosen,) = torch.nonzero(members == member, as_tuple=True)
-        found = network.unroll(member, inputs[:, chosen], actions[:, chosen], dropout)
-        logits.append(found[0].cpu())
-        shares.append(found[1].cpu())
-        places.append(chosen)
-    back = torch.cat(places).argsort()
-    return torch.cat(logits, dim=1)[:, back], torch.cat(shares, dim=1)[:, back]
 
 
 def _padded(packed: torch.Tensor, played: torch.Tensor) -> torch.Tensor:

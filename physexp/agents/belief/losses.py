@@ -29,15 +29,29 @@ def hindsight(logits: torch.Tensor, answers: torch.Tensor, are_right: torch.Tens
 
 
 def belief_loss(logits: torch.Tensor, labels: torch.Tensor, are_counted: torch.Tensor) -> torch.Tensor:
-    """Returns the mean cross-entropy of beliefs at every step of every episode.
+    """Returns the mean cross-entropy of beliefs at every step of every episode, [K].
 
     Args:
-      logits: of the beliefs, [T, B, L].
+      logits: of the beliefs of K members, [K, T, B, L].
       labels: what the label is, probabilities [B, L].
-      are_counted: which steps count, bool [T, B].
+      are_counted: which steps count, bool [K, T, B].
     """
-    losses = -(labels * logits.log_softmax(dim=-1)).sum(-1)
-    return (losses * are_counted).sum() / are_counted.sum().clamp(min=1)
+    return _means(-(labels * logits.log_softmax(dim=-1)).sum(-1), are_counted)
+
+
+def value_loss(values: torch.Tensor, targets: torch.Tensor, are_counted: torch.Tensor) -> torch.Tensor:
+    """Returns the mean squared error of the values of interactions that were taken, [K].
+
+    Args:
+      values: by K members, [K, T, B].
+      targets: what they were worth, [T, B].
+      are_counted: which steps count, bool [K, T, B].
+    """
+    return _means((values - targets).square(), are_counted)
+
+
+def _means(errors, are_counted):
+    return (errors * are_counted).sum((1, 2)) / are_counted.sum((1, 2)).clamp(min=1)
 
 
 def interaction_targets(

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 import contextlib
-import math
 from typing import Any
 
 from dm_env import specs
@@ -13,24 +12,21 @@ from torch.nn import functional
 from physexp.agents import core, devices, networks
 from physexp.agents.belief import config as config_lib
 
-_NUM_MEMBERS = 2
 _NUM_HEADS = 4
 _PIXEL_SCALE = 10.0  # What changes in an image is of the order of a tenth of its range.
-_FINEST = 0.01  # What is smaller than this share of the usual movement of features is resolved less and less.
 _TEMPERATURE = 0.01  # Of the policy: actions are as good as equal when their values differ by less.
 
 
 class BeliefNetwork(networks.RecurrentNetwork):
-    """Two members, each of which has a belief about the label and values the interactions.
+    """Several members, each of which has a belief about the label and values the interactions.
 
     To answer is worth `S = 2 max(b) - 1`, the expected reward, with the mean `b` of the members' beliefs. What an
     interaction shows can be left out of account, and cannot tell more than the label (the value of perfect information:
     Howard, 1966), so `gamma S <= Q <= gamma`, and the members say where in between: `Q = gamma (S + (1 - S) x)` with
     the mean of their shares `x` in [0, 1]. The best action is the greatest of `S` and `Q`.
 
-    Features are taken relative to those at the start of the episode and to those of the step before, in units of how
-    far they move, which the learner measures, and once more on a scale that shows small movements beside large ones
-    (the inverse hyperbolic sine). An image is taken relative to the one that training began with.
+    What is observed is taken relative to the start of the episode and to the step before: features in units of how far
+    they move, which the learner measures, and images as the convolutions encode them.
     """
 
     log_scale: torch.Tensor
@@ -41,6 +37,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         num_actions: int,
         *,
         num_interactions: int,
+        num_members: int,
         units: int,
         most_interactions: int,
         discount: float,
@@ -51,6 +48,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
           observation_spec: what is observed: features, or one image.
           num_actions: how many actions there are.
           num_interactions: how many of them are interactions; they come first, labels after them.
+          num_members: how many members there are.
           units: of each head of a member's attention; a layer has as many as all of them.
           most_interactions: after so many it prefers to answer.
           discount: gamma.
@@ -61,6 +59,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         super().__init__(observation_spec, num_actions)
         self.sees_images = networks.sees_images(observation_spec)
         self.num_interactions, self.most_interactions, self.discount = num_interactions, most_interactions, discount
+        self.num_members = num_members
         self.torso: networks.PixelTorso | networks.FeatureTorso
         if self.sees_images:
             self.torso = networks.PixelTorso(observation_spec, _PIXEL_SCALE)
@@ -71,16 +70,15 @@ class BeliefNetwork(networks.RecurrentNetwork):
         if self.sees_images:
             self.projection = nn.Linear(self.torso.num_outputs, width)
             self._num_inputs = width
-        num_seen = (2 if self.sees_images else 3) * self._num_inputs + num_interactions + 1
-        self.members = nn.ModuleList(
-            Member(num_seen, num_actions - num_interactions, num_interactions, width) for _ in range(_NUM_MEMBERS)
-        )
+        num_seen = 2 * self._num_inputs + num_interactions + 1
+        self.members = Members(num_members, num_seen, num_actions - num_interactions, num_interactions, width)
         self.register_buffer("log_scale", torch.zeros(()))
 
     @staticmethod
     def hyperparameters(environment: core.Batch, config: config_lib.BeliefConfig) -> dict[str, Any]:
         return {
             "num_interactions": environment.num_interactions,
+            "num_members": config.num_members,
             "units": config.units,
             "most_interactions": config.most_interactions,
             "discount": config.discount,
@@ -107,10 +105,9 @@ class BeliefNetwork(networks.RecurrentNetwork):
     def step(self, inputs, state):
         seen, done = state
         seen = torch.cat([seen, inputs[None, :, None]], dim=2)
-        history = self._history(seen[0], done[0])
-        opinions = [member(history) for member in self.members]
-        beliefs = torch.stack([logits[:, -1].softmax(-1) for logits, _ in opinions]).mean(0)
-        values = self.values(beliefs, torch.stack([shares[:, -1] for _, shares in opinions]).mean(0))
+        logits, shares = self._opinions(self._history(seen[0], done[0]))
+        beliefs = logits[:, :, -1].softmax(-1).mean(0)
+        values = self.values(beliefs, shares[:, :, -1].mean(0))
         if seen.shape[2] > self.most_interactions:
             values = torch.full_like(values, -1.0)
         worths = torch.cat([values, 2 * beliefs - 1], dim=1)
@@ -130,23 +127,41 @@ class BeliefNetwork(networks.RecurrentNetwork):
         return self.discount * (answering + (1 - answering) * shares)
 
     def unroll(
-        self, member: int, inputs: torch.Tensor, actions: torch.Tensor, dropout: float = 0.0
+        self, inputs: torch.Tensor, actions: torch.Tensor, dropout: float = 0.0
     ) -> tuple[torch.Tensor, torch.Tensor]:
-        """Computes a member's outputs for whole episodes, padded to the longest.
+        """Computes the outputs of all members for whole episodes, padded to the longest.
 
         Args:
-          member: its number.
           inputs: what `encode` returned, [T, B, F].
           actions: what was done then, int64 [T, B].
           dropout: share of the outputs of the attention that the heads do without, drawn anew for each step.
 
         Returns:
+          Logits of the beliefs of K members, [K, T, B, L], and the share x of each interaction, [K, T, B, I].
+        """
+        logits, shares = self._opinions(self._histories(inputs, actions), dropout)
+        return logits.transpose(1, 2), shares.transpose(1, 2)
+
+    def judge(self, inputs: torch.Tensor, actions: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
+        """Computes, for each episode, the outputs of one member.
+
+        Args:
+          inputs, actions: as for `unroll`; the first member judges the first B / K episodes, and so on.
+
+        Returns:
           Logits of the belief, [T, B, L], and the share x of each interaction, [T, B, I].
         """
+        logits, shares = self.members(self._histories(inputs, actions).unflatten(0, (self.num_members, -1)))
+        return logits.flatten(0, 1).transpose(0, 1), shares.flatten(0, 1).transpose(0, 1)
+
+    def _opinions(self, history, dropout=0.0):
+        """Returns the outputs of all members for the same histories, [B, T, H]."""
+        return self.members(history.expand(self.num_members, *history.shape), dropout)
+
+    def _histories(self, inputs, actions):
+        """Returns what members look at, [B, T, H], in whole episodes."""
         done = functional.pad(self._one_hot(actions[:-1]), (0, 0, 0, 0, 1, 0))
-        history = self._history(inputs.transpose(0, 1), done.transpose(0, 1))
-        logits, shares = self.members[member](history, dropout)
-        return logits.transpose(0, 1), shares.transpose(0, 1)
+        return self._history(inputs.transpose(0, 1), done.transpose(0, 1))
 
     def _history(self, seen, done):
         """Returns what members look at, [B, T, H], of inputs [B, T, F] and of what was done before them, [B, T, I]."""
@@ -154,7 +169,6 @@ class BeliefNetwork(networks.RecurrentNetwork):
         changes = [seen - first, torch.diff(seen, dim=1, prepend=first)]
         if not self.sees_images:
             changes = [change * torch.exp(-self.log_scale) for change in changes]
-            changes.append(torch.asinh(changes[0] / _FINEST) / math.asinh(1 / _FINEST))
         times = torch.arange(seen.shape[1], device=seen.device)[:, None] / self.most_interactions
         return torch.cat([*changes, done, times.expand(len(seen), -1, -1)], dim=-1)
 
@@ -164,26 +178,41 @@ class BeliefNetwork(networks.RecurrentNetwork):
         return functional.one_hot(actions.clamp(max=num_interactions), num_interactions + 1)[..., :-1].float()
 
 
-class Member(nn.Module):
-    """Looks back with attention (Vaswani et al., 2017) at each step of an episode on the steps until then."""
+class Members(nn.Module):
+    """K members, computed side by side, that share no weights.
 
-    def __init__(self, num_inputs: int, num_labels: int, num_interactions: int, width: int):
-        """Builds one layer of attention, and two heads on it."""
+    Each looks back with attention (Vaswani et al., 2017) at each step of an episode on the steps until then.
+    """
+
+    def __init__(self, num_members: int, num_inputs: int, num_labels: int, num_interactions: int, width: int):
+        """Builds one layer of attention for each member, and two heads on it."""
         super().__init__()
-        self.embedding = nn.Linear(num_inputs, width)
-        self.attention = nn.Linear(width, 3 * width)
-        self.belief, self.shares = _head(width, num_labels), _head(width, num_interactions)
+        self.embedding = Linear(num_members, num_inputs, width)
+        self.attention = Linear(num_members, width, 3 * width)
+        self.hidden = Linear(num_members, width, 2 * width)  # Of both heads, a half each.
+        self.belief, self.shares = (Linear(num_members, width, size) for size in (num_labels, num_interactions))
 
     def forward(self, history: torch.Tensor, dropout: float = 0.0) -> tuple[torch.Tensor, torch.Tensor]:
-        """Maps histories, [B, T, H], to logits of the belief, [B, T, L], and shares of the interactions, [B, T, I]."""
+        """Maps histories, [K, B, T, H], to logits of beliefs, [K, B, T, L], and shares of interactions, [.., I]."""
         embedded = functional.relu(self.embedding(history))
-        heads = self.attention(embedded).unflatten(-1, (3 * _NUM_HEADS, -1)).transpose(1, 2)
-        queries, keys, values = heads.chunk(3, dim=1)
+        heads = self.attention(embedded).unflatten(-1, (3 * _NUM_HEADS, -1)).transpose(2, 3)
+        queries, keys, values = heads.chunk(3, dim=2)
         recalled = functional.scaled_dot_product_attention(queries, keys, values, is_causal=True)
-        outputs = functional.relu(embedded + recalled.transpose(1, 2).flatten(2))
-        outputs = functional.dropout(outputs, dropout)
-        return self.belief(outputs), self.shares(outputs).sigmoid()
+        outputs = functional.relu(embedded + recalled.transpose(2, 3).flatten(3))
+        believing, valuing = functional.relu(self.hidden(functional.dropout(outputs, dropout))).chunk(2, dim=-1)
+        return self.belief(believing), self.shares(valuing).sigmoid()
 
 
-def _head(width: int, num_outputs: int) -> nn.Module:
-    return nn.Sequential(nn.Linear(width, width), nn.ReLU(), nn.Linear(width, num_outputs))
+class Linear(nn.Module):
+    """A linear layer for each of K members."""
+
+    def __init__(self, num_members: int, num_inputs: int, num_outputs: int):
+        """Draws weights as `torch.nn.Linear` does."""
+        super().__init__()
+        bound = num_inputs**-0.5
+        self.weight = nn.Parameter(torch.empty(num_members, num_inputs, num_outputs).uniform_(-bound, bound))
+        self.bias = nn.Parameter(torch.empty(num_members, 1, num_outputs).uniform_(-bound, bound))
+
+    def forward(self, inputs: torch.Tensor) -> torch.Tensor:
+        """Maps [K, ..., num_inputs] to [K, ..., num_outputs]."""
+        return torch.baddbmm(self.bias, inputs.flatten(1, -2), self.weight).unflatten(1, inputs.shape[1:-1])

@@ -26,7 +26,7 @@ class Episodes:
       rewards: of the last actions, float32 [B].
       lengths: actions in each episode, int64 [B].
       answers: the right labels, int64 [B]; to be learned from only where they are revealed.
-      members: which of two members learns from each episode, int64 [B]; that of every other environment is the same.
+      judges: the member of the network that judges each episode and does not learn from it, int64 [B], ascending.
     """
 
     observation: dict[str, torch.Tensor]
@@ -34,7 +34,7 @@ class Episodes:
     rewards: torch.Tensor
     lengths: torch.Tensor
     answers: torch.Tensor
-    members: torch.Tensor
+    judges: torch.Tensor
 
     @property
     def played(self) -> torch.Tensor:
@@ -102,24 +102,28 @@ class Replay:
         for number in range(max(0, num_rounds - len(actions)), num_rounds):
             self.add(play(number, functools.partial(_again, actions[number % len(actions)])), number)
 
-    def sample(self, generator: np.random.Generator, size: int, num_rounds: int) -> Episodes:
-        """Returns episodes of the last of so many rounds, drawn with replacement, from the longest to the shortest."""
+    def sample(self, generator: np.random.Generator, size: int, num_members: int, num_rounds: int) -> Episodes:
+        """Returns episodes of the last of so many rounds, drawn with replacement, as many for each judge.
+
+        Every K-th environment has the same one of K judges. `size` is a multiple of K, and there are K environments.
+        """
+        judges = np.arange(size) * num_members // size
         slots = generator.integers(min(num_rounds, len(self.actions)), size=size)
-        environments = generator.integers(self.actions.shape[2], size=size)
+        num_theirs = (self.actions.shape[2] - 1 - judges) // num_members + 1
+        environments = generator.integers(num_theirs) * num_members + judges
         lengths = (self.actions[slots, :, environments] >= 0).sum(1).numpy()
-        order = np.argsort(-lengths, kind="stable")
-        slots, environments, lengths = slots[order], environments[order], lengths[order]
-        steps, columns = np.nonzero(np.arange(lengths[0])[:, None] < lengths)
+        longest = lengths.max()
+        steps, columns = np.nonzero(np.arange(longest)[:, None] < lengths)
         return Episodes(
             {
                 name: torch.from_numpy(array[slots[columns], steps, environments[columns]])
                 for name, array in self._observation.items()
             },
-            self.actions[slots, :, environments].T[: lengths[0]].long().clamp(min=0),
+            self.actions[slots, :, environments].T[:longest].long().clamp(min=0),
             torch.from_numpy(self._rewards[slots, environments]),
             torch.from_numpy(lengths),
             torch.from_numpy(self._answers[slots, environments]),
-            torch.from_numpy(environments % 2),
+            torch.from_numpy(judges),
         )
 
 
