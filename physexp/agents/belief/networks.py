@@ -14,6 +14,7 @@ from physexp.agents.belief import config as config_lib
 
 _NUM_HEADS = 4
 _PIXEL_SCALE = 10.0  # What changes in an image is of the order of a tenth of its range.
+_STILL = 0.01  # A step in which everything moves by less than this share of the unit shows no clear direction.
 _TEMPERATURE = 0.01  # Of the policy: actions are as good as equal when their values differ by less.
 
 
@@ -26,7 +27,8 @@ class BeliefNetwork(networks.RecurrentNetwork):
     the mean of their shares `x` in [0, 1]. The best action is the greatest of `S` and `Q`.
 
     What is observed is taken relative to the start of the episode and to the step before: features in units of how far
-    they move, which the learner measures, and images as the convolutions encode them.
+    they move, which the learner measures, and images as the convolutions encode them. The direction of the last
+    movement tells what moved along with what, however far.
     """
 
     log_scale: torch.Tensor
@@ -70,7 +72,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         if self.sees_images:
             self.projection = nn.Linear(self.torso.num_outputs, width)
             self._num_inputs = width
-        num_seen = 2 * self._num_inputs + num_interactions + 1
+        num_seen = 3 * self._num_inputs + num_interactions + 1
         self.members = Members(num_members, num_seen, num_actions - num_interactions, num_interactions, width)
         self.register_buffer("log_scale", torch.zeros(()))
 
@@ -166,11 +168,11 @@ class BeliefNetwork(networks.RecurrentNetwork):
     def _history(self, seen, done):
         """Returns what members look at, [B, T, H], of inputs [B, T, F] and of what was done before them, [B, T, I]."""
         first = seen[:, :1]
-        changes = [seen - first, torch.diff(seen, dim=1, prepend=first)]
-        if not self.sees_images:
-            changes = [change * torch.exp(-self.log_scale) for change in changes]
+        unit = 1.0 if self.sees_images else torch.exp(self.log_scale)
+        change, moved = (seen - first) / unit, torch.diff(seen, dim=1, prepend=first) / unit
+        direction = moved / (moved.norm(dim=-1, keepdim=True) + _STILL)
         times = torch.arange(seen.shape[1], device=seen.device)[:, None] / self.most_interactions
-        return torch.cat([*changes, done, times.expand(len(seen), -1, -1)], dim=-1)
+        return torch.cat([change, moved, direction, done, times.expand(len(seen), -1, -1)], dim=-1)
 
     def _one_hot(self, actions):
         """Maps actions to one number for each interaction, all 0 for a label."""
