@@ -121,6 +121,16 @@ def test_a_control_step_that_is_no_multiple_of_the_physics_step_is_refused(domai
         suite.load(domain_name, task_name, {"control_timestep": value})
 
 
+@every_feature_task
+def test_a_control_step_lasts_a_minute_at_most_since_it_is_simulated_in_one_go(domain_name, task_name):
+    with _refuses("control_timestep", "60.5", "at most 60 s"):
+        suite.load(domain_name, task_name, {"control_timestep": 60.5})
+    environment = suite.load(domain_name, task_name, {"control_timestep": 60.0})
+    environment.reset()
+    assert environment.step(0).last()  # An episode is shorter than that.
+    environment.close()
+
+
 @pytest.mark.parametrize(
     "value", [-1, 2**63, 1.0, "1", True, [1], np.float64(3), np.timedelta64(3), np.random.default_rng(0)]
 )
