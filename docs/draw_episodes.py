@@ -58,7 +58,7 @@ def recorded(name: str) -> recording.Episode:
 def frames(episode: recording.Episode) -> list[Frame]:
     """Returns what is shown of an episode: each decision, what it brings, and the verdict."""
     task = episode.declared
-    belief, substeps, found = beliefs.of_policy(episode.policies, task.num_interactions), task.options.substeps, []
+    belief, substeps, found = beliefs.of_agent(episode), task.options.substeps, []
     for step, action in enumerate(episode.actions):
         said, start = f"step {step + 1}: {task.action_names[action]}", step * substeps
         if action >= task.num_interactions:

@@ -108,10 +108,12 @@ class RecurrentActor(core.Actor):
     Attributes:
       policy: probabilities of the actions when the last one was selected, float64 [A].
       value: the network's estimate of the return then.
+      belief: probabilities of the labels then, float64 [L]; None where the network has only a policy.
     """
 
     policy: np.ndarray
     value: float
+    belief: np.ndarray | None
 
     def __init__(self, network: networks.RecurrentNetwork, seed: int = 0, greedy: bool = False):
         """Wraps a network; `seed` determines the actions drawn, `greedy` takes the likeliest ones instead."""
@@ -124,6 +126,8 @@ class RecurrentActor(core.Actor):
         tensors = {name: torch.as_tensor(value)[None] for name, value in observation.items()}
         logits, values, self._state = self._network.step(self._network.encode(tensors), self._state)
         self.policy, self.value = torch.softmax(logits[0].double(), dim=-1).cpu().numpy(), float(values[0])
+        beliefs = self._network.beliefs(logits)
+        self.belief = None if beliefs is None else beliefs[0].double().cpu().numpy()
         return int(logits.argmax() if self._greedy else sample(logits, self._generator)[0])
 
     def observe_first(self, timestep):

@@ -62,6 +62,10 @@ class RecurrentNetwork(nn.Module, abc.ABC):
           Logits [N, A], values [N] and the next state.
         """
 
+    def beliefs(self, logits: torch.Tensor) -> torch.Tensor | None:
+        """Returns the probabilities of the labels, [N, L], of logits [N, A]; by default None: it has only a policy."""
+        return None
+
     def note(self, actions: torch.Tensor, state: State) -> State:
         """Returns the state updated with the actions taken, int64 [N]; by default, the state unchanged."""
         return state

@@ -123,6 +123,9 @@ class BeliefNetwork(networks.RecurrentNetwork):
         """Returns what each action is worth, [N, A], of the logits of `step`."""
         return logits * _TEMPERATURE
 
+    def beliefs(self, logits):
+        return (self.worths(logits)[:, self.num_interactions :] + 1) / 2
+
     def values(self, beliefs: torch.Tensor, shares: torch.Tensor) -> torch.Tensor:
         """Returns the values Q of interactions, [..., I], of beliefs [..., L] and shares x, [..., I]."""
         answering = 2 * beliefs.amax(-1, keepdim=True) - 1

@@ -8,9 +8,14 @@ from physexp.analysis import domains
 from physexp.analysis.replay import recording
 
 
-def of_policy(policies: np.ndarray, num_interactions: int) -> np.ndarray:
-    """Returns the policies [T, A] restricted to the labels and renormalized, float64 [T, L]."""
-    answers = policies[:, num_interactions:]
+def of_agent(episode: recording.Episode) -> np.ndarray:
+    """Returns what an agent with a policy believed before each of its T actions, float64 [T, L].
+
+    Where it has no belief of its own, this is its policy restricted to the labels and renormalized.
+    """
+    if len(episode.beliefs):
+        return episode.beliefs
+    answers = episode.policies[:, episode.declared.num_interactions :]
     return answers / answers.sum(axis=1, keepdims=True)
 
 

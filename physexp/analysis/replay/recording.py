@@ -69,6 +69,7 @@ class Episode:
       rewards: float64 [T].
       policies: probabilities of all actions before each, float64 [T, A]; of no length where the actor has none.
       values: the return that the actor expected before each action, float64 [T], or of no length.
+      beliefs: its probabilities of the labels before each action, float64 [T, L]; of no length where it has none.
       shapes: what is in the scene.
       times: when they were where, s, float64 [F].
       positions, rotations: their true poses at every physics step, float64 [F, K, 3] and [F, K, 3, 3].
@@ -89,6 +90,7 @@ class Episode:
     rewards: np.ndarray
     policies: np.ndarray
     values: np.ndarray
+    beliefs: np.ndarray
     shapes: Shapes
     times: np.ndarray
     positions: np.ndarray
@@ -118,7 +120,7 @@ class EpisodeRecorder(environment_loop.Observer):
         Args:
           environment: the environment that is going to be played.
           domain, task, task_kwargs: what it was loaded with.
-          actor: who plays it; its `policy` and `value` are recorded where it has them.
+          actor: who plays it; its `policy`, `value` and `belief` are recorded where it has them.
           agent: who plays, in words.
           make_task: makes the task, where it is not one of those that `suite.load` knows.
         """
@@ -134,12 +136,16 @@ class EpisodeRecorder(environment_loop.Observer):
         self._rewards: list[float] = []
         self._policies: list[np.ndarray] = []
         self._values: list[float] = []
+        self._beliefs: list[np.ndarray] = []
 
     def observe(self, environment, timestep, action) -> None:
         policy = getattr(self._actor, "policy", None)
         if policy is not None:
             self._policies.append(policy)
             self._values.append(getattr(self._actor, "value", np.nan))
+        belief = getattr(self._actor, "belief", None)
+        if belief is not None:
+            self._beliefs.append(belief)
         self._seen.append(timestep.observation)
         self._actions.append(int(action))
         self._rewards.append(float(timestep.reward))
@@ -182,6 +188,7 @@ class EpisodeRecorder(environment_loop.Observer):
             rewards=np.array(self._rewards),
             policies=np.array(self._policies),
             values=np.array(self._values),
+            beliefs=np.array(self._beliefs),
             **rebuilt,
         )
 
@@ -272,15 +279,17 @@ def _half_sizes(kind: str, size: np.ndarray) -> np.ndarray:
 
 
 class Reenactor(core.Actor):
-    """Repeats recorded actions, while another actor gives its policy and value for each step.
+    """Repeats recorded actions, while another actor gives its policy, value and belief for each step.
 
     Attributes:
       policy: the other actor's probabilities of all actions; None where it has none.
       value: the other actor's estimate of the return; NaN where it has none.
+      belief: the other actor's probabilities of the labels; None where it has none.
     """
 
     policy: np.ndarray | None = None
     value: float = np.nan
+    belief: np.ndarray | None = None
 
     def __init__(self, actor: core.Actor, actions: Sequence[int]):
         """Takes these actions in its first episode, with the beliefs of `actor`."""
@@ -293,6 +302,7 @@ class Reenactor(core.Actor):
     def select_action(self, observation) -> int:
         self._actor.select_action(observation)
         self.policy, self.value = getattr(self._actor, "policy", None), getattr(self._actor, "value", np.nan)
+        self.belief = getattr(self._actor, "belief", None)
         return self._left.pop(0)
 
     def observe(self, action, next_timestep):

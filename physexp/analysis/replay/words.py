@@ -13,11 +13,17 @@ _BAR = 20  # Characters of a probability of one.
 
 _READING = f"""
 - **policy**: the probability of each action, now; of all labels together it is called *answers now*.
-- **belief**: the policy restricted to the labels and renormalized: its answer, if it had to give one now. While it
-  would rather experiment, the policy of every label is near 0, whatever it believes.
+- **belief**: {{belief}}
 - **value**: the return that it expects.
 - **what is hidden**: guess first, then click *{HIDDEN_TAB}*, above the scene.
 """
+
+_OWN_BELIEF = (
+    """how likely it holds each label to be right. An answer now is worth twice the greatest of them, less one."""
+)
+
+_BELIEF_OF_POLICY = """the policy restricted to the labels and renormalized: its answer, if it had to give one now.
+  While it would rather experiment, the policy of every label is near 0, whatever it believes."""
 
 _READING_LIVE = f"""
 Type your actions in the terminal. What is hidden is there once you have answered: click *{HIDDEN_TAB}*, above the
@@ -33,7 +39,8 @@ def name(episode: recording.Episode) -> str:
 
 def about(episode: recording.Episode, ending: str) -> str:
     """Returns the question, how it ended, which episode it is and whose, and how to read what is shown; Markdown."""
-    reading = _READING if len(episode.policies) else _READING_LIVE
+    belief = _OWN_BELIEF if len(episode.beliefs) else _BELIEF_OF_POLICY
+    reading = _READING.format(belief=belief) if len(episode.policies) else _READING_LIVE
     player = f", played by {episode.agent}" if episode.agent else ""
     return f"### {episode.declared.question}\n**{ending}**\n\n{name(episode)}{player}\n{reading}"
 

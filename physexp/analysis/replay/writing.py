@@ -5,7 +5,7 @@ world/action           the force or velocity applied, as an arrow
 world/hidden/...       what cannot be seen, in a view of its own: what the task reveals, and things that no image shows
 seen/...               what the agent observed: the image, or readings as plots; seen/moved the distances from the start
 belief/now             the belief, and the policy of the labels, as a table with bars
-belief/labels          the belief: the policy restricted to the labels and renormalized
+belief/labels          the belief: the agent's own, or its policy restricted to the labels and renormalized
 belief/policy          the policy: the probability of every action; belief/answers: of all labels together
 belief/value           the return that the agent expects
 belief/ideal           what an ideal experimenter would believe, where that is known
@@ -254,8 +254,7 @@ class EpisodeWriter:
         if ideal is not None:
             self._series("belief/ideal", ideal, names, colors, steps=True)
         if len(episode.policies):
-            first_label = self._task.num_interactions
-            belief, answers = beliefs.of_policy(episode.policies, first_label), episode.policies[:, first_label:]
+            belief, answers = beliefs.of_agent(episode), episode.policies[:, self._task.num_interactions :]
             for step in range(len(belief)):
                 table = words.bars(names, belief[step], answers[step], None if ideal is None else ideal[step])
                 self._markdown("belief/now", table, self._step_times[step])

@@ -25,10 +25,13 @@ import waiting
 from waiting import wait_until
 
 from physexp import suite
-from physexp.agents import core, environment_loop
+from physexp.agents import core, environment_loop, starting
+from physexp.agents.belief import config as belief_config
+from physexp.agents.belief import networks as belief_networks
 from physexp.analysis import readings, replay
 from physexp.analysis.evaluation import playing
 from physexp.analysis.replay import beliefs, live, recording, selection, words, writing
+from physexp.analysis.training import config as config_lib
 from physexp.suite.parts import block, tower
 
 DOCS = Path(__file__).parents[3] / "docs"
@@ -456,6 +459,33 @@ def test_an_episode_known_by_its_seed_and_index_is_enacted_as_it_was(domain, tas
         assert episode.rewards.sum() == played.reward[index]
         chosen = episode.policies[np.arange(len(episode.actions)), episode.actions]
         assert (chosen > 1e-6).all()  # The beliefs are those that led to the actions.
+
+
+def test_an_agent_that_keeps_a_belief_shows_that_instead_of_its_policy_among_the_labels(tmp_path):
+    config = config_lib.TrainConfig(
+        domain="which_is_heavier",
+        task="features",
+        agent=belief_config.BeliefConfig(units=4, seed=fresh_seed()),
+    )
+    environment = suite.load_batch(config.domain, config.task, 2)
+    network = starting.make_network(belief_networks.BeliefNetwork, environment, config.agent)
+    environment.close()
+    first_label = 4
+    episode = recording.reenact(network, config, 7, 0, [0, 1, 2, first_label])
+
+    # To answer earns +1 or -1, so the best label is worth 2 max(b) - 1; at first no interaction is worth less.
+    own = episode.beliefs
+    assert own.shape == (4, 4)
+    np.testing.assert_allclose(own.sum(axis=1), 1, atol=1e-5)
+    assert (episode.values >= 2 * own.max(axis=1) - 1 - 1e-5).all()
+    # The policy is much sharper than the belief: it is of what labels are worth.
+    of_policy = episode.policies[:, first_label:] / episode.policies[:, first_label:].sum(axis=1, keepdims=True)
+    assert not np.allclose(own, of_policy, atol=0.05)
+
+    path = writing.write(tmp_path / "belief.rrd", [lambda: [episode]])
+    np.testing.assert_allclose(chunks(path, "/belief/labels")["Scalars:scalars"], own)
+    assert "how likely it holds each label" in words.about(episode, "ended")
+    assert "renormalized" not in words.about(episode, "ended")
 
 
 def write_two_of_four(path):
