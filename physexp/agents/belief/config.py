@@ -56,7 +56,7 @@ class BeliefConfig(config.AgentConfig):
     exploration: float = 0.6
     trace: float = 0.9
     frames_per_step: int = 4
-    batch_size: int = 64
+    batch_size: int = 32
     replay_episodes: int = 20_000
     dropout: float = 0.1
     weight_decay: float = 0.1

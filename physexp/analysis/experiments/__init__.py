@@ -21,6 +21,7 @@ NAMES = (
     "random_towers",
     "ideal_gap",
     "learners",
+    "data_efficiency",
 )
 """The experiments in the paper's order; each is the `EXPERIMENT` of the module of its name."""
 

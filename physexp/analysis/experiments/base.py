@@ -96,7 +96,7 @@ class Results:
                             difficulty=config.task_kwargs.get("difficulty"),
                             discount=config.agent.discount,
                             training_seed=run.config.agent.seed,
-                            algorithm=config.agent.algorithm,
+                            algorithm=config.agent.title,
                         )
                     )
         if not frames:

@@ -1,5 +1,6 @@
 """The conditions that agents are trained in: all of the paper's, each for as long as it takes to level off."""
 
+import dataclasses
 import re
 from typing import Any
 
@@ -23,6 +24,19 @@ _FRAMES = {
     ("pixels", 3.0): 700_000,
     ("pixels", 5.0): 500_000,
     ("pixels", 10.0): 250_000,
+}
+# Of the belief learner: twice as many or more than it is to need, set before any agent that is reported was trained.
+_BELIEF_FRAMES = {
+    "3-F": 200_000,
+    "5-F": 80_000,
+    "10-F": 40_000,
+    "D-F": 120_000,
+    "F-F": 60_000,
+    "3-P": 400_000,
+    "5-P": 120_000,
+    "10-P": 40_000,
+    "D-P": 80_000,
+    "F-P": 100_000,
 }
 
 
@@ -53,6 +67,22 @@ PATIENT = tuple(heavier(beta, "features", _PATIENT_FRAMES[beta], discount=PATIEN
 """At the paper's gamma of 0.99."""
 
 TOWERS = tuple(towers(actuator, kind) for actuator in ACTUATORS for kind in OBSERVATIONS)
+
+
+def with_ppo(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
+    """Returns a condition with PPO as the learner."""
+    agent = config_lib.preset(config.domain, config.task, algorithm="ppo")
+    return dataclasses.replace(config, agent=agent.replace(discount=config.agent.discount, num_threads=1))
+
+
+def with_belief(config: config_lib.TrainConfig, answers_revealed: bool = False) -> config_lib.TrainConfig:
+    """Returns a condition with the belief learner: one configuration, and a budget of frames for each task."""
+    agent = config_lib.preset(config.domain, config.task, algorithm="belief")
+    frames = _BELIEF_FRAMES[config.label]
+    return dataclasses.replace(
+        config,
+        agent=agent.replace(discount=config.agent.discount, frames=frames, answers_revealed=answers_revealed),
+    )
 
 
 def observations(config: config_lib.TrainConfig) -> str:

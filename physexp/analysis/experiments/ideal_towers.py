@@ -55,13 +55,13 @@ def _is_summary(row: Any) -> bool:
     )
 
 
-def best(rows: list[dict], objective: str = "return") -> dict:
-    """Returns the summary for the observer who distinguishes every bit."""
+def best(rows: list[dict], objective: str = "return", resolution: float = 0.0) -> dict:
+    """Returns the summary for an observer; by default the one who distinguishes every bit."""
     for row in rows:
-        if row["resolution"] == 0 and row["objective"] == objective:
+        if row["resolution"] == resolution and row["objective"] == objective:
             return row
     raise ValueError(
-        f"results/ideal has no observer who sees every bit for {objective}; remove it and reproduce ideal_gap"
+        f"results/ideal has no observer who sees {resolution:g} for {objective}; remove it and reproduce ideal_gap"
     )
 
 

@@ -1,11 +1,8 @@
 """Two learners on the same network: A3C, the paper's, and PPO. Ours: the paper has one."""
 
-import dataclasses
-
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions, learning
-from physexp.analysis.training import config as config_lib
 
 _NAMES = {"ppo": "PPO", "a3c": "A3C"}
 _LEARNED = 0.9  # The success whose first moment is compared.
@@ -19,16 +16,11 @@ _REASON = (
 )
 
 
-def _with_ppo(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
-    preset = config_lib.preset(config.domain, config.task, algorithm="ppo")
-    return dataclasses.replace(config, agent=preset.replace(discount=config.agent.discount, num_threads=1))
-
-
 _PAPERS = (
     next(config for config in conditions.HEAVIER if config.label == "5-F"),
     conditions.towers("fist"),
 )
-CONDITIONS = tuple(config for papers in _PAPERS for config in (papers, _with_ppo(papers)))
+CONDITIONS = tuple(config for papers in _PAPERS for config in (papers, conditions.with_ppo(papers)))
 _TASKS = {papers.label: papers for papers in _PAPERS}
 
 

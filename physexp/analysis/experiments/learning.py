@@ -21,23 +21,24 @@ AXES = {"frames": (1e6, "environment steps, millions"), "seconds": (60.0, "minut
 """What success may be drawn along, by column, with its unit and the name of the axis."""
 
 
-def moving_success(run, along: str = "frames") -> tuple[np.ndarray, np.ndarray]:
-    """Success over the last `_WINDOW` episodes, or over those between two rows where they are more.
+def moving_mean(run, along: str = "frames", of: str = "success_rate") -> tuple[np.ndarray, np.ndarray]:
+    """Averages over the last `_WINDOW` episodes, or over those between two rows where they are more.
 
     Args:
       run: the rows of a run.
       along: a column.
+      of: the column to average, which has means over the episodes since the row before.
 
     Returns:
-      Where on the column the middle of these episodes lies, and the share of right answers among them; [rows] both.
+      Where on the column `along` the middle of these episodes lies, and the mean over them; [rows] both.
     """
     run = run.sort_values("frames")
     episodes, places = (np.concatenate([[0], run[column]]) for column in ("episodes", along))
-    right = np.concatenate([[0], np.cumsum(run.success_rate * np.diff(episodes))])
+    sums = np.concatenate([[0], np.cumsum(run[of] * np.diff(episodes))])
     ends = episodes[1:]
     starts = np.minimum(episodes[:-1], np.maximum(ends - _WINDOW, 0))
-    success = (right[1:] - np.interp(starts, episodes, right)) / (ends - starts)
-    return np.interp((starts + ends) / 2, episodes, places), success
+    means = (sums[1:] - np.interp(starts, episodes, sums)) / (ends - starts)
+    return np.interp((starts + ends) / 2, episodes, places), means
 
 
 def smoothed(frame, along: str = "frames"):
@@ -49,7 +50,7 @@ def smoothed(frame, along: str = "frames"):
     curves = {}
     for condition, rows in frame.groupby("condition", sort=False):
         grid = np.linspace(0, rows.groupby("training_seed")[along].max().min(), _POINTS)
-        runs = [moving_success(run, along) for _, run in rows.groupby("training_seed")]
+        runs = [moving_mean(run, along) for _, run in rows.groupby("training_seed")]
         best = [runs[index] for index in estimates.better_half([success[-1] for _, success in runs])]
         lines = [np.interp(grid, places, success, left=np.nan) for places, success in best]
         curves[condition] = (grid / AXES[along][0], np.array(lines))
@@ -90,16 +91,16 @@ def find_claims(frame, above: float, **words: Any) -> list[claims.Claim]:
     ]
 
 
-def first_reached(run, level: float, along: str = "frames") -> float:
-    """Where on a column a run's moving success first reaches a level, on a line between rows; else infinity."""
-    places, success = moving_success(run, along)
-    above = np.flatnonzero(success >= level)
+def first_reached(run, level: float, along: str = "frames", of: str = "success_rate") -> float:
+    """Where on a column a run's moving mean first reaches a level, on a line between rows; else infinity."""
+    places, means = moving_mean(run, along, of)
+    above = np.flatnonzero(means >= level)
     if not len(above):
         return np.inf
     first = above[0]
     if not first:
         return float(places[0])
-    return float(np.interp(level, success[first - 1 : first + 1], places[first - 1 : first + 1]))
+    return float(np.interp(level, means[first - 1 : first + 1], places[first - 1 : first + 1]))
 
 
 def compare_first_reached(frame, names: Sequence[str], level: float, along: str = "frames") -> list[np.ndarray]:

@@ -14,7 +14,7 @@ import pyarrow
 from scipy import special
 
 from physexp.analysis.evaluation import records
-from physexp.analysis.experiments import conditions, learners, population, waiting
+from physexp.analysis.experiments import conditions, data_efficiency, learners, population, waiting
 from physexp.analysis.ideal import regret
 
 NUM_AGENTS = 6
@@ -157,6 +157,37 @@ def two_learners(num_agents, generator, ppo=5e5, a3c=2e6, seconds_of_a_ppo_frame
         num_agents, generator, dict.fromkeys(learned_at, 0.97), 0.2, learned_at, learners.CONDITIONS, name_of
     )
     return frame.assign(seconds=frame.seconds.where(frame.algorithm == "a3c", seconds_of_a_ppo_frame * frame.frames))
+
+
+def few_frames(num_agents, generator, belief=0.5, a3c=20.0, seconds_of_a_frame=0.0005):
+    """Learning curves of all learners, on the way from nothing to nearly the ideal's return.
+
+    Args:
+      belief, a3c: where the belief learner in either track and the others are half way, in shares of the environment
+        steps that the belief learner is to need at most.
+      seconds_of_a_frame: how long a learner takes for an environment step.
+    """
+    found = []
+    for config in data_efficiency.CONDITIONS:
+        title, name = config.agent.title, label(config)
+        most = data_efficiency.MOST_FRAMES.get(title, data_efficiency.MOST_FRAMES["belief"])[name]
+        for seed in range(num_agents):
+            middle = most * (belief if title.startswith("belief") else a3c) * np.exp(generator.normal(0, 0.05))
+            frames = np.linspace(middle / 100, 3 * middle, 300).astype(int)
+            found.append(
+                pandas.DataFrame(
+                    {
+                        "frames": frames,
+                        "score": 0.98 * special.expit(20 * (frames / middle - 1)),
+                        "condition": name,
+                        "training_seed": seed,
+                        "algorithm": title,
+                        "seconds": seconds_of_a_frame * frames,
+                        "episodes": frames // 3,
+                    }
+                )
+            )
+    return pandas.concat(found, ignore_index=True)
 
 
 # Episodes of Which is Heavier.
@@ -363,6 +394,12 @@ WORLDS: dict[str, dict[str, _World]] = {
         "paper": two_learners,
         "PPO is slow": functools.partial(two_learners, ppo=2e6, a3c=5e5),
         "PPO computes for long": functools.partial(two_learners, seconds_of_a_ppo_frame=0.01),
+    },
+    "data_efficiency": {
+        "paper": few_frames,
+        "belief is slow": functools.partial(few_frames, belief=2.0),
+        "belief computes for long": functools.partial(few_frames, seconds_of_a_frame=1.0),
+        "A3C is quick": functools.partial(few_frames, a3c=0.1),
     },
     "ideal_gap": {
         "paper": ideal_gap,

@@ -58,6 +58,12 @@ FALSE_IN = {
         "PPO learns from fewer environment steps than A3C": {"PPO is slow"},
         "PPO learns in less time than A3C": {"PPO is slow", "PPO computes for long"},
     },
+    "data_efficiency": {
+        "The belief learner learns from few environment steps, from the reward alone": {"belief is slow"},
+        "The belief learner learns from few environment steps, with answers revealed": {"belief is slow"},
+        "The belief learner learns in minutes on one core": {"belief computes for long"},
+        "The belief learner learns from fewer environment steps than A3C": {"A3C is quick"},
+    },
     "ideal_gap": {
         "Feature agents reach 95% of the ideal experimenter's return": {"clumsy agents"},
         "Feature agents reach 97% of the ideal experimenter's return": {"clumsy agents"},
