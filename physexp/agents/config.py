@@ -47,6 +47,7 @@ class AgentConfig:
     _NOT_NEGATIVE: ClassVar[tuple[str, ...]] = ()
     _SHARES: ClassVar[tuple[str, ...]] = ()  # From 0 to 1.
     _FLAGS: ClassVar[tuple[str, ...]] = ()
+    _CHOICES: ClassVar[Mapping[str, tuple[str, ...]]] = {"device": get_args(Device)}
 
     def replace(self, **changes) -> Self:
         """Returns a copy with some values changed."""
@@ -58,7 +59,7 @@ class AgentConfig:
 
     @property
     def title(self) -> str:
-        """Returns the learner's name in names of runs; a variant that is trained with more information has its own."""
+        """Returns the learner's name in names of runs; a variant has its own."""
         return self.algorithm
 
     @property
@@ -86,8 +87,9 @@ class AgentConfig:
         for name in self._FLAGS:
             if not isinstance(getattr(self, name), bool):
                 raise ValueError(f"{name} is {getattr(self, name)!r}; give True or False")
-        if self.device not in get_args(Device):
-            raise ValueError(f"device is {self.device!r}; choose from {', '.join(get_args(Device))}")
+        for name, choices in self._CHOICES.items():
+            if getattr(self, name) not in choices:
+                raise ValueError(f"{name} is {getattr(self, name)!r}; choose from {', '.join(choices)}")
         if not is_number(self.discount) or not 0 < self.discount <= 1:
             raise ValueError(f"discount is {self.discount!r}; give a number in (0, 1]")
 

@@ -86,10 +86,31 @@ def test_episodes_that_cannot_be_shared_out_equally_are_refused():
         belief.BeliefConfig(batch_size=30)
 
 
-@pytest.mark.parametrize("name", ["relative_entropy", "relative_pixels"])
-def test_what_is_on_or_off_takes_nothing_else(name):
+@pytest.mark.parametrize(
+    ("config", "name"),
+    [
+        (a3c.A3CConfig, "relative_entropy"),
+        (a3c.A3CConfig, "relative_pixels"),
+        (belief.BeliefConfig, "answers_revealed"),
+        (belief.BeliefConfig, "every_step"),
+    ],
+)
+def test_what_is_on_or_off_takes_nothing_else(config, name):
     with pytest.raises(ValueError, match=f"^{name} is 1; give True or False"):
-        a3c.A3CConfig(**{name: 1})
+        config(**{name: 1})
+
+
+@pytest.mark.parametrize(("name", "choices"), [("device", "auto, cpu, cuda"), ("memory", "attention, lstm")])
+def test_what_is_chosen_is_one_of_the_choices(name, choices):
+    with pytest.raises(ValueError, match=f"^{name} is 'gru'; choose from {choices}$"):
+        belief.BeliefConfig(**{name: "gru"})
+
+
+def test_variants_of_a_learner_have_titles_of_their_own():
+    assert belief.BeliefConfig().title == "belief"
+    assert belief.BeliefConfig(answers_revealed=True, memory="lstm").title == "belief_revealed_lstm"
+    assert belief.BeliefConfig(every_step=False).title == "belief_last_step"
+    assert belief.BeliefConfig(num_environments=8, replay_episodes=8).title == "belief_no_replay"
 
 
 def test_entropy_is_relative_to_the_prior_only_where_that_is_wanted():

@@ -70,6 +70,41 @@ def test_every_step_of_an_episode_is_trained_towards_the_label_and_none_beyond_i
     assert losses.belief_loss(logits[None], labels, played[None]).tolist() == pytest.approx([math.log(4)])
 
 
+@pytest.mark.parametrize("memory", ["attention", "lstm"])
+def test_no_step_knows_what_comes_after_it(memory):
+    torch.manual_seed(fresh_seed())
+    members = networks.Members(2, 3, 4, 5, 8, memory)
+    history = torch.randn(2, 6, 7, 3)
+    changed = torch.cat([history[:, :, :4], torch.randn(2, 6, 3, 3)], dim=2)
+    for before, after in zip(members(history), members(changed), strict=True):
+        torch.testing.assert_close(before[:, :, :4], after[:, :, :4])
+        assert not torch.isclose(before[:, :, 4:], after[:, :, 4:]).all(dim=-1).any()
+
+
+@pytest.mark.parametrize("every_step", [True, False])
+def test_the_belief_is_learned_at_every_step_or_where_the_answer_was_given(every_step):
+    config = SMALL.replace(seed=fresh_seed(), every_step=every_step, answers_revealed=True, dropout=0.0)
+    agent = belief.Belief(lambda seed, size, threads: load("which_is_heavier", "features", seed, size), config)
+    learner = agent._learner
+    learner.step()
+    drawn = learner.variables.episodes.sample(np.random.default_rng(config.seed), 16, config.num_members, 1)
+    network = learner.variables.network
+    with torch.no_grad():
+        inputs = learning_lib._padded(network.encode(drawn.observation), drawn.played)
+        likelihoods = network.unroll(inputs, drawn.actions)[0].log_softmax(-1)
+    means = []
+    for member in range(config.num_members):
+        costs = [
+            -likelihoods[member, step, episode, drawn.answers[episode]]
+            for episode in range(16)
+            for step in range(int(drawn.lengths[episode]))
+            if drawn.judges[episode] != member and (every_step or step == drawn.lengths[episode] - 1)
+        ]
+        means.append(sum(costs) / len(costs))
+    found = learner._learn(drawn, 0.0)["belief_loss"]
+    assert found == pytest.approx(float(sum(means) / len(means)), rel=1e-4)
+
+
 def targets(answering, interacting, are_greedy, length, reward=0.0, trace=0.5):
     columns = [torch.tensor(column)[:, None] for column in (answering, interacting, are_greedy)]
     are_last = (torch.arange(len(answering)) == length - 1)[:, None]
@@ -113,11 +148,14 @@ def test_calibration_is_the_mean_distance_of_belief_and_success():
 # What it plays with.
 
 
-@pytest.mark.parametrize(("domain", "task"), suite.ALL_TASKS)
-def test_acting_and_training_compute_the_same(domain, task):
+@pytest.mark.parametrize(
+    ("domain", "task", "memory"),
+    [*((*names, "attention") for names in suite.ALL_TASKS), ("which_is_heavier", "features", "lstm")],
+)
+def test_acting_and_training_compute_the_same(domain, task, memory):
     seed = fresh_seed()
     environment = load(domain, task, seed)
-    network = make_network(environment, seed)
+    network = make_network(environment, seed, SMALL.replace(memory=memory))
     played = play(network, environment, 0)
     episodes = replay.Replay(environment, 1, SMALL.most_interactions + 1)
     episodes.add(played, 0)

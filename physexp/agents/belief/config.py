@@ -2,9 +2,11 @@
 
 from collections.abc import Mapping
 import dataclasses
-from typing import ClassVar
+from typing import ClassVar, Literal, get_args
 
 from physexp.agents import config
+
+Memory = Literal["attention", "lstm"]
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -14,9 +16,11 @@ class BeliefConfig(config.AgentConfig):
     Attributes:
       answers_revealed: learn from the right label, which is told when an episode is over; otherwise from the reward
         alone, as the paper's agents did.
+      every_step: learn the belief at every step of an episode; otherwise only at the one that was answered at.
+      memory: what a member remembers an episode with: attention looks back at all steps, and an LSTM carries a state.
       num_members: members of the network, each of which learns from all environments but its own share of them, and
         judges what was played there.
-      units: units of each of the four heads of the attention; a layer has as many as all of them.
+      units: units of each of the four heads of the attention; a layer, or an LSTM, has as many as all of them.
       num_environments: environments that play side by side, one episode each between two rounds of learning.
       num_threads: threads for simulation and for convolutions.
       most_interactions: how many interactions an episode has at most; then it is answered.
@@ -44,8 +48,10 @@ class BeliefConfig(config.AgentConfig):
     }
 
     frames: int = 100_000
-    learning_rate: float = 1e-3
+    learning_rate: float = 4e-3
     answers_revealed: bool = False
+    every_step: bool = True
+    memory: Memory = "attention"
     num_members: int = 4
     units: int = 16
     num_environments: int = 16
@@ -59,7 +65,7 @@ class BeliefConfig(config.AgentConfig):
     batch_size: int = 32
     replay_episodes: int = 20_000
     dropout: float = 0.1
-    weight_decay: float = 0.1
+    weight_decay: float = 0.02
     averaging: float = 0.99
 
     _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {
@@ -75,11 +81,21 @@ class BeliefConfig(config.AgentConfig):
     }
     _NOT_NEGATIVE: ClassVar[tuple[str, ...]] = ("weight_decay",)
     _SHARES: ClassVar[tuple[str, ...]] = ("greedy", "cut", "exploration", "trace", "dropout", "averaging")
-    _FLAGS: ClassVar[tuple[str, ...]] = ("answers_revealed",)
+    _FLAGS: ClassVar[tuple[str, ...]] = ("answers_revealed", "every_step")
+    _CHOICES: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        **config.AgentConfig._CHOICES,
+        "memory": get_args(Memory),
+    }
 
     @property
     def title(self):
-        return f"{self.algorithm}_revealed" if self.answers_revealed else self.algorithm
+        variants = {
+            "revealed": self.answers_revealed,
+            "lstm": self.memory == "lstm",
+            "last_step": not self.every_step,
+            "no_replay": self.replay_episodes == self.num_environments,
+        }
+        return "_".join([self.algorithm, *(name for name, is_one in variants.items() if is_one)])
 
     @property
     def advice(self):

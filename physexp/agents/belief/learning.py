@@ -128,6 +128,8 @@ class BeliefLearner(synchronous.SynchronousLearner):
             answers = (last_actions - network.num_interactions).clamp(min=0)
             labels = losses.hindsight(their_logits[lengths - 1, each], answers, episodes.rewards > 0)
             are_counted = played & are_answered
+        if not config.every_step:
+            are_counted = are_counted & (torch.arange(len(actions))[:, None] == lengths - 1)
         belief_loss = losses.belief_loss(logits, labels, are_counted & learns)
         beliefs = their_logits.softmax(-1)
         best = (shares.detach() * learns[..., None]).sum(0).argmax(-1)  # As those who learn from the episode see it.

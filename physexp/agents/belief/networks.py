@@ -15,7 +15,7 @@ from physexp.agents.belief import config as config_lib
 _NUM_HEADS = 4
 _PIXEL_SCALE = 10.0  # What changes in an image is of the order of a tenth of its range.
 _STILL = 0.01  # A step in which everything moves by less than this share of the unit shows no clear direction.
-_TEMPERATURE = 0.01  # Of the policy: actions are as good as equal when their values differ by less.
+_TEMPERATURE = 0.001  # Of the policy: actions are as good as equal when their values differ by less.
 
 
 class BeliefNetwork(networks.RecurrentNetwork):
@@ -41,6 +41,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         num_interactions: int,
         num_members: int,
         units: int,
+        memory: config_lib.Memory,
         most_interactions: int,
         discount: float,
     ):
@@ -51,7 +52,8 @@ class BeliefNetwork(networks.RecurrentNetwork):
           num_actions: how many actions there are.
           num_interactions: how many of them are interactions; they come first, labels after them.
           num_members: how many members there are.
-          units: of each head of a member's attention; a layer has as many as all of them.
+          units: of each head of a member's attention; a layer, or an LSTM, has as many as all of them.
+          memory: what members remember an episode with.
           most_interactions: after so many it prefers to answer.
           discount: gamma.
 
@@ -73,7 +75,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
             self.projection = nn.Linear(self.torso.num_outputs, width)
             self._num_inputs = width
         num_seen = 3 * self._num_inputs + num_interactions + 1
-        self.members = Members(num_members, num_seen, num_actions - num_interactions, num_interactions, width)
+        self.members = Members(num_members, num_seen, num_actions - num_interactions, num_interactions, width, memory)
         self.register_buffer("log_scale", torch.zeros(()))
 
     @staticmethod
@@ -82,6 +84,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
             "num_interactions": environment.num_interactions,
             "num_members": config.num_members,
             "units": config.units,
+            "memory": config.memory,
             "most_interactions": config.most_interactions,
             "discount": config.discount,
         }
@@ -184,28 +187,59 @@ class BeliefNetwork(networks.RecurrentNetwork):
 
 
 class Members(nn.Module):
-    """K members, computed side by side, that share no weights.
+    """K members, computed side by side, that share no weights: a memory of the episode, and two heads on it."""
 
-    Each looks back with attention (Vaswani et al., 2017) at each step of an episode on the steps until then.
-    """
-
-    def __init__(self, num_members: int, num_inputs: int, num_labels: int, num_interactions: int, width: int):
-        """Builds one layer of attention for each member, and two heads on it."""
+    def __init__(
+        self,
+        num_members: int,
+        num_inputs: int,
+        num_labels: int,
+        num_interactions: int,
+        width: int,
+        memory: config_lib.Memory,
+    ):
+        """Builds layers of a width for each member."""
         super().__init__()
         self.embedding = Linear(num_members, num_inputs, width)
-        self.attention = Linear(num_members, width, 3 * width)
+        self.memory = {"attention": Attention, "lstm": LSTM}[memory](num_members, width)
         self.hidden = Linear(num_members, width, 2 * width)  # Of both heads, a half each.
         self.belief, self.shares = (Linear(num_members, width, size) for size in (num_labels, num_interactions))
 
     def forward(self, history: torch.Tensor, dropout: float = 0.0) -> tuple[torch.Tensor, torch.Tensor]:
         """Maps histories, [K, B, T, H], to logits of beliefs, [K, B, T, L], and shares of interactions, [.., I]."""
         embedded = functional.relu(self.embedding(history))
-        heads = self.attention(embedded).unflatten(-1, (3 * _NUM_HEADS, -1)).transpose(2, 3)
-        queries, keys, values = heads.chunk(3, dim=2)
-        recalled = functional.scaled_dot_product_attention(queries, keys, values, is_causal=True)
-        outputs = functional.relu(embedded + recalled.transpose(2, 3).flatten(3))
+        outputs = functional.relu(embedded + self.memory(embedded))
         believing, valuing = functional.relu(self.hidden(functional.dropout(outputs, dropout))).chunk(2, dim=-1)
         return self.belief(believing), self.shares(valuing).sigmoid()
+
+
+class Attention(nn.Module):
+    """One layer of causal attention for each of K members (Vaswani et al., 2017)."""
+
+    def __init__(self, num_members: int, width: int):
+        """Builds heads that together are as wide as the inputs."""
+        super().__init__()
+        self.heads = Linear(num_members, width, 3 * width)
+
+    def forward(self, inputs: torch.Tensor) -> torch.Tensor:
+        """Maps inputs [K, B, T, W] to what is recalled of the steps until then, [K, B, T, W]."""
+        heads = self.heads(inputs).unflatten(-1, (3 * _NUM_HEADS, -1)).transpose(2, 3)
+        queries, keys, values = heads.chunk(3, dim=2)
+        recalled = functional.scaled_dot_product_attention(queries, keys, values, is_causal=True)
+        return recalled.transpose(2, 3).flatten(3)
+
+
+class LSTM(nn.Module):
+    """An LSTM for each of K members (Hochreiter & Schmidhuber, 1997)."""
+
+    def __init__(self, num_members: int, width: int):
+        """Builds LSTMs as wide as their inputs."""
+        super().__init__()
+        self.members = nn.ModuleList(nn.LSTM(width, width, batch_first=True) for _ in range(num_members))
+
+    def forward(self, inputs: torch.Tensor) -> torch.Tensor:
+        """Maps inputs [K, B, T, W] to the outputs after each step, [K, B, T, W]."""
+        return torch.stack([member(each)[0] for member, each in zip(self.members, inputs, strict=True)])
 
 
 class Linear(nn.Module):

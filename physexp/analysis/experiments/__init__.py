@@ -22,6 +22,7 @@ NAMES = (
     "ideal_gap",
     "learners",
     "data_efficiency",
+    "ablations",
 )
 """The experiments in the paper's order; each is the `EXPERIMENT` of the module of its name."""
 

@@ -75,14 +75,11 @@ def with_ppo(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
     return dataclasses.replace(config, agent=agent.replace(discount=config.agent.discount, num_threads=1))
 
 
-def with_belief(config: config_lib.TrainConfig, answers_revealed: bool = False) -> config_lib.TrainConfig:
-    """Returns a condition with the belief learner: one configuration, and a budget of frames for each task."""
+def with_belief(config: config_lib.TrainConfig, **changes: Any) -> config_lib.TrainConfig:
+    """Returns a condition with the belief learner: one configuration, but for `changes`, and each task's own budget."""
     agent = config_lib.preset(config.domain, config.task, algorithm="belief")
-    frames = _BELIEF_FRAMES[config.label]
-    return dataclasses.replace(
-        config,
-        agent=agent.replace(discount=config.agent.discount, frames=frames, answers_revealed=answers_revealed),
-    )
+    agent = agent.replace(discount=config.agent.discount, frames=_BELIEF_FRAMES[config.label], **changes)
+    return dataclasses.replace(config, agent=agent)
 
 
 def observations(config: config_lib.TrainConfig) -> str:

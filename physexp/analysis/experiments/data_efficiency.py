@@ -2,19 +2,16 @@
 
 from typing import Any
 
-import numpy as np
-
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
-from physexp.analysis.experiments import base, claims, conditions, ideal_towers, learning
+from physexp.analysis.experiments import base, claims, conditions, learning, scores
 
 LEARNERS = {"a3c": "A3C", "ppo": "PPO", "belief": "belief", "belief_revealed": "belief, answers revealed"}
 """The learners by their titles, in words."""
 
-TASKS = (*conditions.HEAVIER, *conditions.TOWERS)
 CONDITIONS = tuple(
     config
-    for task in TASKS
+    for task in scores.TASKS
     for config in (
         task,
         conditions.with_ppo(task),
@@ -23,7 +20,6 @@ CONDITIONS = tuple(
     )
 )
 
-LEVEL = 0.95  # Of the ideal's return, for features; of right answers, for pixels.
 MOST_FRAMES = {
     "belief": {
         "3-F": 80_000,
@@ -50,81 +46,45 @@ MOST_FRAMES = {
         "F-P": 30_000,
     },
 }
-"""Environment steps that an agent is to need at most to reach `LEVEL`; written down before the agents were trained."""
+"""Environment steps that an agent is to need at most to reach `scores.LEVEL`; written down before any was trained."""
 
 MOST_SECONDS = 300.0  # The same for the time of agents from features, with one core each.
 _CLAIMS = {
     "belief": "The belief learner learns from few environment steps, from the reward alone",
     "belief_revealed": "The belief learner learns from few environment steps, with answers revealed",
 }
-_FINE = 0.001  # m, the least that the observer distinguishes whom agents from features are compared with.
-_POINTS = 120
-_FLOOR = -0.5  # Of the figure; what is less is of no interest.
 
 
 def load(results: base.Results):
-    """Learning curves: rows of metrics of all learners.
-
-    `score` is the share of the ideal's return from features, and of right answers from pixels. It is that of the
-    greedy episodes where a learner plays some of its episodes greedily, and of all, with drawn actions, elsewhere.
-    """
-    frame = results.curves(CONDITIONS)
-    returns, right = (
-        frame.get(greedy, default=frame[drawn] * np.nan).fillna(frame[drawn])
-        for greedy, drawn in (("greedy_return", "episode_return"), ("greedy_success_rate", "success_rate"))
-    )
-    units = {task.label: _unit(task, results) for task in TASKS if (frame.condition == task.label).any()}
-    return frame.assign(score=returns.where(~frame.condition.map(_sees_pixels), right) / frame.condition.map(units))
-
-
-def _unit(task, results: base.Results) -> float:
-    """What a score of one is: the ideal's return, or all answers right."""
-    if _sees_pixels(task.label):
-        return 1.0
-    if task in conditions.TOWERS:
-        return ideal_towers.best(ideal_towers.read(results)[task.task], resolution=_FINE)["value"]
-    return conditions.ideal(task).value
-
-
-def _sees_pixels(label: str) -> bool:
-    return label in {task.label for task in TASKS if conditions.observations(task) == "pixels"}
-
-
-def _runs(frame, label: str, learner: str) -> list:
-    """Returns the rows of each agent of a task that a learner has trained."""
-    chosen = frame[(frame.condition == label) & (frame.algorithm == learner)]
-    return [run for _, run in chosen.groupby("training_seed")]
-
-
-def _reached(runs, along: str) -> np.ndarray:
-    return np.array([learning.first_reached(run, LEVEL, along, "score") for run in runs])
+    """Learning curves of all learners; see `scores.load`."""
+    return scores.load(results, CONDITIONS)
 
 
 def find_claims(frame) -> list[claims.Claim]:
     """The belief learner needs few frames, few minutes, and fewer frames than A3C."""
     found = []
     for label in frame.condition.unique():
-        level = f"{LEVEL:.0%} right answers" if _sees_pixels(label) else f"{LEVEL:.0%} of the ideal's return"
+        level = scores.level(label)
         for learner, text in _CLAIMS.items():
-            if runs := _runs(frame, label, learner):
+            if runs := scores.runs(frame, label, learner):
                 found.append(
                     claims.Claim(
                         text=text,
                         section="ours",
                         condition=label,
                         statistic=f"environment steps to {level}, median",
-                        estimate=estimates.median(_reached(runs, "frames")),
+                        estimate=estimates.median(scores.reached(runs, "frames")),
                         below=MOST_FRAMES[learner][label] + 1,
                     )
                 )
-                if not _sees_pixels(label):
+                if not scores.sees_pixels(label):
                     found.append(
                         claims.Claim(
                             text="The belief learner learns in minutes on one core",
                             section="ours",
                             condition=label,
                             statistic=f"seconds to {level}, {LEARNERS[learner]}, median",
-                            estimate=estimates.median(_reached(runs, "seconds")),
+                            estimate=estimates.median(scores.reached(runs, "seconds")),
                             below=MOST_SECONDS,
                         )
                     )
@@ -134,10 +94,10 @@ def find_claims(frame) -> list[claims.Claim]:
 
 def _compared(frame, label: str, level: str) -> list[claims.Claim]:
     """Compares the two learners that are told the reward alone; who never reaches the level gets its whole training."""
-    groups = [_runs(frame, label, learner) for learner in ("belief", "a3c")]
+    groups = [scores.runs(frame, label, learner) for learner in ("belief", "a3c")]
     if not all(groups):
         return []
-    belief, a3c = (np.minimum(_reached(runs, "frames"), [run.frames.max() for run in runs]) for runs in groups)
+    belief, a3c = map(scores.frames_needed, groups)
     return [
         claims.Claim(
             text="The belief learner learns from fewer environment steps than A3C",
@@ -152,7 +112,7 @@ def _compared(frame, label: str, level: str) -> list[claims.Claim]:
 
 def draw(frame):
     """A row for each task, features at the left and pixels at the right, each against frames and against minutes."""
-    shown = [task for task in TASKS if (frame.condition == task.label).any()]
+    shown = [task for task in scores.TASKS if (frame.condition == task.label).any()]
     kinds = [kind for kind in conditions.OBSERVATIONS if kind in map(conditions.observations, shown)]
     rows = list(dict.fromkeys(map(_without_kind, shown)))
     figure, panels = figures.new(
@@ -168,12 +128,12 @@ def draw(frame):
             axes = lowest[place] = panels[row, place]
             axes.set_axis_on()
             for number, (learner, words) in enumerate(LEARNERS.items()):
-                if runs := _runs(frame, task.label, learner):
-                    _draw_learner(axes, runs, along, number, words)
-            figures.reference(axes, LEVEL, "")
-            axes.set(xscale="log", ylim=(_FLOOR, 1.05))
+                if runs := scores.runs(frame, task.label, learner):
+                    learning.draw_range(axes, runs, number, words, along, "score")
+            figures.reference(axes, scores.LEVEL, "")
+            axes.set(xscale="log", ylim=(scores.FLOOR, 1.05))
             handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
-        score = "right answers" if _sees_pixels(task.label) else "share of the ideal"
+        score = "right answers" if scores.sees_pixels(task.label) else "share of the ideal"
         panels[row, column].set(title=conditions.spelled_out(task.label), ylabel=score)
     for place, axes in lowest.items():
         axes.set(xlabel=list(learning.AXES.values())[place % 2][1])
@@ -184,18 +144,6 @@ def draw(frame):
 
 def _without_kind(task) -> str:
     return task.label.split("-")[0]
-
-
-def _draw_learner(axes, runs, along: str, number: int, name: str) -> None:
-    """Draws from the worst to the best agent light, and the median dark, as far as all have played."""
-    unit = learning.AXES[along][0]
-    curves = [learning.moving_mean(run, along, "score") for run in runs]
-    first, last = max(places[0] for places, _ in curves), min(places[-1] for places, _ in curves)
-    grid = np.geomspace(first, max(first, last), _POINTS)
-    lines = np.array([np.interp(grid, places, score) for places, score in curves])
-    color, dashes = figures.COLORS[number], figures.DASHES[number]
-    axes.fill_between(grid / unit, lines.min(axis=0), lines.max(axis=0), color=color, alpha=0.25, linewidth=0)
-    axes.plot(grid / unit, np.median(lines, axis=0), color=color, linestyle=dashes, linewidth=1.6, label=name)
 
 
 EXPERIMENT = base.Experiment(

@@ -70,6 +70,26 @@ def draw_panel(axes, curves, names: Sequence[str], labels: Sequence[str], chance
     axes.set(xlabel=AXES[along][1], ylim=(0, 1.02), xlim=(0, None))
 
 
+def draw_range(axes, runs: Sequence[Any], number: int, label: str, along: str, of: str) -> None:
+    """Draws from the worst to the best of some runs light, and their median dark, as far as all have played.
+
+    Args:
+      axes: where, with a logarithmic axis.
+      runs: the rows of each run.
+      number: of its color and dashes.
+      label: for the legend.
+      along, of: columns, as for `moving_mean`.
+    """
+    curves = [moving_mean(run, along, of) for run in runs]
+    first, last = max(places[0] for places, _ in curves), min(places[-1] for places, _ in curves)
+    grid = np.geomspace(first, max(first, last), _POINTS)
+    lines = np.array([np.interp(grid, places, means) for places, means in curves])
+    color, dashes = figures.COLORS[number], figures.DASHES[number]
+    grid = grid / AXES[along][0]
+    axes.fill_between(grid, lines.min(axis=0), lines.max(axis=0), color=color, alpha=0.25, linewidth=0)
+    axes.plot(grid, np.median(lines, axis=0), color=color, linestyle=dashes, linewidth=1.6, label=label)
+
+
 def final_success(frame, share: float = 0.05):
     """Share of right answers over the last part of training: a DataFrame of condition, training_seed, success_rate."""
     ends = frame.groupby(["condition", "training_seed"]).frames.transform("max")

@@ -14,7 +14,7 @@ import pyarrow
 from scipy import special
 
 from physexp.analysis.evaluation import records
-from physexp.analysis.experiments import conditions, data_efficiency, learners, population, waiting
+from physexp.analysis.experiments import ablations, conditions, data_efficiency, learners, population, waiting
 from physexp.analysis.ideal import regret
 
 NUM_AGENTS = 6
@@ -160,19 +160,36 @@ def two_learners(num_agents, generator, ppo=5e5, a3c=2e6, seconds_of_a_ppo_frame
 
 
 def few_frames(num_agents, generator, belief=0.5, a3c=20.0, seconds_of_a_frame=0.0005):
-    """Learning curves of all learners, on the way from nothing to nearly the ideal's return.
+    """Learning curves of all learners.
 
     Args:
       belief, a3c: where the belief learner in either track and the others are half way, in shares of the environment
         steps that the belief learner is to need at most.
       seconds_of_a_frame: how long a learner takes for an environment step.
     """
+    most = data_efficiency.MOST_FRAMES
+    middles = {
+        config: most.get(config.agent.title, most["belief"])[label(config)]
+        * (belief if config.agent.title.startswith("belief") else a3c)
+        for config in data_efficiency.CONDITIONS
+    }
+    return scores(num_agents, generator, middles, seconds_of_a_frame)
+
+
+def variants(num_agents, generator, **factors):
+    """Learning curves of the belief learner's variants, by title: how many times as many frames each needs."""
+    factors = {"belief_no_replay": 3, "belief_last_step": 2, "belief_lstm": 2, "belief_revealed": 0.7} | factors
+    middles = {config: 10_000 * factors.get(config.agent.title, 1) for config in ablations.CONDITIONS}
+    return scores(num_agents, generator, middles)
+
+
+def scores(num_agents, generator, middles, seconds_of_a_frame=0.0005):
+    """Learning curves from nothing to nearly the ideal's return, half way after so many frames by condition."""
     found = []
-    for config in data_efficiency.CONDITIONS:
+    for config, of_condition in middles.items():
         title, name = config.agent.title, label(config)
-        most = data_efficiency.MOST_FRAMES.get(title, data_efficiency.MOST_FRAMES["belief"])[name]
         for seed in range(num_agents):
-            middle = most * (belief if title.startswith("belief") else a3c) * np.exp(generator.normal(0, 0.05))
+            middle = of_condition * np.exp(generator.normal(0, 0.05))
             frames = np.linspace(middle / 100, 3 * middle, 300).astype(int)
             found.append(
                 pandas.DataFrame(
@@ -400,6 +417,13 @@ WORLDS: dict[str, dict[str, _World]] = {
         "belief is slow": functools.partial(few_frames, belief=2.0),
         "belief computes for long": functools.partial(few_frames, seconds_of_a_frame=1.0),
         "A3C is quick": functools.partial(few_frames, a3c=0.1),
+    },
+    "ablations": {
+        "paper": variants,
+        "replay is in the way": functools.partial(variants, belief_no_replay=0.5),
+        "the last step tells most": functools.partial(variants, belief_last_step=0.5),
+        "LSTMs are quick": functools.partial(variants, belief_lstm=0.5),
+        "answers confuse": functools.partial(variants, belief_revealed=2.0),
     },
     "ideal_gap": {
         "paper": ideal_gap,

@@ -64,6 +64,12 @@ FALSE_IN = {
         "The belief learner learns in minutes on one core": {"belief computes for long"},
         "The belief learner learns from fewer environment steps than A3C": {"A3C is quick"},
     },
+    "ablations": {
+        "Replay saves the belief learner environment steps": {"replay is in the way"},
+        "A belief learned at every step saves environment steps": {"the last step tells most"},
+        "Attention saves environment steps against an LSTM": {"LSTMs are quick"},
+        "Revealed answers save environment steps": {"answers confuse"},
+    },
     "ideal_gap": {
         "Feature agents reach 95% of the ideal experimenter's return": {"clumsy agents"},
         "Feature agents reach 97% of the ideal experimenter's return": {"clumsy agents"},

@@ -135,6 +135,7 @@ def test_figures_are_closed_when_they_are_saved_and_settings_are_put_back(tmp_pa
 PARTS = [
     *((name, "3-F") for name in ("learning_heavier", "population", "individual", "random_heavier", "ideal_gap")),
     ("data_efficiency", "3-F"),
+    ("ablations", "D-F"),
     ("learners", "F-F PPO"),
     *((name, "F-P") for name in ("learning_towers", "waiting", "random_towers", "ideal_gap")),
 ]

@@ -1,0 +1,88 @@
+"""Ablations: what the parts of the belief learner are good for. Ours."""
+
+from typing import Any
+
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import base, claims, conditions, learning, scores
+
+_WHOLE = "belief"
+VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
+    "belief_no_replay": ("without replay", {"replay_episodes": 16}),  # The last round alone.
+    "belief_last_step": ("belief at the last step alone", {"every_step": False}),
+    "belief_lstm": ("an LSTM in place of attention", {"memory": "lstm"}),
+    "belief_revealed": ("answers revealed", {"answers_revealed": True}),
+}
+"""What the variants of the learner are called, and how they are configured, by title."""
+WORDS = {_WHOLE: "belief learner", **{title: words for title, (words, _) in VARIANTS.items()}}
+
+_TASKS = tuple(task for task in scores.TASKS if task.label in ("5-F", "D-F"))
+CONDITIONS = tuple(
+    conditions.with_belief(task, **changes)
+    for task in _TASKS
+    for changes in ({}, *(changes for _, changes in VARIANTS.values()))
+)
+_CLAIMS = {
+    "belief_no_replay": "Replay saves the belief learner environment steps",
+    "belief_last_step": "A belief learned at every step saves environment steps",
+    "belief_lstm": "Attention saves environment steps against an LSTM",
+    "belief_revealed": "Revealed answers save environment steps",
+}
+
+
+def load(results: base.Results):
+    """Learning curves of all variants; see `scores.load`."""
+    return scores.load(results, CONDITIONS)
+
+
+def find_claims(frame) -> list[claims.Claim]:
+    """Each part pays, and so does more information."""
+    found = []
+    for label in frame.condition.unique():
+        whole = scores.runs(frame, label, _WHOLE)
+        for title, text in _CLAIMS.items():
+            if whole and (variant := scores.runs(frame, label, title)):
+                pair = (whole, variant) if title == "belief_revealed" else (variant, whole)
+                found.append(
+                    claims.Claim(
+                        text=text,
+                        section="ours",
+                        condition=label,
+                        statistic=f"environment steps to {scores.level(label)} with less over those with more, ratio "
+                        "of geometric means",
+                        estimate=estimates.ratio_of_means(*map(scores.frames_needed, pair)),
+                        above=1,
+                    )
+                )
+    return found
+
+
+def draw(frame):
+    """A panel for each task."""
+    shown = [task for task in _TASKS if (frame.condition == task.label).any()]
+    figure, panels = figures.new(columns=len(shown), width=3.2, height=2.4, sharey=True, squeeze=False)
+    for axes, task in zip(panels[0], shown, strict=True):
+        for number, (title, words) in enumerate(WORDS.items()):
+            if runs := scores.runs(frame, task.label, title):
+                learning.draw_range(axes, runs, number, words, "frames", "score")
+        figures.reference(axes, scores.LEVEL, "")
+        axes.set(xscale="log", ylim=(scores.FLOOR, 1.05), title=conditions.spelled_out(task.label))
+        axes.set(xlabel=learning.AXES["frames"][1])
+    panels[0, 0].set_ylabel("share of the ideal")
+    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    return figure
+
+
+EXPERIMENT = base.Experiment(
+    name="ablations",
+    title="What the parts of the belief learner are good for",
+    section="ours",
+    caption="The belief learner without one of its parts, and with answers revealed, against environment steps: return "
+    "in the quarter of the episodes that are played greedily, averaged over the last 2000 episodes. An agent without "
+    "replay learns from the last round of episodes alone, as often. Light: from the worst agent to the best; dark: "
+    "their median.",
+    conditions=CONDITIONS,
+    load=load,
+    claims=find_claims,
+    draw=draw,
+)
