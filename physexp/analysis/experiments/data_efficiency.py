@@ -49,6 +49,13 @@ MOST_FRAMES = {
 """Environment steps that an agent is to need at most to reach `scores.LEVEL`; written down before any was trained."""
 
 MOST_SECONDS = 300.0  # The same for the time of agents from features, with one core each.
+LEAST_SHARE = {
+    **{"3-F": 0.985, "5-F": 0.985, "10-F": 0.985, "D-F": 0.98, "F-F": 0.98},
+    **{"3-P": 0.95, "5-P": 0.97, "10-P": 0.97, "D-P": 0.97, "F-P": 0.97},
+}
+"""Shares of the ideal's return that agents are to earn at the end of training, at least; from before, too."""
+LEAST_OF_THE_WORST = 0.95  # Of agents from features.
+MOST_CALIBRATION_ERROR = 0.03  # The same.
 _CLAIMS = {
     "belief": "The belief learner learns from few environment steps, from the reward alone",
     "belief_revealed": "The belief learner learns from few environment steps, with answers revealed",
@@ -56,43 +63,91 @@ _CLAIMS = {
 
 
 def load(results: base.Results):
-    """Learning curves of all learners; see `scores.load`."""
-    return scores.load(results, CONDITIONS)
+    """Learning curves of all learners, see `scores.load`; the attribute `final` has what `scores.final` returns."""
+    frame = scores.load(results, CONDITIONS)
+    frame.attrs["final"] = scores.final(results, CONDITIONS)
+    return frame
 
 
 def find_claims(frame) -> list[claims.Claim]:
-    """The belief learner needs few frames, few minutes, and fewer frames than A3C."""
+    """The belief learner needs few frames, few minutes, and fewer frames than A3C; and it ends near the optimum."""
     found = []
     for label in frame.condition.unique():
-        level = scores.level(label)
-        for learner, text in _CLAIMS.items():
+        for learner in _CLAIMS:
             if runs := scores.runs(frame, label, learner):
-                found.append(
-                    claims.Claim(
-                        text=text,
-                        section="ours",
-                        condition=label,
-                        statistic=f"environment steps to {level}, median",
-                        estimate=estimates.median(scores.reached(runs, "frames")),
-                        below=MOST_FRAMES[learner][label] + 1,
-                    )
-                )
-                if not scores.sees_pixels(label):
-                    found.append(
-                        claims.Claim(
-                            text="The belief learner learns in minutes on one core",
-                            section="ours",
-                            condition=label,
-                            statistic=f"seconds to {level}, {LEARNERS[learner]}, median",
-                            estimate=estimates.median(scores.reached(runs, "seconds")),
-                            below=MOST_SECONDS,
-                        )
-                    )
-        found += _compared(frame, label, level)
+                found += _while_learning(runs, label, learner)
+            final = frame.attrs["final"]
+            agents = final[(final.condition == label) & (final.algorithm == learner)]
+            if len(agents):
+                found += _at_the_end(agents, label, learner)
+        found += _compared(frame, label)
     return found
 
 
-def _compared(frame, label: str, level: str) -> list[claims.Claim]:
+def _while_learning(runs, label: str, learner: str) -> list[claims.Claim]:
+    level = scores.level(label)
+    found = [
+        claims.Claim(
+            text=_CLAIMS[learner],
+            section="ours",
+            condition=label,
+            statistic=f"environment steps to {level}, median",
+            estimate=estimates.median(scores.reached(runs, "frames")),
+            below=MOST_FRAMES[learner][label] + 1,
+        )
+    ]
+    if scores.sees_pixels(label):
+        return found
+    errors = [run.sort_values("frames").calibration_error.iloc[-1] for run in runs]
+    return [
+        *found,
+        claims.Claim(
+            text="The belief learner learns in minutes on one core",
+            section="ours",
+            condition=label,
+            statistic=f"seconds to {level}, {LEARNERS[learner]}, median",
+            estimate=estimates.median(scores.reached(runs, "seconds")),
+            below=MOST_SECONDS,
+        ),
+        claims.Claim(
+            text="The belief learner is as often right as it believes",
+            section="ours",
+            condition=label,
+            statistic=f"expected calibration error of the last 1024 greedy answers, {LEARNERS[learner]}, median",
+            estimate=estimates.median(errors),
+            below=MOST_CALIBRATION_ERROR,
+        ),
+    ]
+
+
+def _at_the_end(agents, label: str, learner: str) -> list[claims.Claim]:
+    found = [
+        claims.Claim(
+            text="The belief learner comes near the optimum",
+            section="ours",
+            condition=label,
+            statistic=f"share of the ideal's return, {LEARNERS[learner]}, median",
+            estimate=estimates.median(agents.share),
+            above=LEAST_SHARE[label],
+        )
+    ]
+    if not scores.sees_pixels(label):
+        worst = agents.loc[agents.share.idxmin()]
+        margin = 1.96 * worst.error
+        found.append(
+            claims.Claim(
+                text="No agent of the belief learner is far from the optimum",
+                section="ours",
+                condition=label,
+                statistic=f"share of the ideal's return, {LEARNERS[learner]}, the worst; interval: of its episodes",
+                estimate=estimates.Estimate(worst.share, worst.share - margin, worst.share + margin),
+                above=LEAST_OF_THE_WORST,
+            )
+        )
+    return found
+
+
+def _compared(frame, label: str) -> list[claims.Claim]:
     """Compares the two learners that are told the reward alone; who never reaches the level gets its whole training."""
     groups = [scores.runs(frame, label, learner) for learner in ("belief", "a3c")]
     if not all(groups):
@@ -103,7 +158,7 @@ def _compared(frame, label: str, level: str) -> list[claims.Claim]:
             text="The belief learner learns from fewer environment steps than A3C",
             section="ours",
             condition=label,
-            statistic=f"environment steps to {level}, belief over A3C, ratio of geometric means",
+            statistic=f"environment steps to {scores.level(label)}, belief over A3C, ratio of geometric means",
             estimate=estimates.ratio_of_means(belief, a3c),
             below=1,
         )

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from physexp.analysis.evaluation import records
 from physexp.analysis.experiments import base, conditions, ideal_towers, learning
 from physexp.analysis.training import config as config_lib
 
@@ -24,16 +25,45 @@ def load(results: base.Results, wanted: Sequence[config_lib.TrainConfig]):
         frame.get(greedy, default=frame[drawn] * np.nan).fillna(frame[drawn])
         for greedy, drawn in (("greedy_return", "episode_return"), ("greedy_success_rate", "success_rate"))
     )
-    units = {task.label: _unit(task, results) for task in TASKS if (frame.condition == task.label).any()}
+    shown = [task for task in TASKS if (frame.condition == task.label).any()]
+    units = {task.label: 1.0 if sees_pixels(task.label) else ideal_return(task, results) for task in shown}
     return frame.assign(score=returns.where(~frame.condition.map(sees_pixels), right) / frame.condition.map(units))
 
 
-def _unit(task, results: base.Results) -> float:
-    """Returns what a score of one is: the ideal's return, or all answers right."""
-    if sees_pixels(task.label):
-        return 1.0
+def final(results: base.Results, wanted: Sequence[config_lib.TrainConfig]):
+    """What trained agents earn: a DataFrame with a row for each agent of these conditions that has been evaluated.
+
+    `share` is that of the ideal's return, and `error` the standard error of it, from the agent's episodes.
+    """
+    import pandas
+
+    rows = []
+    ideals = {task.label: task for task in TASKS}
+    for config in wanted:
+        try:
+            frame = results.episodes([base.EVALUATION], [config], ["reward", "length"])
+        except ValueError:
+            continue  # Not trained (yet): what is said is about those that are.
+        ideal = ideal_return(ideals[config.label], results)
+        for seed, episodes in frame.groupby("training_seed"):
+            shares = records.discounted_return(episodes) / ideal
+            rows.append(
+                {
+                    "condition": config.label,
+                    "algorithm": config.agent.title,
+                    "training_seed": seed,
+                    "share": shares.mean(),
+                    "error": shares.std(ddof=1) / np.sqrt(len(shares)),
+                }
+            )
+    return pandas.DataFrame(rows, columns=["condition", "algorithm", "training_seed", "share", "error"])
+
+
+def ideal_return(task: config_lib.TrainConfig, results: base.Results) -> float:
+    """Returns what the ideal experimenter earns, who from features tells apart what differs by a millimetre or more."""
     if task in conditions.TOWERS:
-        return ideal_towers.best(ideal_towers.read(results)[task.task], resolution=_FINE)["value"]
+        resolution = 0.0 if sees_pixels(task.label) else _FINE
+        return ideal_towers.best(ideal_towers.read(results)[task.task], resolution=resolution)["value"]
     return conditions.ideal(task).value
 
 

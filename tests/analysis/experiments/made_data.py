@@ -159,13 +159,17 @@ def two_learners(num_agents, generator, ppo=5e5, a3c=2e6, seconds_of_a_ppo_frame
     return frame.assign(seconds=frame.seconds.where(frame.algorithm == "a3c", seconds_of_a_ppo_frame * frame.frames))
 
 
-def few_frames(num_agents, generator, belief=0.5, a3c=20.0, seconds_of_a_frame=0.0005):
+def few_frames(
+    num_agents, generator, belief=0.5, a3c=20.0, seconds_of_a_frame=0.0005, loss=0.5, calibration_error=0.02
+):
     """Learning curves of all learners.
 
     Args:
       belief, a3c: where the belief learner in either track and the others are half way, in shares of the environment
         steps that the belief learner is to need at most.
       seconds_of_a_frame: how long a learner takes for an environment step.
+      loss: what agents lack of the ideal's return at the end, in shares of what they may lack.
+      calibration_error: of all of them.
     """
     most = data_efficiency.MOST_FRAMES
     middles = {
@@ -173,7 +177,21 @@ def few_frames(num_agents, generator, belief=0.5, a3c=20.0, seconds_of_a_frame=0
         * (belief if config.agent.title.startswith("belief") else a3c)
         for config in data_efficiency.CONDITIONS
     }
-    return scores(num_agents, generator, middles, seconds_of_a_frame)
+    frame = scores(num_agents, generator, middles, seconds_of_a_frame).assign(calibration_error=calibration_error)
+    frame.attrs["final"] = pandas.DataFrame(
+        [
+            {
+                "condition": label(config),
+                "algorithm": config.agent.title,
+                "training_seed": seed,
+                "share": 1 - loss * (1 - data_efficiency.LEAST_SHARE[label(config)]) + generator.normal(0, 0.001),
+                "error": 0.001,
+            }
+            for config in data_efficiency.CONDITIONS
+            for seed in range(num_agents)
+        ]
+    )
+    return frame
 
 
 def variants(num_agents, generator, **factors):
@@ -417,6 +435,8 @@ WORLDS: dict[str, dict[str, _World]] = {
         "belief is slow": functools.partial(few_frames, belief=2.0),
         "belief computes for long": functools.partial(few_frames, seconds_of_a_frame=1.0),
         "A3C is quick": functools.partial(few_frames, a3c=0.1),
+        "agents who stop short": functools.partial(few_frames, loss=4.0),
+        "beliefs too sure": functools.partial(few_frames, calibration_error=0.05),
     },
     "ablations": {
         "paper": variants,

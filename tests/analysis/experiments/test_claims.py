@@ -63,6 +63,9 @@ FALSE_IN = {
         "The belief learner learns from few environment steps, with answers revealed": {"belief is slow"},
         "The belief learner learns in minutes on one core": {"belief computes for long"},
         "The belief learner learns from fewer environment steps than A3C": {"A3C is quick"},
+        "The belief learner is as often right as it believes": {"beliefs too sure"},
+        "The belief learner comes near the optimum": {"agents who stop short"},
+        "No agent of the belief learner is far from the optimum": {"agents who stop short"},
     },
     "ablations": {
         "Replay saves the belief learner environment steps": {"replay is in the way"},
@@ -82,6 +85,10 @@ DECIDED_BY_ONE = {
     ("mass_gap", "difference of the shares of mass gaps below 0.1"),
     ("individual", "the same in the agent of 1 where it is least sure"),
     ("ideal_gap", "share of the ideal's return, the best agent; interval: of its episodes; 1 % allowed for luck"),
+    *(
+        ("data_efficiency", f"share of the ideal's return, {learner}, the worst; interval: of its episodes")
+        for learner in ("belief", "belief, answers revealed")
+    ),
     ("population", "modal number of pokes, all agents pooled; interval: range over agents"),
     ("population", "share of such episodes, mean of agents"),  # One of each difficulty is three.
 }
