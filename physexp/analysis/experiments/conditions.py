@@ -25,13 +25,13 @@ _FRAMES = {
     ("pixels", 5.0): 500_000,
     ("pixels", 10.0): 250_000,
 }
-# Of the belief learner: twice as many or more than it is to need, set before any agent that is reported was trained.
+# Of the belief learner, set before any agent that is reported was trained.
 _BELIEF_FRAMES = {
-    "3-F": 200_000,
-    "5-F": 80_000,
-    "10-F": 40_000,
-    "D-F": 120_000,
-    "F-F": 60_000,
+    "3-F": 150_000,
+    "5-F": 60_000,
+    "10-F": 30_000,
+    "D-F": 60_000,
+    "F-F": 50_000,
     "3-P": 400_000,
     "5-P": 120_000,
     "10-P": 40_000,
