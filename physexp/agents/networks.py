@@ -35,7 +35,7 @@ class RecurrentNetwork(nn.Module, abc.ABC):
     @staticmethod
     @abc.abstractmethod
     def hyperparameters(environment: core.Batch, config: Any) -> dict[str, Any]:
-        """Returns the further arguments to build a network of, numbers by name."""
+        """Returns the further arguments to build a network of, numbers and strings by name."""
 
     @property
     def device(self) -> torch.device:

@@ -17,8 +17,13 @@ import torch
 from physexp.agents import acting, checkpointing, config, files, networks, registry
 
 FOLDER = Path(__file__).with_name("pretrained_agents")
+"""The best agent of each task; those of other learners are in a folder of the learner's name."""
 _KINDS = {kind.__name__: kind for kind in registry.NETWORKS.values()}
 _WAITING = ".next.safetensors"  # Weights of a card that is about to be written, or has just been.
+
+
+class _MissingError(ValueError):
+    """There is no such agent."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -54,29 +59,36 @@ def _short(value: Any) -> str:
 
 
 def names(folder: Path = FOLDER) -> list[str]:
-    """Returns the names of the agents in a folder."""
-    return sorted(card.stem for card in folder.glob("*.json"))
+    """Returns the names of the agents in a folder and in the folders of learners in it, as `a3c/towers-fist_pixels`."""
+    cards = [*folder.glob("*.json"), *folder.glob("*/*.json")]
+    return sorted(card.relative_to(folder).with_suffix("").as_posix() for card in cards)
 
 
-def load(domain: str, task: str, *values: Any, folder: Path = FOLDER, **options: Any) -> Pretrained:
+def load(
+    domain: str, task: str, *values: Any, agent: str | None = None, folder: Path = FOLDER, **options: Any
+) -> Pretrained:
     """Loads a trained agent.
 
     Args:
       domain, task: what it plays.
       values: of the options that the task had in training, in the order of the agents' names.
+      agent: the learner that trained it, as `a3c`; None for the best agent.
       folder: where the agents are.
-      options: the same by name. By default those of the agent whose card says that it is the task's default.
+      options: the same as `values` by name. By default those of the agent whose card says that it is the task's
+        default.
 
     Raises:
       OSError: if its files cannot be read.
       ValueError: where there is no such agent, and it lists those that there are; or if its files are damaged.
     """
+    if agent is not None:
+        return _load_of(agent, domain, task, values, folder, options)
     base = name(domain, task, {})
     siblings = [each for each in names(folder) if each.startswith(f"{base}-")]
     positions = options_of(domain, task, folder)
     given = {**dict(zip(positions, values, strict=False)), **options}
     if len(values) > len(positions) and any(value is not None for value in values[len(positions) :]):
-        raise ValueError(
+        raise _MissingError(
             f"no trained agent of {domain}/{task} has options {', '.join(map(repr, values))}; there are: "
             f"{', '.join(names(folder)) or 'none'}"
         )
@@ -84,6 +96,26 @@ def load(domain: str, task: str, *values: Any, folder: Path = FOLDER, **options:
     if wanted == base and base not in names(folder):
         wanted = _default(siblings, folder) or base
     return load_named(wanted, folder)
+
+
+def _load_of(
+    learner: str, domain: str, task: str, values: Sequence[Any], folder: Path, options: Mapping[str, Any]
+) -> Pretrained:
+    """Loads the agent of a learner: from the learner's folder, or the best one, if that is the learner's."""
+    for each in (folder / learner, folder):
+        with contextlib.suppress(_MissingError):
+            found = load(domain, task, *values, folder=each, **options)
+            if _learner(found.card) == learner:
+                return found
+    raise _MissingError(
+        f"no trained agent of {domain}/{task} with these options is {learner}'s; there are: "
+        f"{', '.join(names(folder)) or 'none'}"
+    )
+
+
+def _learner(card: Mapping[str, Any]) -> str:
+    """Returns the name of the learner that trained an agent; the oldest cards do not say it."""
+    return card["agent"].get("algorithm", "a3c")
 
 
 def options_of(domain: str, task: str, folder: Path = FOLDER) -> list[str]:
@@ -108,13 +140,13 @@ def _default(candidates: Sequence[str], folder: Path) -> str | None:
 def load_named(base: str, folder: Path = FOLDER) -> Pretrained:
     """Loads the trained agent whose files have this name; raises as `load`."""
     if base not in names(folder):
-        raise ValueError(f"no trained agent is named {base}; there are: {', '.join(names(folder)) or 'none'}")
+        raise _MissingError(f"no trained agent is named {base}; there are: {', '.join(names(folder)) or 'none'}")
     path = folder / f"{base}.json"
     if folder == FOLDER:
         path = path.resolve()  # Some installers put links in the place of a package's files.
     card = files.read_json(path)
     try:
-        _check(card, base)
+        _check(card, path.stem)
         facts = {"kind": networks.RecurrentActorCritic.__name__, **card["network"]}  # Older cards do not say it.
         with torch.device("meta"):  # Nothing is made that its weights do not fit.
             like = _network(facts).state_dict()
@@ -129,7 +161,7 @@ def load_named(base: str, folder: Path = FOLDER) -> Pretrained:
         return load_named(base, folder)  # Another has just been written.
     network = _network(facts)
     network.load_state_dict(weights)
-    return Pretrained(network.eval(), {**card, "network": facts, "task_kwargs": _options(card, base)})
+    return Pretrained(network.eval(), {**card, "network": facts, "task_kwargs": _options(card, path.stem)})
 
 
 def _options(card: dict[str, Any], base: str) -> dict[str, Any]:
@@ -155,7 +187,7 @@ def _network(facts: dict[str, Any]) -> networks.RecurrentNetwork:
         key: specs.Array(tuple(shape), np.dtype(dtype), key) for key, (shape, dtype) in facts["observations"].items()
     }
     for key, value in facts["hyperparameters"].items():
-        if not config.is_number(value):
+        if not config.is_number(value) and not isinstance(value, str):
             raise ValueError(f"{key} is {value!r}")
     return _KINDS[facts["kind"]](observation_spec, facts["num_actions"], **facts["hyperparameters"])
 
@@ -219,6 +251,7 @@ def sealed(card: Mapping[str, Any]) -> bytes:
 def halved(network: networks.RecurrentNetwork) -> networks.RecurrentNetwork:
     """Rounds a network's weights, in place, to what half precision keeps of them."""
     with torch.no_grad():
-        for parameter in network.parameters():
-            parameter.copy_(parameter.half().float())
+        for value in network.state_dict().values():
+            if value.is_floating_point():
+                value.copy_(value.half().float())
     return network

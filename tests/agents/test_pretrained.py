@@ -17,7 +17,7 @@ import torch
 from physexp import agents, suite
 from physexp.agents import checkpointing, core, environment_loop, files, networks, pretrained
 
-CARDS = sorted(pretrained.FOLDER.glob("*.json"))
+CARDS = [pretrained.FOLDER / f"{name}.json" for name in pretrained.names()]
 
 
 def card_of(path):
@@ -85,6 +85,26 @@ def test_an_agent_that_is_not_there_is_refused_with_a_list_of_those_that_are():
             agents.load_pretrained("which_is_heavier", "features", *values, **options)
     with pytest.raises(ValueError, match="no trained agent of towers/fist_features has options 3; there are: .*towers"):
         agents.load_pretrained("towers", "fist_features", 3)
+
+
+def test_an_agent_is_found_by_its_learner(small, tmp_path):
+    network, card = small
+    learners = {"belief": tmp_path, "a3c": tmp_path / "a3c", "ppo": tmp_path / "ppo"}
+    for learner, folder in learners.items():
+        pretrained.save(network, {**card, "agent": {"algorithm": learner}}, folder)
+    assert pretrained.names(tmp_path) == ["a3c/towers-some", "ppo/towers-some", "towers-some"]
+    for learner in learners:
+        found = pretrained.load("towers", "some", agent=learner, folder=tmp_path)
+        assert found.card["agent"]["algorithm"] == learner
+    assert pretrained.load("towers", "some", folder=tmp_path).card["agent"]["algorithm"] == "belief"
+    assert pretrained.load_named("a3c/towers-some", tmp_path).card["agent"]["algorithm"] == "a3c"
+    with pytest.raises(
+        ValueError, match="no trained agent of towers/some .* is dqn's; there are: a3c/towers-some, ppo"
+    ):
+        pretrained.load("towers", "some", agent="dqn", folder=tmp_path)
+    (tmp_path / "ppo" / "towers-some.safetensors").write_bytes(b"damaged")
+    with pytest.raises(ValueError, match="damaged"):
+        pretrained.load("towers", "some", agent="ppo", folder=tmp_path)
 
 
 def test_what_is_saved_is_what_is_loaded_to_half_precision(tmp_path):

@@ -53,12 +53,12 @@ class BeliefNetwork(networks.RecurrentNetwork):
           num_interactions: how many of them are interactions; they come first, labels after them.
           num_members: how many members there are.
           units: of each head of a member's attention; a layer, or an LSTM, has as many as all of them.
-          memory: what members remember an episode with.
+          memory: what members remember an episode with, attention or lstm.
           most_interactions: after so many it prefers to answer.
           discount: gamma.
 
         Raises:
-          ValueError: if what is observed is neither features nor one image.
+          ValueError: if what is observed is neither features nor one image, or for another memory.
         """
         super().__init__(observation_spec, num_actions)
         self.sees_images = networks.sees_images(observation_spec)
@@ -200,8 +200,11 @@ class Members(nn.Module):
     ):
         """Builds layers of a width for each member."""
         super().__init__()
+        kinds: dict[str, type[nn.Module]] = {"attention": Attention, "lstm": LSTM}
+        if memory not in kinds:
+            raise ValueError(f"memory is {memory!r}; choose from {', '.join(kinds)}")
         self.embedding = Linear(num_members, num_inputs, width)
-        self.memory = {"attention": Attention, "lstm": LSTM}[memory](num_members, width)
+        self.memory = kinds[memory](num_members, width)
         self.hidden = Linear(num_members, width, 2 * width)  # Of both heads, a half each.
         self.belief, self.shares = (Linear(num_members, width, size) for size in (num_labels, num_interactions))
 

@@ -54,7 +54,7 @@ def test_the_command_on_the_card_describes_the_same_run(published):
     assert train.config == run.config.agent
 
 
-@pytest.mark.parametrize("card", sorted(pretrained.FOLDER.glob("*.json")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("card", sorted(pretrained.FOLDER.glob("**/*.json")), ids=lambda path: path.stem)
 def test_the_commands_of_the_agents_that_come_with_the_package_describe_them_still(card):
     said = json.loads(card.read_text())
     _, *arguments = shlex.split(said["command"])
@@ -74,10 +74,10 @@ def _another(value):
     if isinstance(value, bool):
         return not value
     if isinstance(value, str):
-        return {"auto": "cpu"}[value]
+        return {"auto": "cpu", "attention": "lstm"}[value]
     if isinstance(value, tuple):
         return (0.5, -1.0)
-    return value + 1 if isinstance(value, int) else value / 2 + 0.001
+    return 2 * value or 1 if isinstance(value, int) else value / 2 + 0.001
 
 
 @pytest.mark.parametrize("algorithm", config_lib.ALGORITHMS)
