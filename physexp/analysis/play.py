@@ -108,7 +108,7 @@ def _others(domain: str, task: str, kwargs: dict[str, Any], show) -> tuple[dict[
 
 def _ideal(domain: str, task: str, kwargs: dict[str, Any], discount: float) -> core.Actor | None:
     """Returns the ideal experimenter; None where there is none that can play."""
-    find = domains.find(domain).ideal
+    find = domains.find(domain).ideal_with(kwargs)
     try:
         return None if find is None else find(task, kwargs, discount).actor()
     except ValueError:

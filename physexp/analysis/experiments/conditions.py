@@ -94,9 +94,9 @@ def ideal(config: config_lib.TrainConfig):
     Raises:
       ValueError: if none is known.
     """
-    find = domains.find(config.domain).ideal
+    find = domains.find(config.domain).ideal_with(config.task_kwargs)
     if find is None:
-        raise ValueError(f"no ideal experimenter of {config.domain} is known")
+        raise ValueError(f"no ideal experimenter of {config.name} is known")
     return find(config.task, config.task_kwargs, config.agent.discount)
 
 

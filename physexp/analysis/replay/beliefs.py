@@ -29,4 +29,5 @@ def of_ideal(episode: recording.Episode) -> np.ndarray | None:
 def _ideal(domain_name: str, task: str, task_kwargs: tuple):
     """Returns the ideal experimenter of a task, which may keep a simulation; what it believes has no discount."""
     domain = domains.find(domain_name)
-    return None if domain.ideal is None else domain.ideal(task, dict(task_kwargs), domain.discount)
+    find = domain.ideal_with(dict(task_kwargs))
+    return None if find is None else find(task, dict(task_kwargs), domain.discount)

@@ -251,6 +251,7 @@ class BatchEnvironment:
             group.reset(rows, self._ledger.hidden[rows])
             for name, value in group.first_observation.items():
                 self._observations[name][rows] = value
+        self._task.add_noise(self._ledger, chosen, self._observations)
 
     def _interact(self, chosen: np.ndarray, actions: np.ndarray) -> np.ndarray:
         """Simulates one control step; returns the environments that diverged."""
@@ -263,6 +264,7 @@ class BatchEnvironment:
                 rows = np.setdiff1d(rows, lost)
             self._ledger.touched[rows] |= group.moved(rows)
             self._task.look(group.apparatus, group.state(rows), self._ledger.touched[rows], rows, self._observations)
+            self._task.add_noise(self._ledger, rows, self._observations)
         if not diverged:
             return np.zeros(0, np.int64)
         lost = np.concatenate(diverged)

@@ -17,6 +17,7 @@ class Options:
       random: an integer seed, a `numpy.random.RandomState`, or None for a seed from the operating system.
       control_timestep: time between actions, a multiple of the physics step, at most a minute, s.
       time_limit: time after which an unanswered episode ends, rounded up to whole control steps, s.
+      noise: standard deviation of what is added to every reading in metres, at each control step anew, m.
       visualize_reward: colour the floor by the outcome at the end of an episode.
 
     Raises:
@@ -28,6 +29,7 @@ class Options:
     random: Any = None
     control_timestep: float = 0.1
     time_limit: float
+    noise: float = 0.0
     visualize_reward: bool = False
 
     def __post_init__(self):
@@ -37,6 +39,7 @@ class Options:
             if seconds > longest:
                 raise ValueError(f"{name} is {checks.shown(getattr(self, name))}; give at most {longest:g} s")
             object.__setattr__(self, name, seconds)
+        object.__setattr__(self, "noise", checks.number("noise", self.noise, 0, "m"))
         if self.substeps < 1 or abs(self.substeps * self.physics_timestep - self.control_timestep) > 1e-9:
             raise ValueError(
                 f"control_timestep is {self.control_timestep} s; "

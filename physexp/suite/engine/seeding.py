@@ -5,6 +5,7 @@ rebuilt without playing those before it, and a batch draws all its resets in one
 """
 
 import numpy as np
+from scipy import special
 
 from physexp.suite.engine import checks
 
@@ -12,6 +13,7 @@ LARGEST_SEED = 2**63 - 1
 LAST_EPISODE = 2**62 - 1  # Far enough from the largest int64 that counting on never overflows.
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
+_NOISE = np.uint64(0x6E6F697365)  # Tells the numbers of `normals` from those of `uniforms`.
 
 
 def _mix(x: np.ndarray) -> np.ndarray:
@@ -46,7 +48,31 @@ def uniforms(seeds: np.ndarray, episodes: np.ndarray, count: int, attempt: int =
     Returns:
       float64 [N, count], in the open interval (0, 1).
     """
-    keys = _mix(_mix(seeds.astype(np.uint64)) ^ episodes.astype(np.uint64))
+    return _uniforms(_keys(seeds, episodes), count, attempt)
+
+
+def normals(seeds: np.ndarray, episodes: np.ndarray, steps: np.ndarray, count: int) -> np.ndarray:
+    """Independent standard normal numbers of some control steps, independent of what `uniforms` returns.
+
+    Args:
+      seeds, episodes: as for `uniforms`.
+      steps: control steps of the episodes, int64 [N].
+      count: numbers per step.
+
+    Returns:
+      float64 [N, count].
+    """
+    keys = _mix(_mix(_keys(seeds, episodes) ^ _NOISE) ^ steps.astype(np.uint64))
+    return special.ndtri(_uniforms(keys, count))
+
+
+def _keys(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
+    """Returns a number for each episode, uint64 [N], that tells it from all others."""
+    return _mix(_mix(seeds.astype(np.uint64)) ^ episodes.astype(np.uint64))
+
+
+def _uniforms(keys: np.ndarray, count: int, attempt: int = 0) -> np.ndarray:
+    """Returns uniform numbers in (0, 1), float64 [N, count], that follow from keys, uint64 [N]."""
     steps = np.arange(attempt * count + 1, (attempt + 1) * count + 1, dtype=np.uint64) * _GOLDEN
     bits = _mix(keys[:, None] + steps) >> np.uint64(12)
     return (bits.astype(np.float64) + 0.5) * 2.0**-52

@@ -20,7 +20,7 @@ class Sense(abc.ABC):
     """The fields of `MjData` that are looked at."""
 
     needs_gl: ClassVar[bool]
-    """Whether images are drawn."""
+    """Whether images are drawn, instead of readings taken."""
 
     @abc.abstractmethod
     def blank(self, shapes: Mapping[str, tuple[int, ...]], size: int) -> dict[str, np.ndarray]:

@@ -4,6 +4,7 @@ import abc
 from collections.abc import Mapping, Sequence
 import dataclasses
 import functools
+import math
 from typing import Any
 
 from dm_control import composer
@@ -65,6 +66,8 @@ class QuestionTask(composer.Task):
         self.controls = np.array([interaction.control for interaction in self.interactions], float)
         self.num_divergences = 0
         self.sense = sense
+        if options.noise and not self._noisy:
+            raise ValueError(f"noise is {options.noise:g}; give 0 where no reading in metres is observed")
         self._ledger = episodes.Ledger(self, 1)
         self._ledger.seeds[:] = options.random
         self._given_hidden: np.ndarray | None = None
@@ -215,7 +218,7 @@ class QuestionTask(composer.Task):
         described = {}
         for name, blank in self.blank_observations(1).items():
             array = specs.Array(blank.shape[1:], blank.dtype, name)
-            bounds = self.readings[name].bounds if name in self.readings else None
+            bounds = self.readings[name].bounds if name in self.readings and not self.options.noise else None
             if bounds is not None:
                 array = specs.BoundedArray(array.shape, array.dtype, *bounds, name)
             described[name] = array
@@ -245,6 +248,31 @@ class QuestionTask(composer.Task):
         shown = {field: apparatus.shown(field, values, touched) for field, values in state.items()}
         self.sense.look(apparatus, shown, rows, observations)
 
+    @functools.cached_property
+    def _noisy(self) -> dict[str, tuple[int, ...]]:
+        """The shapes of the readings that noise is added to, by name."""
+        if self.sense.needs_gl:
+            return {}
+        return {name: reading.shape for name, reading in self.readings.items() if reading.unit == "m"}
+
+    def add_noise(self, ledger: episodes.Ledger, rows, observations) -> None:
+        """Adds the noise of the current control step to the observations of some environments.
+
+        It follows from seed, episode, step and reading alone: it is the same whatever is hidden.
+
+        Args:
+          ledger: of the environments.
+          rows: which of them, int [N].
+          observations: arrays with a leading axis that `rows` index; written to.
+        """
+        if not self.options.noise:
+            return
+        sizes = [math.prod(shape) for shape in self._noisy.values()]
+        draws = seeding.normals(ledger.seeds[rows], ledger.next_episodes[rows] - 1, ledger.steps[rows], sum(sizes))
+        parts = np.split(self.options.noise * draws, np.cumsum(sizes)[:-1], axis=1)
+        for (name, shape), part in zip(self._noisy.items(), parts, strict=True):
+            observations[name][rows] += part.reshape(len(part), *shape).astype(np.float32)
+
     def close(self) -> None:
         """Frees what the sense holds. A closed task can be played again."""
         self.sense.close()
@@ -256,6 +284,7 @@ class QuestionTask(composer.Task):
 
     def _look(self, state) -> None:
         self.look(self.apparatus, state, self._ledger.touched, _ROW, self._seen)
+        self.add_noise(self._ledger, _ROW, self._seen)
 
     def _recall(self, name: str, physics) -> np.ndarray:
         """Returns the last observation: composer may ask many times, and it is made once for each control step."""

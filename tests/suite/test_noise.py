@@ -1,0 +1,109 @@
+"""Noise: readings are inexact, in every episode in the same way, whatever is hidden."""
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from physexp import suite
+from physexp.suite.engine import seeding
+
+NOISE = 0.01  # m
+P_VALUE = 1e-4  # A right generator fails one test in ten thousand.
+NOISY = [("which_is_heavier", "features"), ("towers", "direct_features"), ("towers", "fist_features")]
+every_noisy_task = pytest.mark.parametrize("domain, task", NOISY)
+
+
+def _flat(observation):
+    return np.concatenate([value.reshape(len(value), -1) for value in observation.values()], axis=1)
+
+
+def _played(domain, task, seed, size, noise, hidden=None, episode=0):
+    """All that environments of a batch observe under fixed actions, float32 [steps, size, readings]."""
+    batch = suite.load_batch(domain, task, size, {"random": seed, "noise": noise})
+    observed = [_flat(batch.reset(episode=episode, hidden=hidden).observation)]
+    actions = np.random.default_rng(seed).integers(batch.task.num_interactions, size=(6, size))
+    observed += [_flat(batch.step(taken).observation) for taken in actions]
+    batch.close()
+    return np.array(observed)
+
+
+@every_noisy_task
+def test_one_environment_and_a_batch_have_the_same_noise(seed, domain, task):
+    batch = suite.load_batch(domain, task, 3, {"random": seed, "noise": NOISE})
+    singles = [suite.load(domain, task, {"random": int(each), "noise": NOISE}) for each in batch.seeds]
+    actions = np.random.default_rng(seed).integers(batch.task.num_interactions, size=(5, 3))
+    for _ in range(2):  # Episodes.
+        together, alone = [batch.reset()], [[single.reset() for single in singles]]
+        for taken in actions:
+            together.append(batch.step(taken))
+            alone.append([single.step(action) for single, action in zip(singles, taken, strict=True)])
+        for timestep, others in zip(together, alone, strict=True):
+            for name, value in timestep.observation.items():
+                np.testing.assert_array_equal(value, [other.observation[name] for other in others])
+    batch.close()
+    for single in singles:
+        single.close()
+
+
+@every_noisy_task
+def test_noise_is_normal_and_new_in_every_reading_step_episode_and_environment(seed, domain, task):
+    differences = [
+        (_played(domain, task, seed, 50, NOISE, episode=e) - _played(domain, task, seed, 50, 0.0, episode=e)).ravel()
+        for e in (0, 1)
+    ]
+    found = np.concatenate(differences)
+    # Readings are float32, of the order of a metre: their last bit is 1e-7, a hundred-thousandth of the noise.
+    assert stats.kstest(found / NOISE, "norm").pvalue > P_VALUE
+    assert len(np.unique(np.round(found, 7))) > 0.9 * len(found)
+    assert abs(np.corrcoef(*differences)[0, 1]) < 5 / np.sqrt(len(differences[0]))
+
+
+@every_noisy_task
+def test_noise_is_the_same_whatever_is_hidden(seed, domain, task):
+    size = 16
+    drawn = suite.load_task(domain, task, {"random": seed}).draw(np.full(size, seed), np.arange(size))
+    one, other = (
+        _played(domain, task, seed, size, NOISE, hidden) - _played(domain, task, seed, size, 0.0, hidden)
+        for hidden in (drawn, drawn[::-1])
+    )
+    np.testing.assert_allclose(one, other, atol=1e-6)
+
+
+@every_noisy_task
+def test_readings_with_noise_have_no_bounds(domain, task):
+    noisy, exact = (suite.load(domain, task, {"noise": noise}) for noise in (NOISE, 0.0))
+    for name, spec in noisy.observation_spec().items():
+        assert not hasattr(spec, "minimum") and hasattr(exact.observation_spec()[name], "minimum")
+        assert spec.shape == exact.observation_spec()[name].shape
+
+
+def test_an_answer_leaves_the_last_observation_as_it_was(seed):
+    environment = suite.load("towers", "fist_features", {"random": seed, "noise": NOISE})
+    environment.reset()
+    before = environment.step(0).observation["positions"]
+    after = environment.step(environment.task.num_interactions)
+    assert after.last()
+    np.testing.assert_array_equal(before, after.observation["positions"])
+
+
+@pytest.mark.parametrize("domain, task", sorted(set(suite.ALL_TASKS) - set(NOISY)))
+def test_noise_is_refused_where_nothing_is_read_in_metres(domain, task):
+    with pytest.raises(ValueError, match="^noise is 0.01; give 0 where no reading in metres is observed$"):
+        suite.load(domain, task, {"noise": NOISE})
+
+
+@pytest.mark.parametrize("value", [-0.1, np.nan, "much", None])
+def test_noise_that_makes_no_sense_is_refused(value):
+    with pytest.raises(ValueError, match=r"^noise is .*; give a finite number >= 0 \(m\)$"):
+        suite.load("towers", "fist_features", {"noise": value})
+
+
+def test_normal_numbers_are_independent_of_the_uniform_ones(seed):
+    episodes, seeds = np.arange(20_000), np.full(20_000, seed)
+    normals = seeding.normals(seeds, episodes, np.zeros(20_000, np.int64), 2)
+    uniforms = seeding.uniforms(seeds, episodes, 2)
+    assert stats.kstest(normals.ravel(), "norm").pvalue > P_VALUE
+    for i in range(2):
+        for j in range(2):
+            assert stats.pearsonr(normals[:, i], uniforms[:, j]).pvalue > P_VALUE
+    assert stats.pearsonr(*normals.T).pvalue > P_VALUE
