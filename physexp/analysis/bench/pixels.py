@@ -81,12 +81,13 @@ def _batch_drawing(name: str) -> Callable[[], int]:
     geom_xpos, geom_xmat = _played_poses(name)
     observations = {"pixels": np.zeros((BATCH, rendering.SIZE, rendering.SIZE, 3), np.uint8)}
     apparatus, rows = task.build_apparatus(0), np.arange(BATCH)
-    sensordata = np.repeat(apparatus.rest["sensordata"][None], BATCH, axis=0)
+    starts = apparatus.start.repeated(BATCH)
+    sensordata = starts.shown["sensordata"].copy()
     state = {"geom_xpos": geom_xpos, "geom_xmat": geom_xmat, "sensordata": sensordata}
     touched = np.ones((BATCH, len(apparatus.held)), bool)
 
     def draw() -> int:
-        task.look(apparatus, state, touched, rows, observations)
+        task.look(apparatus, state, touched, starts, rows, observations)
         return BATCH
 
     return draw

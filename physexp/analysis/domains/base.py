@@ -84,8 +84,8 @@ class Domain:
     fill: "Callable[[np.ndarray], Mapping[str, np.ndarray]]" = nothing
 
     def ideal_with(self, task_kwargs: Mapping[str, Any]) -> Ideal | None:
-        """Returns how to find the ideal experimenter of tasks with these options: None where readings are noisy."""
-        return None if task_kwargs.get("noise") else self.ideal
+        """Returns how to find the ideal experimenter of tasks with these options: None with noise or variation."""
+        return None if task_kwargs.get("noise") or task_kwargs.get("variation") else self.ideal
 
     def label(self, task: str, task_kwargs: Mapping[str, Any]) -> str:
         """Returns the short name of a task with these options; domain and task where it has no other."""

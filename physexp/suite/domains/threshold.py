@@ -189,6 +189,14 @@ class Threshold(task.QuestionTask):
     def hidden_fields(self, apparatus, hidden):
         return apparatus_lib.frictions(apparatus, self._rails, hidden[:, None])
 
+    @property
+    def num_nuisances(self):
+        """Images differ in where the camera is; readings in nothing, since the question is about forces."""
+        return 3 if self.sense.needs_gl else 0
+
+    def circumstances(self, apparatus, nuisances):
+        return declarations.Circumstances(camera=arena.CAMERA_VARIATION * nuisances)
+
     def drive(self, actions, qpos, ctrl):
         """Returns the force of a push, which goes away from the stop that the block leans on, N [N, 1]."""
         return self.controls[actions] * np.where(_is_right(qpos), -1, 1)

@@ -6,15 +6,21 @@ import math
 from dm_control.utils import containers
 import numpy as np
 
+from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import declarations, seeding, senses, task
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import actuators, arena, tower
+from physexp.suite.parts import actuators, arena, material, tower
 
 SUITE = containers.TaggedTasks()
 
 PHYSICS_TIMESTEP = 0.005  # s
 WALL_DISTANCE = 0.56  # m, from the tower: a tower that falls as one piece fits inside
 CEILING = 0.7  # m, above the floor
+
+POSITION_VARIATION = 0.01  # m, of the tower, along x and y
+YAW_VARIATION = np.deg2rad(10)
+FRICTIONS = (0.25, 0.4)  # Where variation is full; without, it is between the two.
+MASS_VARIATION = 0.2  # Share of the cubes' mass, the same for all of them.
 
 _ROOM = dict(mat_size=[0.6, 0.6], camera_pos=[0.35, -3.4, 2.0], camera_target=[-0.03, 0, 0.17], fovy=21.5)
 
@@ -118,11 +124,49 @@ class Towers(task.QuestionTask):
             self._tower = self._towers[structure]
             self._room.attach(self._tower)
 
+    num_nuisances = 11
+
+    def circumstances(self, apparatus, nuisances):
+        """Varies where tower, fist and camera are, how strong pushes or how fast the fist is, friction, and mass."""
+        place, yaw, fist, (strength, friction, mass), camera = (
+            nuisances[:, :2],
+            YAW_VARIATION * nuisances[:, 2],
+            nuisances[:, 3:5],
+            nuisances[:, 5:8].T,
+            nuisances[:, 8:],
+        )
+        (standing,) = apparatus.held
+        turned = np.zeros((len(nuisances), 7))  # The coordinates of a rigid body: a position and a quaternion.
+        turned[:, :2] = POSITION_VARIATION * place
+        turned[:, 3], turned[:, 6] = np.cos(yaw / 2), np.sin(yaw / 2)
+        addresses, displaced = self._actuator.start(apparatus.model, fist)
+        return declarations.Circumstances(
+            fields={
+                **apparatus_lib.scaled_masses(apparatus, standing.bodies, 1 + MASS_VARIATION * mass),
+                **_frictions(apparatus.model, friction),
+            },
+            qpos=(
+                np.concatenate([standing.qpos, addresses]),
+                np.concatenate([np.tile(turned, len(standing.qpos) // 7), displaced], axis=1),
+            ),
+            strength=1 + actuators.STRENGTH_VARIATION * strength[:, None],
+            camera=arena.CAMERA_VARIATION * camera,
+        )
+
     def reveal(self, hidden):
         """Returns the pairs of blocks that are glued together."""
         pattern = tower.PATTERNS[int(hidden)]
         glued = [(f"block_{k}", f"block_{k + 1}") for k, is_glued in enumerate(pattern) if is_glued]
         return declarations.Revealed(joined=glued)
+
+
+def _frictions(model, nuisances: np.ndarray) -> declarations.Fields:
+    """Returns the friction of everything that slides as cubes do, of nuisances in [-1, 1], [N]."""
+    geoms = np.flatnonzero(model.geom_friction[:, 0] == material.FRICTION)
+    low, high = np.subtract(FRICTIONS, material.FRICTION)
+    values = np.repeat(model.geom_friction[None, geoms], len(nuisances), axis=0)
+    values[:, :, 0] += np.where(nuisances < 0, -low, high)[:, None] * nuisances[:, None]
+    return {"geom_friction": (geoms, values)}
 
 
 @SUITE.add("features", "direct")

@@ -27,9 +27,7 @@ DAMPING = 5.0  # N s/m
 POKE_FORCE = 20.0  # N
 FLOOR, CEILING = -0.01, 0.4  # m, displacements from rest at which the rail ends
 
-# m: a block rises by at most force / damping in a second. So it passes the rail's end by one physics step at that speed
-# before it feels it, and by less than another one before it is stopped.
-HIGHEST = CEILING + 2 * POKE_FORCE / DAMPING * PHYSICS_TIMESTEP
+FORCE_VARIATION, SPACING_VARIATION = 0.1, 0.1  # Shares of what they are without.
 
 _ROOM = dict(mat_size=[0.36, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.28], fovy=14.5)
 
@@ -102,7 +100,9 @@ class WhichIsHeavier(task.QuestionTask):
 
     @property
     def readings(self):
-        return {"heights": declarations.Reading(self._height_sensors, (NUM_BLOCKS,), bounds=(FLOOR, HIGHEST))}
+        greatest = POKE_FORCE * (1 + FORCE_VARIATION * self.options.variation)
+        bounds = FLOOR, highest(greatest)
+        return {"heights": declarations.Reading(self._height_sensors, (NUM_BLOCKS,), bounds=bounds)}
 
     def draw(self, seeds, episodes):
         """Returns masses on the paper's scale, float64 [N, 4] in [0, 1]; to kilograms: `kilograms`."""
@@ -114,6 +114,19 @@ class WhichIsHeavier(task.QuestionTask):
     def hidden_fields(self, apparatus, hidden):
         return apparatus_lib.slide_masses(apparatus, self._rails, kilograms(hidden))
 
+    num_nuisances = 5
+
+    def circumstances(self, apparatus, nuisances):
+        """Varies the force of pokes, and for images the space between the blocks and where the camera is."""
+        strength = 1 + FORCE_VARIATION * nuisances[:, :1]
+        if not self.sense.needs_gl:
+            return declarations.Circumstances(strength=strength)
+        _, bodies = apparatus.dofs(self._rails)
+        places = np.repeat(apparatus.model.body_pos[None, bodies], len(nuisances), axis=0)
+        places[:, :, 0] *= 1 + SPACING_VARIATION * nuisances[:, 1:2]
+        camera = arena.CAMERA_VARIATION * nuisances[:, 2:]
+        return declarations.Circumstances({"body_pos": (bodies, places)}, strength=strength, camera=camera)
+
     def reveal(self, hidden):
         """Returns the blocks' masses."""
         return declarations.Revealed(marks={f"block_{k}": f"{mass:.2f} kg" for k, mass in enumerate(kilograms(hidden))})
@@ -121,6 +134,15 @@ class WhichIsHeavier(task.QuestionTask):
     def hardness(self, hidden):
         """Returns how near the two heaviest blocks are: the smaller the mass gap, the harder."""
         return -mass_gaps(hidden)
+
+
+def highest(force: float) -> float:
+    """Returns how high a poke of so many newtons takes a block at most, m.
+
+    A block rises by at most force / damping in a second. So it passes the rail's end by one physics step at that speed
+    before it feels it, and by less than another one before it is stopped.
+    """
+    return CEILING + 2 * force / DAMPING * PHYSICS_TIMESTEP
 
 
 def kilograms(masses):

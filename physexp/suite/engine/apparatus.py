@@ -4,6 +4,7 @@ One environment and a batch both step apparatuses of the same task, which is why
 """
 
 from collections.abc import Mapping, Sequence
+import copy
 import dataclasses
 import functools
 import math
@@ -18,21 +19,61 @@ from physexp.suite.engine import declarations
 # a tenth of it, and the weakest touch moves a block by several times as much.
 TOUCH_TOLERANCE = 1e-4  # m, or the same in a quaternion's components
 
+_PLACING = ("body_pos", "body_quat")  # The model fields that say where things are.
+
 LOOKED_AT = ("sensordata", "geom_xpos", "geom_xmat")
 """The fields of `MjData` that observations are made of."""
 
 
 @dataclasses.dataclass(frozen=True)
-class _Held:
+class Held:
     """A held entity.
 
     Attributes:
       qpos: addresses of its coordinates, int [K].
+      bodies: of which it is made, int [M].
       shows: for each field of `LOOKED_AT`, the addresses of its values that show the entity.
     """
 
     qpos: np.ndarray
+    bodies: np.ndarray
     shows: dict[str, np.ndarray]
+
+
+@dataclasses.dataclass(frozen=True)
+class Starts:
+    """How N episodes start, and how they are looked at.
+
+    Attributes:
+      qpos: coordinates, float64 [N, nq].
+      shown: the fields of `LOOKED_AT`, float64 [N, ...], by name.
+      strength: factors on what is sent to the actuators, [N, 1 or nu].
+      camera: how far the camera is displaced, m [N, 3].
+    """
+
+    qpos: np.ndarray
+    shown: dict[str, np.ndarray]
+    strength: np.ndarray
+    camera: np.ndarray
+
+    def repeated(self, size: int) -> "Starts":
+        """Returns the only one of them, as that of `size` episodes; not to be written to."""
+        qpos, strength, camera, *shown = (
+            np.broadcast_to(values, (size, *values.shape[1:]))
+            for values in (self.qpos, self.strength, self.camera, *self.shown.values())
+        )
+        return Starts(qpos, dict(zip(self.shown, shown, strict=True)), strength, camera)
+
+    def put(self, rows: np.ndarray, starts: "Starts") -> None:
+        """Writes how some episodes start in place of what was there, int [K]."""
+        self.qpos[rows], self.strength[rows], self.camera[rows] = starts.qpos, starts.strength, starts.camera
+        for field, values in self.shown.items():
+            values[rows] = starts.shown[field]
+
+    def of(self, rows: np.ndarray) -> "Starts":
+        """Returns those of some episodes, int [K]."""
+        shown = {field: values[rows] for field, values in self.shown.items()}
+        return Starts(self.qpos[rows], shown, self.strength[rows], self.camera[rows])
 
 
 @dataclasses.dataclass(frozen=True)
@@ -43,44 +84,77 @@ class Apparatus:
       model: the compiled model.
       readings: for each feature, the sensor addresses that make it up: int of the feature's shape, or [number of sensor
         values] where the feature is measured from them.
-      rest_qpos: `qpos` of the initial state, float64 [nq].
-      rest: the fields of `LOOKED_AT` in the initial state, float64, by name.
+      start: how an episode starts without variation; N is 1.
       held: the entities that must look untouched until they are.
       moving_geoms: the geoms that do not stand still in images, int [M].
     """
 
     model: mujoco.MjModel
     readings: dict[str, np.ndarray]
-    rest_qpos: np.ndarray
-    rest: dict[str, np.ndarray]
-    held: tuple[_Held, ...]
+    start: Starts
+    held: tuple[Held, ...]
     moving_geoms: np.ndarray
     _measures: Mapping[str, declarations.Measure]
     _indicators: tuple[tuple[int, np.ndarray, declarations.Indicator], ...]  # Geoms, their places, and what they show.
     # What `dofs` has found: names are looked up once, since every reset asks.
     _dofs: dict[tuple[str, ...], tuple[np.ndarray, np.ndarray]] = dataclasses.field(default_factory=dict, init=False)
 
-    def shown(self, field: str, values: np.ndarray, touched: np.ndarray) -> np.ndarray:
+    def starts(self, circumstances: declarations.Circumstances, size: int) -> Starts:
+        """Returns how episodes start, as many as `size`."""
+        starts = self.start.of(np.zeros(size, np.intp))
+        for own, given in ((starts.strength, circumstances.strength), (starts.camera, circumstances.camera)):
+            if given is not None:
+                own[:] = given
+        if circumstances.qpos is not None:
+            addresses, values = circumstances.qpos
+            starts.qpos[:, addresses] = values
+        placing = {field: given for field, given in circumstances.fields.items() if field in _PLACING}
+        if circumstances.qpos is not None or placing:
+            model, data = self._scratch
+            seen = [(shown, getattr(data, field)) for field, shown in starts.shown.items()]
+            for row in range(size):
+                for field, (addresses, values) in placing.items():
+                    getattr(model, field)[addresses] = values[row]
+                data.qpos[:] = starts.qpos[row]
+                mujoco.mj_kinematics(model, data)
+                mujoco.mj_sensorPos(model, data)
+                for shown, value in seen:
+                    shown[row] = value
+            self.indicate(starts.shown["geom_xpos"], starts.shown["sensordata"])
+        return starts
+
+    @functools.cached_property
+    def _scratch(self) -> tuple[mujoco.MjModel, mujoco.MjData]:
+        """A copy of the model, to be changed, and its data."""
+        model = copy.copy(self.model)
+        return model, mujoco.MjData(model)
+
+    def shown(
+        self, field: str, values: np.ndarray, touched: np.ndarray, starts: Starts, rows: np.ndarray
+    ) -> np.ndarray:
         """Returns a field as observations may have it: held entities that were not touched are exactly as at the start.
 
         Args:
           field: one of `LOOKED_AT`.
           values: its values, float64 [N, ...].
           touched: whether each held entity has been touched, bool [N, number of held entities].
+          starts: of all episodes.
+          rows: which of them these are, int [N].
 
         Returns:
           A copy, float64 [N, ...].
         """
         shown = values.copy()
         for held, is_touched in zip(self.held, touched.T, strict=True):
-            shown[np.ix_(~is_touched, held.shows[field])] = self.rest[field][held.shows[field]]
+            places = held.shows[field]
+            shown[np.ix_(~is_touched, places)] = starts.shown[field][np.ix_(rows[~is_touched], places)]
         return shown
 
-    def moved(self, qpos: np.ndarray) -> np.ndarray:
+    def moved(self, qpos: np.ndarray, start: np.ndarray) -> np.ndarray:
         """Returns which held entities have left their place: bool [N, number of held entities] from [N, nq]."""
         moved = np.zeros((len(qpos), len(self.held)), bool)
         for k, held in enumerate(self.held):
-            displacement = np.abs(qpos[:, held.qpos] - self.rest_qpos[held.qpos])
+            displacement = np.abs(qpos[:, held.qpos] - start[:, held.qpos])
             moved[:, k] = displacement.max(axis=1, initial=0.0) > TOUCH_TOLERANCE
         return moved
 
@@ -112,6 +186,24 @@ def slide_masses(apparatus: Apparatus, joints: tuple[str, ...], kilograms: np.nd
     """
     dofs, bodies = apparatus.dofs(joints)
     return {"body_mass": (bodies, kilograms), "dof_M0": (dofs, kilograms), "dof_invweight0": (dofs, 1 / kilograms)}
+
+
+def scaled_masses(apparatus: Apparatus, bodies: np.ndarray, factors: np.ndarray) -> declarations.Fields:
+    """Returns the model fields that follow when some bodies, int [K], are as many times as heavy as in the model, [N].
+
+    Together they are all that moves with what moves them. The fields are what `mj_setConst` would compute.
+    """
+    model = apparatus.model
+    dofs = np.flatnonzero(np.isin(model.dof_bodyid, bodies))
+    found = {}
+    for names, places, powers in (
+        (("body_mass", "body_inertia", "body_subtreemass", "body_invweight0"), bodies, (1, 1, 1, -1)),
+        (("dof_M0", "dof_invweight0"), dofs, (1, -1)),
+    ):
+        for name, power in zip(names, powers, strict=True):
+            values = getattr(model, name)[places]
+            found[name] = places, np.multiply.outer(factors**power, values)
+    return found
 
 
 def frictions(apparatus: Apparatus, joints: tuple[str, ...], newtons: np.ndarray) -> declarations.Fields:
@@ -149,18 +241,22 @@ def build(
     built = Apparatus(
         model=model,
         readings={name: _addresses_of(model, reading) for name, reading in readings.items()},
-        rest_qpos=model.qpos0.copy(),
-        rest={field: getattr(data, field).copy() for field in LOOKED_AT},
+        start=Starts(
+            qpos=model.qpos0[None].copy(),
+            shown={field: getattr(data, field)[None].copy() for field in LOOKED_AT},
+            strength=np.ones((1, model.nu)),
+            camera=np.zeros((1, 3)),
+        ),
         held=tuple(_find_held(model, mjcf.get_attachment_frame(entity.mjcf_model)) for entity in held),
         moving_geoms=np.flatnonzero(moving),
         _measures={name: reading.measure for name, reading in readings.items() if reading.measure is not None},
         _indicators=tuple(zip(geoms, data.geom_xpos[geoms], indicators, strict=True)),
     )
-    built.indicate(built.rest["geom_xpos"][None], built.rest["sensordata"][None])
+    built.indicate(built.start.shown["geom_xpos"], built.start.shown["sensordata"])
     return built
 
 
-def _find_held(model: mujoco.MjModel, frame: mjcf.Element) -> _Held:
+def _find_held(model: mujoco.MjModel, frame: mjcf.Element) -> Held:
     """Finds what belongs to an entity: the bodies below its frame, their joints, geoms and sensors."""
     bodies = {model.body(frame.full_identifier).id}
     for body in range(model.nbody):  # A parent comes before its children.
@@ -185,8 +281,9 @@ def _find_held(model: mujoco.MjModel, frame: mjcf.Element) -> _Held:
     coordinates = [
         model.jnt_qposadr[joint] + np.arange(sizes.get(mujoco.mjtJoint(model.jnt_type[joint]), 1)) for joint in joints
     ]
-    return _Held(
+    return Held(
         qpos=np.concatenate([np.zeros(0, np.intp), *coordinates]).astype(np.intp),
+        bodies=inside,
         shows={"sensordata": _addresses(sensors), "geom_xpos": geoms, "geom_xmat": geoms},
     )
 

@@ -248,9 +248,8 @@ class BatchEnvironment:
         self._ledger.begin(chosen, hidden)
         for group, members in self._by_structure(chosen):
             rows = chosen[members]
-            group.reset(rows, self._ledger.hidden[rows])
-            for name, value in group.first_observation.items():
-                self._observations[name][rows] = value
+            group.reset(rows, self._ledger.hidden[rows], self._ledger.nuisances[rows])
+            group.look_first(rows, self._observations)
         self._task.add_noise(self._ledger, chosen, self._observations)
 
     def _interact(self, chosen: np.ndarray, actions: np.ndarray) -> np.ndarray:
@@ -263,7 +262,7 @@ class BatchEnvironment:
                 diverged.append(lost)
                 rows = np.setdiff1d(rows, lost)
             self._ledger.touched[rows] |= group.moved(rows)
-            self._task.look(group.apparatus, group.state(rows), self._ledger.touched[rows], rows, self._observations)
+            group.look(self._ledger.touched[rows], rows, self._observations)
             self._task.add_noise(self._ledger, rows, self._observations)
         if not diverged:
             return np.zeros(0, np.int64)
@@ -286,38 +285,70 @@ class _Group:
         self._batch.reset(stage=mujoco.mjtStage.mjSTAGE_NONE)
         self._rest = self._batch.state[0].copy()
         self._is_at_rest = np.ones(size, bool)
+        # Where all episodes start alike, one start is enough, and so is one look at it.
+        self._are_alike = not task.options.variation
+        nowhere = np.zeros(size, np.intp)
+        self._starts = apparatus.start.repeated(size) if self._are_alike else apparatus.start.of(nowhere)
         self._qpos, self._control, self._sensordata = (
             self._batch.bind(name) for name in ("qpos", "ctrl", "sensordata")
         )
         self._looked_at = {field: self._batch.bind(field) for field in task.sense.fields}
 
     @functools.cached_property
-    def first_observation(self) -> dict[str, np.ndarray]:
+    def _first_observation(self) -> dict[str, np.ndarray]:
         """The observation at the start of every episode."""
         first = self._task.blank_observations(1)
-        rest = {field: self.apparatus.rest[field][None] for field in self._task.sense.fields}
-        untouched = np.zeros((1, len(self.apparatus.held)), bool)
-        self._task.look(self.apparatus, rest, untouched, np.zeros(1, np.intp), first)
+        self._look_at_start(np.zeros(1, np.intp), first)
         return {name: value[0] for name, value in first.items()}
 
-    def reset(self, rows, hidden) -> None:
+    def look_first(self, rows, observations) -> None:
+        """Writes what is observed at the start of episodes; as `look`."""
+        if self._are_alike:
+            for name, value in self._first_observation.items():
+                observations[name][rows] = value
+        else:
+            self._look_at_start(rows, observations)
+
+    def _look_at_start(self, rows, observations) -> None:
+        state = {field: self._starts.shown[field][rows] for field in self._task.sense.fields}
+        untouched = np.zeros((len(rows), len(self.apparatus.held)), bool)
+        self._task.look(self.apparatus, state, untouched, self._starts, rows, observations)
+
+    def look(self, touched, rows, observations) -> None:
+        """Writes what is observed now.
+
+        Args:
+          touched: whether each held entity has been touched, bool [number of rows, number of held entities].
+          rows: which environments, int.
+          observations: arrays with a leading axis that `rows` index; written to.
+        """
+        state = {field: values[rows] for field, values in self._looked_at.items()}
+        self._task.look(self.apparatus, state, touched, self._starts, rows, observations)
+
+    def reset(self, rows, hidden, nuisances) -> None:
         self._batch.state[rows] = self._rest
         self._control[rows] = 0
         self._is_at_rest[rows] = True
-        for field, (addresses, values) in self._task.hidden_fields(self.apparatus, hidden).items():
-            self._batch.expand(field)[rows[:, None], addresses] = values
+        circumstances, starts = self._task.begin(self.apparatus, nuisances)
+        for fields in (self._task.hidden_fields(self.apparatus, hidden), circumstances.fields):
+            for field, (addresses, values) in fields.items():
+                self._batch.expand(field)[rows[:, None], addresses] = values
+        if not self._are_alike:
+            self._qpos[rows] = starts.qpos
+            self._starts.put(rows, starts)
 
     def step(self, rows, actions) -> np.ndarray:
         """Simulates a control step; returns the rows that diverged."""
         self._is_at_rest[rows] = False
-        self._control[rows] = self._task.drive(actions, self._qpos[rows], self._control[rows])
+        controls = self._task.drive(actions, self._qpos[rows], self._control[rows])
+        self._control[rows] = controls * self._starts.strength[rows]
         self._batch.warning[rows] = 0  # A row that diverges is reset by MuJoCo, its counters too.
         self._batch.step(ids=rows, nstep=self._task.options.substeps, stage=mujoco.mjtStage.mjSTAGE_POS)
         return rows[(self._batch.warning[rows] != 0).reshape(len(rows), -1).any(axis=1)]
 
     def moved(self, rows) -> np.ndarray:
         """Returns which held entities have moved, bool [number of rows, number of held entities]."""
-        return self.apparatus.moved(self._qpos[rows])
+        return self.apparatus.moved(self._qpos[rows], self._starts.qpos[rows])
 
     def poses(self, rows) -> tuple[np.ndarray, np.ndarray]:
         """Returns where the geoms are: positions, m, and rotations, [number of rows, ngeom, 3 and 9].
@@ -332,13 +363,10 @@ class _Group:
             mujoco.mj_kinematics(model, data)
             positions[i], rotations[i] = data.geom_xpos, data.geom_xmat
         at_rest = self._is_at_rest[rows, None]  # Where what the sensors last showed is of an earlier episode.
-        self.apparatus.indicate(positions, np.where(at_rest, self.apparatus.rest["sensordata"], self._sensordata[rows]))
+        first = self._starts.shown["sensordata"][rows]
+        self.apparatus.indicate(positions, np.where(at_rest, first, self._sensordata[rows]))
         return positions, rotations
 
     def view(self, field) -> np.ndarray:
         """Returns a field of `MjData` of all rows, float64 [size, ...], not a copy."""
         return self._batch.bind(field)
-
-    def state(self, rows) -> dict[str, np.ndarray]:
-        """Returns the fields that the sense looks at, float64 [number of rows, ...]."""
-        return {field: values[rows] for field, values in self._looked_at.items()}

@@ -69,6 +69,23 @@ class Indicator:
 
 
 @dataclasses.dataclass(frozen=True)
+class Circumstances:
+    """How N episodes differ from the task as it is without variation.
+
+    Attributes:
+      fields: model fields.
+      qpos: coordinates at the start: addresses, int [K], and values, [N, K]; None for those of the model.
+      strength: factors on what is sent to the actuators, [N, 1] or [N, nu].
+      camera: how far the camera is displaced, m [N, 3].
+    """
+
+    fields: Fields = dataclasses.field(default_factory=dict)
+    qpos: tuple[np.ndarray, np.ndarray] | None = None
+    strength: np.ndarray | None = None
+    camera: np.ndarray | None = None
+
+
+@dataclasses.dataclass(frozen=True)
 class Revealed:
     """What a replay shows of a hidden property.
 

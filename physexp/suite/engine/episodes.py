@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from physexp.suite.engine import checks
+from physexp.suite.engine import checks, seeding
 
 
 class Ledger:
@@ -15,6 +15,7 @@ class Ledger:
       next_episodes: indices of the episodes that start next, int64 [N].
       answers: indices of the right labels, int64 [N].
       structures: the compiled model that each episode needs, int64 [N].
+      nuisances: what episodes differ in beside what is hidden, in [-1, 1], float64 [N, number of nuisances].
       steps: control steps taken, int64 [N].
       touched: whether each of the task's held entities has moved, bool [N, number of held entities].
       over: whether the episode has ended, or none has begun, bool [N].
@@ -25,6 +26,7 @@ class Ledger:
         self._task = task
         self._hidden: np.ndarray | None = None
         self.answers, self.structures, self.steps = np.zeros((3, size), np.int64)
+        self.nuisances = np.zeros((size, task.num_nuisances if task.options.variation else 0))
         self.touched = np.zeros((size, len(task.held)), bool)
         self.reseed(np.zeros(size, np.int64))
 
@@ -71,6 +73,9 @@ class Ledger:
         self._hidden[rows] = drawn
         self.answers[rows] = self._task.answers(drawn)
         self.structures[rows] = self._task.structures(drawn)
+        if self.nuisances.shape[1]:
+            drawn = seeding.variations(self.seeds[rows], self.next_episodes[rows], self.nuisances.shape[1])
+            self.nuisances[rows] = self._task.options.variation * drawn
         self.next_episodes[rows] += 1
         self.steps[rows] = 0
         self.touched[rows] = False

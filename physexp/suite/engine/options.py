@@ -17,6 +17,7 @@ class Options:
       random: an integer seed, a `numpy.random.RandomState`, or None for a seed from the operating system.
       control_timestep: time between actions, a multiple of the physics step, at most a minute, s.
       time_limit: time after which an unanswered episode ends, rounded up to whole control steps, s.
+      variation: how far episodes differ in what is not asked, as where things stand, from 0, where they do not, to 1.
       noise: standard deviation of what is added to every reading in metres, at each control step anew, m.
       visualize_reward: colour the floor by the outcome at the end of an episode.
 
@@ -29,6 +30,7 @@ class Options:
     random: Any = None
     control_timestep: float = 0.1
     time_limit: float
+    variation: float = 0.0
     noise: float = 0.0
     visualize_reward: bool = False
 
@@ -39,6 +41,10 @@ class Options:
             if seconds > longest:
                 raise ValueError(f"{name} is {checks.shown(getattr(self, name))}; give at most {longest:g} s")
             object.__setattr__(self, name, seconds)
+        variation = checks.number("variation", self.variation, 0, "at most 1")
+        if variation > 1:
+            raise ValueError(f"variation is {checks.shown(self.variation)}; give a number from 0 to 1")
+        object.__setattr__(self, "variation", variation)
         object.__setattr__(self, "noise", checks.number("noise", self.noise, 0, "m"))
         if self.substeps < 1 or abs(self.substeps * self.physics_timestep - self.control_timestep) > 1e-9:
             raise ValueError(

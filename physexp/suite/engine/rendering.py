@@ -49,6 +49,7 @@ class Renderer:
         self._exit_hook = functools.partial(_close, weakref.ref(self))
         atexit.register(self._exit_hook)  # A context that outlives the backend's own exit hook cannot be freed.
         self.scene = _make_scene(drawn, camera)
+        self._eyes = [eye.pos.astype(float) for eye in self.scene.camera]
         upside_down = np.zeros((size, size, 3), np.uint8)  # As GL reads it: the lowest row first.
         self._image = upside_down[::-1]
         rectangle = mujoco.MjrRect(0, 0, size, size)
@@ -60,13 +61,21 @@ class Renderer:
         assert drawn_geoms[first:] == self._moving  # What stands still is the arena, which comes first.
         self._positions, self._rotations = (poses[first:] for poses in _poses(self.scene))
 
-    def render(self, geom_xpos: np.ndarray, geom_xmat: np.ndarray, rows: np.ndarray, images: np.ndarray) -> None:
+    def render(
+        self,
+        geom_xpos: np.ndarray,
+        geom_xmat: np.ndarray,
+        rows: np.ndarray,
+        images: np.ndarray,
+        camera: np.ndarray | None = None,
+    ) -> None:
         """Draws one image for each pose of the scene.
 
         Args:
           geom_xpos, geom_xmat: positions (m) and rotation matrices of the model's geoms, [N, number of geoms, 3 and 9].
           rows: where each image goes, int [N].
           images: uint8 [B, size, size, 3]; written to, straight from the frame buffer.
+          camera: how far the camera is displaced, m [N, 3]; by default not at all.
 
         Raises:
           RuntimeError: if the renderer is closed.
@@ -75,13 +84,22 @@ class Renderer:
             raise RuntimeError("the renderer is closed")
         positions = geom_xpos[:, self._moving].astype(np.float32)
         rotations = geom_xmat[:, self._moving].astype(np.float32)
+        displaced = camera if camera is not None and camera.any() else None
         with gl.current(self.context):
-            for row, position, rotation in zip(rows, positions, rotations, strict=True):
+            for number, (row, position, rotation) in enumerate(zip(rows, positions, rotations, strict=True)):
+                if displaced is not None:
+                    self._displace(displaced[number])
                 self._positions[:] = position
                 self._rotations[:] = rotation
                 self._draw()
                 self._read()
                 images[row] = self._image
+        if displaced is not None:
+            self._displace(np.zeros(3))
+
+    def _displace(self, camera: np.ndarray) -> None:
+        for eye, place in zip(self.scene.camera, self._eyes, strict=True):
+            eye.pos[:] = place + camera
 
     def close(self) -> None:
         """Frees the context. Closing twice does nothing."""

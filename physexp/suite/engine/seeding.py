@@ -13,7 +13,8 @@ LARGEST_SEED = 2**63 - 1
 LAST_EPISODE = 2**62 - 1  # Far enough from the largest int64 that counting on never overflows.
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
-_NOISE = np.uint64(0x6E6F697365)  # Tells the numbers of `normals` from those of `uniforms`.
+# What tells numbers for one purpose from those for another.
+_NOISE, _VARIATION = np.uint64(0x6E6F697365), np.uint64(0x76617279)
 
 
 def _mix(x: np.ndarray) -> np.ndarray:
@@ -51,8 +52,18 @@ def uniforms(seeds: np.ndarray, episodes: np.ndarray, count: int, attempt: int =
     return _uniforms(_keys(seeds, episodes), count, attempt)
 
 
+def variations(seeds: np.ndarray, episodes: np.ndarray, count: int) -> np.ndarray:
+    """Independent numbers of some episodes in (-1, 1), float64 [N, count], independent of what `uniforms` returns.
+
+    Args:
+      seeds, episodes: as for `uniforms`.
+      count: numbers per episode.
+    """
+    return 2 * _uniforms(_mix(_keys(seeds, episodes) ^ _VARIATION), count) - 1
+
+
 def normals(seeds: np.ndarray, episodes: np.ndarray, steps: np.ndarray, count: int) -> np.ndarray:
-    """Independent standard normal numbers of some control steps, independent of what `uniforms` returns.
+    """Independent standard normal numbers of some control steps, independent of what the other functions return.
 
     Args:
       seeds, episodes: as for `uniforms`.

@@ -36,6 +36,7 @@ class Sense(abc.ABC):
         self,
         apparatus: apparatus_lib.Apparatus,
         state: Mapping[str, np.ndarray],
+        camera: np.ndarray,
         rows: np.ndarray,
         observations: Mapping[str, np.ndarray],
     ) -> None:
@@ -44,6 +45,7 @@ class Sense(abc.ABC):
         Args:
           apparatus: what is looked at.
           state: the fields, float64 [N, ...], for this sense to keep.
+          camera: how far the camera is displaced, m [N, 3].
           rows: where the observations go, int [N].
           observations: arrays with a leading axis that `rows` index; written to.
         """
@@ -62,7 +64,7 @@ class Features(Sense):
     def blank(self, shapes, size):
         return {name: np.zeros((size, *shape), np.float32) for name, shape in shapes.items()}
 
-    def look(self, apparatus, state, rows, observations):
+    def look(self, apparatus, state, camera, rows, observations):
         for name in apparatus.readings:
             observations[name][rows] = apparatus.read(name, state["sensordata"])
 
@@ -82,11 +84,11 @@ class Pixels(Sense):
     def blank(self, shapes, size):
         return {"pixels": np.zeros((size, rendering.SIZE, rendering.SIZE, 3), np.uint8)}
 
-    def look(self, apparatus, state, rows, observations):
+    def look(self, apparatus, state, camera, rows, observations):
         if self._renderer is None:  # All structures of a task have the same geoms: one renderer draws them all.
             self._renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms)
         apparatus.indicate(state["geom_xpos"], state["sensordata"])
-        self._renderer.render(state["geom_xpos"], state["geom_xmat"], rows, observations["pixels"])
+        self._renderer.render(state["geom_xpos"], state["geom_xmat"], rows, observations["pixels"], camera)
 
     def close(self):
         if self._renderer is not None:

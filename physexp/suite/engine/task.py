@@ -68,6 +68,8 @@ class QuestionTask(composer.Task):
         self.sense = sense
         if options.noise and not self._noisy:
             raise ValueError(f"noise is {options.noise:g}; give 0 where no reading in metres is observed")
+        if options.variation and not self.num_nuisances:
+            raise ValueError(f"variation is {options.variation:g}; give 0 where episodes differ in nothing else")
         self._ledger = episodes.Ledger(self, 1)
         self._ledger.seeds[:] = options.random
         self._given_hidden: np.ndarray | None = None
@@ -105,6 +107,11 @@ class QuestionTask(composer.Task):
         """The features, by name."""
 
     @property
+    def num_nuisances(self) -> int:
+        """How many numbers say what episodes differ in beside what is hidden, where there is variation."""
+        return 0
+
+    @property
     def held(self) -> Sequence[composer.Entity]:
         """Entities that look exactly as at the start until something moves them, each for itself."""
         return ()
@@ -132,6 +139,10 @@ class QuestionTask(composer.Task):
     def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
         """Returns the model fields that follow from hidden properties: any that `Batch.expand` takes."""
         return {}
+
+    def circumstances(self, apparatus: apparatus_lib.Apparatus, nuisances: np.ndarray) -> declarations.Circumstances:
+        """Returns what follows from nuisances, float64 [N, num_nuisances] in [-1, 1], 0 for no variation."""
+        return declarations.Circumstances()
 
     def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
         """Returns what is sent to the actuators during a control step, float64 [N, nu].
@@ -231,22 +242,32 @@ class QuestionTask(composer.Task):
         self.arrange(structure)
         return apparatus_lib.build(self.root_entity.mjcf_model, self.readings, self.held, self.indicators)
 
+    def begin(
+        self, apparatus: apparatus_lib.Apparatus, nuisances: np.ndarray
+    ) -> tuple[declarations.Circumstances, apparatus_lib.Starts]:
+        """Returns the circumstances of episodes, and how they start, of nuisances [N, number of them]."""
+        if not nuisances.shape[1]:
+            return declarations.Circumstances(), apparatus.start.repeated(len(nuisances))
+        circumstances = self.circumstances(apparatus, nuisances)
+        return circumstances, apparatus.starts(circumstances, len(nuisances))
+
     def blank_observations(self, size: int) -> dict[str, np.ndarray]:
         """Returns arrays for the observations of `size` environments."""
         return self.sense.blank({name: reading.shape for name, reading in self.readings.items()}, size)
 
-    def look(self, apparatus: apparatus_lib.Apparatus, state, touched, rows, observations) -> None:
+    def look(self, apparatus: apparatus_lib.Apparatus, state, touched, starts, rows, observations) -> None:
         """Writes the observations of some simulations.
 
         Args:
           apparatus: what is simulated.
           state: the fields that the sense looks at, float64 [N, ...].
           touched: whether each held entity has been touched, bool [N, number of held entities].
-          rows: where the observations go, int [N].
+          starts: how episodes started, with a leading axis that `rows` index.
+          rows: which environments these are, int [N].
           observations: arrays with a leading axis that `rows` index; written to.
         """
-        shown = {field: apparatus.shown(field, values, touched) for field, values in state.items()}
-        self.sense.look(apparatus, shown, rows, observations)
+        shown = {field: apparatus.shown(field, values, touched, starts, rows) for field, values in state.items()}
+        self.sense.look(apparatus, shown, starts.camera[rows], rows, observations)
 
     @functools.cached_property
     def _noisy(self) -> dict[str, tuple[int, ...]]:
@@ -283,7 +304,7 @@ class QuestionTask(composer.Task):
         self._diverged = True
 
     def _look(self, state) -> None:
-        self.look(self.apparatus, state, self._ledger.touched, _ROW, self._seen)
+        self.look(self.apparatus, state, self._ledger.touched, self._starts, _ROW, self._seen)
         self.add_noise(self._ledger, _ROW, self._seen)
 
     def _recall(self, name: str, physics) -> np.ndarray:
@@ -306,10 +327,13 @@ class QuestionTask(composer.Task):
         self.arrange(self.structure)
 
     def initialize_episode(self, physics, random_state):
-        for field, (addresses, values) in self.hidden_fields(self.apparatus, self._ledger.hidden).items():
-            getattr(physics.model, field)[addresses] = values[0]
+        circumstances, self._starts = self.begin(self.apparatus, self._ledger.nuisances)
+        for fields in (self.hidden_fields(self.apparatus, self._ledger.hidden), circumstances.fields):
+            for field, (addresses, values) in fields.items():
+                getattr(physics.model, field)[addresses] = values[0]
+        physics.data.qpos[:] = self._starts.qpos[0]
         self._action = 0
-        self._look({field: self.apparatus.rest[field][None] for field in self.sense.fields})
+        self._look({field: self._starts.shown[field] for field in self.sense.fields})
         if self.options.visualize_reward:
             physics.bind(self._arena.floor).rgba = self._arena.floor.rgba
 
@@ -321,14 +345,14 @@ class QuestionTask(composer.Task):
         self._ledger.steps[0] += 1
         if not self.answered:
             data = physics.data
-            data.ctrl[:] = self.drive(checked[None], data.qpos[None], data.ctrl[None])[0]
+            data.ctrl[:] = (self.drive(checked[None], data.qpos[None], data.ctrl[None]) * self._starts.strength)[0]
             if self._ledger.steps[0] == 1:
                 data.qacc_warmstart[:] = 0  # A batch resets its rows without a forward pass.
 
     def after_step(self, physics, random_state):
         data = physics.data
         if not (self.answered or self._diverged):
-            self._ledger.touched |= self.apparatus.moved(data.qpos[None])
+            self._ledger.touched |= self.apparatus.moved(data.qpos[None], self._starts.qpos)
             self._look({field: getattr(data, field)[None] for field in self.sense.fields})
             self.apparatus.indicate(data.geom_xpos[None], data.sensordata[None])  # For `render`.
         rewards, last = self._ledger.judge(_ROW, np.array([self._action]))

@@ -13,6 +13,9 @@ FIST_START = (-0.32, 0.0, 0.25)  # m: at the height of the middle cube, 0.17 m c
 FIST_SPEED = 1.0  # m/s
 _FIST_REACH = 0.4  # m: leaves half a block's room at the wall, and its force is limited
 
+FIST_VARIATION = (0.02, 0.03)  # m, of where the fist starts, along x and y
+STRENGTH_VARIATION = 0.1  # Share of forces and of speeds.
+
 _DIRECTIONS = {"+x": (1, 0), "-x": (-1, 0), "+y": (0, 1), "-y": (0, -1)}
 
 
@@ -20,6 +23,10 @@ class DirectActuator:
     """Pushes one block with a horizontal force."""
 
     readings: dict[str, declarations.Reading] = {}
+
+    def start(self, model, displacements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Returns the coordinates of nothing; see `FistActuator.start`."""
+        return np.zeros(0, np.intp), np.zeros((len(displacements), 0))
 
     def attach_to(self, room: arena.Laboratory) -> None:
         """Adds the site whose axes give the directions of the forces."""
@@ -56,6 +63,17 @@ class FistActuator:
     def readings(self) -> dict[str, declarations.Reading]:
         """The position of the fist's centre, m (3,)."""
         return {"fist_position": declarations.Reading([self.fist.position_sensor], (3,), components=("x", "y", "z"))}
+
+    def start(self, model, displacements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Returns where the fist starts: addresses of its coordinates, int [2], and their values, m [N, 2].
+
+        Args:
+          model: a compiled model with the fist.
+          displacements: in [-1, 1], [N, 2].
+        """
+        joints = (model.joint(joint.full_identifier) for joint in self.fist.observable_joints)
+        addresses = np.array([joint.qposadr[0] for joint in joints])
+        return addresses, displacements * FIST_VARIATION
 
     def attach_to(self, room: arena.Laboratory) -> None:
         """Places the fist in the room."""

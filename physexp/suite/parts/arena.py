@@ -6,6 +6,7 @@ import numpy as np
 from physexp.suite.engine import rendering
 from physexp.suite.parts import material
 
+CAMERA_VARIATION = 0.02  # m, in each direction
 FLOOR_HALF_SIZE = 8.0  # m: the floor fills the view
 FLOOR_RGBA = (0.72, 0.72, 0.70, 1.0)
 MAT_RGBA = (0.86, 0.86, 0.84, 1.0)
