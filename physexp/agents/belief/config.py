@@ -63,7 +63,7 @@ class BeliefConfig(config.AgentConfig):
     trace: float = 0.9
     frames_per_step: int = 4
     batch_size: int = 32
-    replay_episodes: int = 20_000
+    replay_episodes: int = 60_000
     dropout: float = 0.1
     weight_decay: float = 0.02
     averaging: float = 0.99
@@ -115,3 +115,7 @@ class BeliefConfig(config.AgentConfig):
                 f"replay_episodes is {self.replay_episodes}; give at least num_environments, {self.num_environments}: "
                 "what has been played is kept until it has been learned from"
             )
+
+
+FROM_IMAGES = BeliefConfig(replay_episodes=20_000)
+"""The configuration for all tasks that show images: fewer are kept, since each takes a thousand times the memory."""

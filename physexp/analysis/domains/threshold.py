@@ -5,6 +5,7 @@ import dataclasses
 from typing import Any
 
 from physexp.agents.a3c import config as a3c
+from physexp.agents.belief import config as belief
 from physexp.analysis.domains import base
 
 _DISCOUNT = 0.95
@@ -65,7 +66,11 @@ DOMAIN = base.Domain(
     discount=_DISCOUNT,
     presets={
         "features": {"a3c": _FEATURES, "ppo": base.ppo_like(_FEATURES, frames=1_200_000, num_environments=512)},
-        "pixels": {"a3c": _PIXELS, "ppo": base.ppo_like(_PIXELS, num_environments=1024)},
+        "pixels": {
+            "a3c": _PIXELS,
+            "ppo": base.ppo_like(_PIXELS, num_environments=1024),
+            "belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT),
+        },
     },
     targets={"threshold-features": ("mean_return", 0.81), "threshold-pixels": ("mean_return", 0.76)},
     ideal=base.Ideal(_solve, IdealOptions),

@@ -5,6 +5,7 @@ import dataclasses
 from typing import Any
 
 from physexp.agents.a3c import config as a3c
+from physexp.agents.belief import config as belief
 from physexp.agents.ppo import config as ppo
 from physexp.analysis.domains import base
 
@@ -106,10 +107,20 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolu
     return search.solve(trajectories(task, task_kwargs), resolution, discount)
 
 
+_FROM_FEATURES, _FROM_IMAGES = (
+    config.replace(discount=_DISCOUNT) for config in (belief.BeliefConfig(), belief.FROM_IMAGES)
+)
+_BELIEF = {
+    "direct_features": _FROM_FEATURES,
+    "direct_pixels": _FROM_IMAGES,
+    "fist_features": _FROM_FEATURES,
+    "fist_pixels": _FROM_IMAGES,
+}
+
 DOMAIN = base.Domain(
     name=_NAME,
     discount=_DISCOUNT,
-    presets={task: {"a3c": _A3C[task], "ppo": _PPO[task]} for task in _A3C},
+    presets={task: {"a3c": _A3C[task], "ppo": _PPO[task], "belief": _BELIEF[task]} for task in _A3C},
     labels={"direct_features": "D-F", "direct_pixels": "D-P", "fist_features": "F-F", "fist_pixels": "F-P"},
     targets={
         "towers-direct_features": ("success_rate", 0.95),

@@ -27,7 +27,7 @@ _FRAMES = {
 }
 # Of the belief learner, set before any agent that is reported was trained.
 _BELIEF_FRAMES = {
-    "3-F": 150_000,
+    "3-F": 250_000,
     "5-F": 60_000,
     "10-F": 30_000,
     "D-F": 60_000,

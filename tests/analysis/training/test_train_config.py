@@ -63,6 +63,12 @@ def test_every_task_has_a_preset_of_its_domain_s_discount(names, algorithm):
     assert preset.algorithm == algorithm and preset.discount == domains.find(domain).discount
 
 
+@pytest.mark.parametrize("kind", ["features", "pixels"])
+def test_the_belief_learner_has_one_configuration_for_all_tasks_of_a_kind(kind):
+    presets = [config_lib.preset(*names, algorithm="belief") for names in suite.tagged(kind)]
+    assert len({preset.replace(discount=0.5) for preset in presets}) == 1
+
+
 def test_no_preset_is_of_a_task_that_there_is_not():
     for name, domain in domains.DOMAINS.items():
         assert domain.name == name and set(domain.presets) == set(suite.TASKS_BY_DOMAIN[name])
