@@ -118,4 +118,4 @@ class BeliefConfig(config.AgentConfig):
 
 
 FROM_IMAGES = BeliefConfig(replay_episodes=20_000)
-"""The configuration for all tasks that show images: fewer are kept, since each takes a thousand times the memory."""
+"""The configuration for all tasks that show images, of which fewer are kept, since they take far more memory."""

@@ -181,9 +181,11 @@ def test_experiments_that_need_the_same_agent_train_it_once():
     everything = sweep.jobs(list(EXPERIMENTS.values()), conditions.OBSERVATIONS, lambda kind: 2)
     names = [job.config.name for job in everything]
     assert len(names) == len(set(names))
-    # Two seeds of: six conditions of Which is Heavier, the three patient ones, four of Towers, two with PPO.
-    assert len(names) == 2 * (6 + 3 + 4 + 2)
-    assert [job.config.agent.seed for job in everything] == [0] * 15 + [1] * 15
+    # Two seeds of: six conditions of Which is Heavier and four of Towers, each with A3C, with PPO and with the belief
+    # learner in both tracks; three patient ones of A3C; three ablations in two conditions.
+    count = (6 + 4) * 4 + 3 + 3 * 2
+    assert len(names) == 2 * count
+    assert [job.config.agent.seed for job in everything] == [0] * count + [1] * count
     fist = next(job for job in everything if job.config.task == "fist_features")
     assert {"learned", "random", "evaluation", "timestep0.01", "timestep0.1"} <= {trial.name for trial in fist.trials}
 
