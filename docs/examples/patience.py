@@ -28,7 +28,7 @@ def find_claims(frame):
             text="An agent that is in a hurry experiments less",
             section="ours",
             condition="5-F",
-            statistic="mean pokes at gamma 0.9 over those at 0.99, ratio of means over agents",
+            statistic="mean pokes at gamma 0.9 over those at 0.99, ratio of geometric means over agents",
             estimate=estimates.ratio_of_means(mean_pokes(frame, HASTY), mean_pokes(frame, PATIENT)),
             below=1,
         )

@@ -47,7 +47,7 @@ def find_claims(frame) -> list[claims.Claim]:
                         text=text,
                         section="ours",
                         condition=task,
-                        statistic=f"{unit} to {_LEARNED:.0%} right answers, PPO over A3C, ratio of means",
+                        statistic=f"{unit} to {_LEARNED:.0%} right answers, PPO over A3C, ratio of geometric means",
                         estimate=estimates.ratio_of_means(ppo, a3c),
                         below=1,
                         reason=_REASON,

@@ -26,7 +26,8 @@ def find_claims(frame) -> list[claims.Claim]:
                     text="The fist leads to faster learning than direct actuation",
                     section="6.3",
                     condition=kind,
-                    statistic=f"environment steps to {_LEARNED:.0%} right answers, fist over direct, ratio of means",
+                    statistic=f"environment steps to {_LEARNED:.0%} right answers, fist over direct, ratio of "
+                    "geometric means",
                     estimate=estimates.ratio_of_means(fist, direct),
                     below=1,
                     reason="Every push touches the tower, while the fist must first travel to it, though our "

@@ -11,7 +11,7 @@ def solid(friction: float = FRICTION) -> dict:
     """MJCF attributes of a solid geom.
 
     Contacts are as stiff as a physics step of 5 ms allows (a time constant of two steps), with an impedance close to
-    one: at rest, the blocks of a tower settle by less than a micrometre.
+    one: at rest, the blocks of a tower settle by less than ten micrometres.
 
     Args:
       friction: sliding friction coefficient; the larger one of two geoms holds between them.
