@@ -8,7 +8,7 @@ from physexp import suite
 from physexp.suite.engine import seeding
 
 NOISE = 0.01  # m
-P_VALUE = 1e-4  # A right generator fails one test in ten thousand.
+P_VALUE = 1e-6  # A right generator fails one test in a million.
 NOISY = [("which_is_heavier", "features"), ("towers", "direct_features"), ("towers", "fist_features")]
 every_noisy_task = pytest.mark.parametrize("domain, task", NOISY)
 

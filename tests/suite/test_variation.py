@@ -13,7 +13,7 @@ from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import seeding
 from physexp.suite.parts import tower
 
-P_VALUE = 1e-4  # A right generator fails one test in ten thousand.
+P_VALUE = 1e-6  # A right generator fails one test in a million.
 VARYING = sorted(set(suite.ALL_TASKS) - {("threshold", "features")})
 every_varying_task = pytest.mark.parametrize("name", ["/".join(names) for names in VARYING])
 TOWERS = ["direct_features", "fist_features"]
