@@ -14,9 +14,9 @@ from physexp.analysis.replay import beliefs, palette, recording
 from physexp.suite.engine import rendering
 
 EPISODES = {
-    "which_is_heavier": ("which_is_heavier/features", 12, 0),
+    "which_is_heavier": ("which_is_heavier/features", 12, 1),
     "towers": ("towers/fist_features", 8, 0),
-    "threshold": ("threshold/features", 5, 8),
+    "threshold": ("ppo/threshold-features", 5, 8),
 }
 """For each picture whose agent plays, and the seed and the index of the episode."""
 

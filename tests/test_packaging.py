@@ -100,7 +100,11 @@ def test_every_task_plays_from_the_wheel_outside_the_checkout(installed, tmp_pat
 
 def test_the_wheel_holds_the_package_with_its_types_and_trained_agents_and_no_tests(source, wheel):
     modules = {str(path.relative_to(source)) for path in (source / "physexp").rglob("*.py")}
-    trained = {str(path.relative_to(source)) for path in (source / "physexp/agents/pretrained_agents").iterdir()}
+    trained = {
+        str(path.relative_to(source))
+        for path in (source / "physexp/agents/pretrained_agents").rglob("*")
+        if path.is_file()
+    }
     names = zipfile.ZipFile(wheel).namelist()
 
     assert trained

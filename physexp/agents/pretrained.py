@@ -115,7 +115,7 @@ def _load_of(
 
 def _learner(card: Mapping[str, Any]) -> str:
     """Returns the name of the learner that trained an agent; the oldest cards do not say it."""
-    return card["agent"].get("algorithm", "a3c")
+    return card.get("agent", {}).get("algorithm", "a3c")
 
 
 def options_of(domain: str, task: str, folder: Path = FOLDER) -> list[str]:
@@ -142,7 +142,7 @@ def load_named(base: str, folder: Path = FOLDER) -> Pretrained:
     if base not in names(folder):
         raise _MissingError(f"no trained agent is named {base}; there are: {', '.join(names(folder)) or 'none'}")
     path = folder / f"{base}.json"
-    if folder == FOLDER:
+    if folder.is_relative_to(FOLDER):
         path = path.resolve()  # Some installers put links in the place of a package's files.
     card = files.read_json(path)
     try:

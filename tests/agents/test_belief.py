@@ -73,7 +73,7 @@ def test_every_step_of_an_episode_is_trained_towards_the_label_and_none_beyond_i
 @pytest.mark.parametrize("memory", ["attention", "lstm"])
 def test_no_step_knows_what_comes_after_it(memory):
     torch.manual_seed(fresh_seed())
-    members = networks.Members(2, 3, 4, 5, 8, memory)
+    members = networks.Members(2, 3, 4, 5, 64, memory)  # So wide that no step has all its rectifiers shut.
     history = torch.randn(2, 6, 7, 3)
     changed = torch.cat([history[:, :, :4], torch.randn(2, 6, 3, 3)], dim=2)
     for before, after in zip(members(history), members(changed), strict=True):

@@ -2,6 +2,7 @@
 
 import contextlib
 import errno
+import functools
 import hashlib
 import json
 import os
@@ -17,7 +18,12 @@ import torch
 from physexp import agents, suite
 from physexp.agents import checkpointing, core, environment_loop, files, networks, pretrained
 
-CARDS = [pretrained.FOLDER / f"{name}.json" for name in pretrained.names()]
+NAMES = pretrained.names()
+every_agent = pytest.mark.parametrize("name", NAMES)
+
+
+def path_of(name):
+    return pretrained.FOLDER / f"{name}.json"
 
 
 def card_of(path):
@@ -25,16 +31,18 @@ def card_of(path):
 
 
 def test_every_task_has_an_agent_and_which_is_heavier_one_for_each_of_the_papers_difficulties():
-    cards = [card_of(path) for path in CARDS]
+    cards = [pretrained.load_named(name).card for name in NAMES if "/" not in name]
     assert {(card["domain"], card["task"]) for card in cards} == set(suite.ALL_TASKS)
-    kept = {(card["task"], card["difficulty"]) for card in cards if card["domain"] == "which_is_heavier"}
-    assert kept == {(task, difficulty) for task in ("features", "pixels") for difficulty in (3.0, 5.0, 10.0)}
+    kept = sorted(
+        (card["task"], card["task_kwargs"]["difficulty"]) for card in cards if card["domain"] == "which_is_heavier"
+    )
+    assert kept == [(task, difficulty) for task in ("features", "pixels") for difficulty in (3.0, 5.0, 10.0)]
 
 
-@pytest.mark.parametrize("path", CARDS, ids=lambda path: path.stem)
-def test_an_agent_takes_at_most_three_megabytes_and_says_where_it_comes_from(path):
-    assert path.with_name(path.stem + ".safetensors").stat().st_size <= 3_000_000
-    card = card_of(path)
+@every_agent
+def test_an_agent_takes_at_most_three_megabytes_and_says_where_it_comes_from(name):
+    assert path_of(name).with_suffix(".safetensors").stat().st_size <= 3_000_000
+    card = pretrained.load_named(name).card
     assert card["command"].startswith(f"physexp train {card['domain']} {card['task']}")
     assert {"commit", "seed", "frames", "seconds", "evaluation", "versions"} <= set(card)
     assert card["frames"] > 0 and card["seconds"] > 0
@@ -43,15 +51,13 @@ def test_an_agent_takes_at_most_three_megabytes_and_says_where_it_comes_from(pat
         assert figures["episodes"] >= 1000 and low <= figures["success_rate"] <= high
 
 
-@pytest.mark.parametrize("path", CARDS, ids=lambda path: path.stem)
-def test_an_agent_answers_as_well_as_its_card_says(path):
-    card = card_of(path)
+@every_agent
+def test_an_agent_answers_as_well_as_its_card_says(name):
+    card = pretrained.load_named(name).card
     seed = int(np.random.SeedSequence().generate_state(1)[0])
     print("seed", seed)
-    options = {"difficulty": card["difficulty"]} if card.get("difficulty") else {}
-    task_kwargs = {"random": seed, **options}
-    environment = suite.load(card["domain"], card["task"], task_kwargs)
-    actor = agents.load_pretrained(card["domain"], card["task"], **options, seed=seed)
+    environment = suite.load(card["domain"], card["task"], {"random": seed, **card["task_kwargs"]})
+    actor = pretrained.load_named(name).actor(seed)
     assert isinstance(actor, core.Actor)
     num_episodes = 60
     episodes = environment_loop.EnvironmentLoop(environment, actor).run(num_episodes)
@@ -67,12 +73,14 @@ def test_the_default_difficulty_is_that_of_the_task():
     assert card["task_kwargs"]["difficulty"] == suite.load_task("which_is_heavier", "features").options.difficulty
 
 
-@pytest.mark.parametrize("path", CARDS, ids=lambda path: path.stem)
-def test_an_agent_is_found_by_the_options_of_its_task_by_position_and_by_name(path):
-    agent = pretrained.load_named(path.stem)
-    domain, task, options = (agent.card[name] for name in ("domain", "task", "task_kwargs"))
-    assert pretrained.name(domain, task, options) == path.stem
-    for found in (pretrained.load(domain, task, *options.values()), pretrained.load(domain, task, **options)):
+@every_agent
+def test_an_agent_is_found_by_the_options_of_its_task_by_position_and_by_name(name):
+    agent = pretrained.load_named(name)
+    domain, task, options = (agent.card[key] for key in ("domain", "task", "task_kwargs"))
+    *learner, stem = name.split("/")
+    assert pretrained.name(domain, task, options) == stem
+    load = functools.partial(pretrained.load, domain, task, agent=learner[0] if learner else None)
+    for found in (load(*options.values()), load(**options)):
         assert found.card == agent.card
     assert pretrained.load(domain, task, None).card["task"] == task, "None is no choice"
 
@@ -191,8 +199,9 @@ def is_same(network, weights):
     return all(torch.equal(value, weights[name].half().float()) for name, value in network.state_dict().items())
 
 
-@pytest.mark.parametrize("path", CARDS, ids=lambda path: path.stem)
-def test_an_agent_that_comes_with_the_package_has_checksums(path):
+@every_agent
+def test_an_agent_that_comes_with_the_package_has_checksums(name):
+    path = path_of(name)
     card = card_of(path)
     assert card["sha256"] == hashlib.sha256(path.with_suffix(".safetensors").read_bytes()).hexdigest()
     assert pretrained.sealed({**card, "card_sha256": None}) == path.read_bytes()

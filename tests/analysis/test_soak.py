@@ -31,7 +31,9 @@ class Players:
 
     def __init__(self, domain, task, size, seed):
         self.batch = suite.load_batch(domain, task, size, {"random": seed})
-        self._network = pretrained.load(domain, task).network
+        # Environments are in different steps here, and the belief learner's memory has one length for all of them.
+        learner = "ppo" if domain == "threshold" else "a3c"
+        self._network = pretrained.load(domain, task, agent=learner).network
         self._generator = np.random.default_rng(seed)
         self._random = np.arange(size) % 2 == 1
         self._state = self._network.initial_state(size)

@@ -2,7 +2,7 @@
 
 import dm_env
 from episodes import random_actions
-from every_task import every_feature_task, load, load_batch
+from every_task import NOISY, VARYING, every_feature_task, load, load_batch
 import numpy as np
 import pytest
 
@@ -84,6 +84,19 @@ def test_a_reset_rebuilds_a_chosen_episode(seed, name):
             actions = rng.integers(batch.task.num_interactions, size=len(chosen))
             expected = [singles[i].step(a) for i, a in zip(chosen, actions, strict=True)]
             _assert_same(batch.step(actions, environments=np.array(chosen)), expected)
+
+
+@pytest.mark.parametrize(
+    "name, option", [*((name, {"noise": 0.01}) for name in NOISY), *((name, {"variation": 1.0}) for name in VARYING)]
+)
+def test_noise_and_variation_are_the_same_in_a_batch_and_alone(seed, name, option):
+    rng = np.random.default_rng(seed)
+    batch, singles = _load_both(name, seed, 3, **option)
+    for _ in range(3):  # Episodes.
+        _assert_same(batch.reset(), [single.reset() for single in singles])
+        for _ in range(4):
+            actions = rng.integers(batch.task.num_interactions, size=3)
+            _assert_same(batch.step(actions), [single.step(a) for single, a in zip(singles, actions, strict=True)])
 
 
 @pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])

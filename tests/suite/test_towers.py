@@ -80,6 +80,70 @@ def test_the_tower_starts_as_a_column_of_touching_cubes(task_name):
     np.testing.assert_allclose(positions, expected, atol=1e-5)
 
 
+OTHER = {"cube_size": 0.095, "sliding_friction": 0.45}
+
+
+@pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
+def test_towers_of_other_cubes_are_columns_of_them_and_glued_ones_keep_their_distance(task_name):
+    edge = OTHER["cube_size"]
+    batch = suite.load_batch("towers", task_name, 16, {"random": 0, **OTHER})
+    positions = [batch.reset(hidden=np.arange(16)).observation["positions"]]
+    np.testing.assert_allclose(positions[0], [[(0, 0, edge / 2 + k * edge) for k in range(5)]] * 16, atol=1e-5)
+    positions += [batch.step(np.zeros(16, int)).observation["positions"] for _ in range(10)]
+    for pattern, lower in itertools.product(EVERY_PATTERN, range(4)):
+        distances = _distances(np.array(positions)[:, pattern], lower, lower + 1)
+        if _glued(pattern, lower, lower + 1):
+            np.testing.assert_allclose(distances, edge, rtol=0, atol=1e-6)
+    batch.close()
+
+
+@pytest.mark.parametrize("options", [{"cube_size": 0.08}, {"cube_size": 0.12}, {"sliding_friction": 1.0}, OTHER])
+def test_towers_of_other_cubes_look_alike_until_the_fist_is_there(options):
+    batch = suite.load_batch("towers", "fist_features", 16, {"random": 0, **options})
+    first = batch.reset(hidden=np.arange(16)).observation["positions"]
+    for _ in range(20):
+        now = batch.step(np.ones(16, int)).observation["positions"]  # To -x, away from the tower.
+    assert first.tobytes() == now.tobytes()
+    assert len({column.tobytes() for column in first}) == 1
+    batch.close()
+
+
+@pytest.mark.parametrize("variation", [0.0, 1.0])
+@pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
+def test_everything_that_slides_has_the_friction_that_was_chosen(task_name, variation):
+    kwargs = {"random": 0, "sliding_friction": 0.45, "variation": variation}
+    environment = suite.load("towers", task_name, kwargs)
+    environment.reset()
+    model = environment.physics.model
+    sliding = {model.id2name(i, "geom") for i in np.flatnonzero(model.geom_friction[:, 0] == 0.45)}
+    fists = {name for name in sliding if "fist" in name}
+    assert len(sliding) == 5 + 1 + (task_name == "fist_features") and len(fists) == (task_name == "fist_features")
+    assert not (model.geom_friction[:, 0] == 0.3).any()
+    environment.close()
+
+
+def test_more_friction_takes_cubes_less_far():
+    moved = []
+    for friction in (0.2, 0.3, 0.45):
+        batch = suite.load_batch("towers", "direct_features", 1, {"random": 0, "sliding_friction": friction})
+        first = batch.reset(hidden=[SEPARATE]).observation["positions"][0, 1, 0]
+        moved.append(batch.step(np.array([4])).observation["positions"][0, 1, 0] - first)  # Cube 1 to +x.
+        batch.close()
+    assert moved[0] > moved[1] > moved[2] > 0
+
+
+@pytest.mark.parametrize("value", [0.07, 0.13, None, "big", True])
+def test_cubes_of_no_sensible_size_are_refused(value):
+    with pytest.raises(ValueError, match="^cube_size is .*; give a number from 0.08 to 0.12 m$"):
+        suite.load("towers", "fist_features", {"cube_size": value})
+
+
+@pytest.mark.parametrize("value", [0.0, 1.1, "much", np.nan])
+def test_friction_that_makes_no_sense_is_refused(value):
+    with pytest.raises(ValueError, match="^sliding_friction is .*; give a number from 0.1 to 1$"):
+        suite.load("towers", "fist_features", {"sliding_friction": value})
+
+
 @functools.cache
 def _random_episodes(task_name):
     """A whole episode of two towers of each pattern: patterns [32] and positions [T, 32, 5, 3]."""

@@ -119,6 +119,7 @@ class BeliefLearner(synchronous.SynchronousLearner):
         )
         learns = torch.arange(config.num_members)[:, None, None] != episodes.judges
         each = torch.arange(len(lengths))
+        are_last = torch.arange(len(actions))[:, None] == lengths - 1
         last_actions = actions[lengths - 1, each]
         are_answered = last_actions >= network.num_interactions
         if config.answers_revealed:
@@ -129,7 +130,7 @@ class BeliefLearner(synchronous.SynchronousLearner):
             labels = losses.hindsight(their_logits[lengths - 1, each], answers, episodes.rewards > 0)
             are_counted = played & are_answered
         if not config.every_step:
-            are_counted = are_counted & (torch.arange(len(actions))[:, None] == lengths - 1)
+            are_counted = are_counted & are_last
         belief_loss = losses.belief_loss(logits, labels, are_counted & learns)
         beliefs = their_logits.softmax(-1)
         best = (shares.detach() * learns[..., None]).sum(0).argmax(-1)  # As those who learn from the episode see it.
@@ -137,7 +138,7 @@ class BeliefLearner(synchronous.SynchronousLearner):
             2 * beliefs.amax(-1) - 1,
             network.values(beliefs, their_shares).gather(-1, best[..., None])[..., 0],
             best == actions,
-            torch.arange(len(actions))[:, None] == lengths - 1,
+            are_last,
             episodes.rewards,
             config.discount,
             config.trace,

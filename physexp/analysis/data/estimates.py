@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 _LEVEL = 0.95
+_NORMAL = 1.96  # Standard errors on either side that hold so much of a normal distribution.
 
 
 @dataclasses.dataclass(frozen=True)
@@ -111,6 +112,11 @@ def ratio_of_pairs(numerators: Sequence[float] | np.ndarray, denominators: Seque
         return Estimate(math.nan, 0.0, math.inf)
     logs = mean(np.log(top / bottom))
     return Estimate(math.exp(logs.value), math.exp(logs.low), math.exp(logs.high))
+
+
+def normal(value: float, standard_error: float) -> Estimate:
+    """Returns a figure with the normal interval of its standard error, as a mean of many values has it."""
+    return Estimate(value, value - _NORMAL * standard_error, value + _NORMAL * standard_error)
 
 
 def bootstrap(

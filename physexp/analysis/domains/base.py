@@ -11,6 +11,7 @@ from physexp.agents.ppo import config as ppo
 if TYPE_CHECKING:
     import numpy as np
 
+    from physexp.agents import core
     from physexp.analysis.ideal import base as ideal
 
 
@@ -70,6 +71,7 @@ class Domain:
       targets: by the names of the agents that come with the package, what each must reach: a figure of its evaluation
         and the least value.
       ideal: how to find the ideal experimenter; None where none is known.
+      baselines: by task, experimenters that nobody trained, by name, as functions that make their actors.
       columns: the domain's own columns of stored episodes.
       fill: returns these columns by name, [N] or [N, K] for lists, of hidden properties, [N, ...].
     """
@@ -80,6 +82,7 @@ class Domain:
     labels: Mapping[str, str] = dataclasses.field(default_factory=dict)
     targets: Mapping[str, tuple[str, float]] = dataclasses.field(default_factory=dict)
     ideal: Ideal | None = None
+    baselines: "Mapping[str, Mapping[str, Callable[[], core.Actor]]]" = dataclasses.field(default_factory=dict)
     columns: tuple[Column, ...] = ()
     fill: "Callable[[np.ndarray], Mapping[str, np.ndarray]]" = nothing
 

@@ -72,7 +72,7 @@ DOMAIN = base.Domain(
             "belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT),
         },
     },
-    targets={"threshold-features": ("mean_return", 0.81), "threshold-pixels": ("mean_return", 0.76)},
+    targets={"threshold-features": ("mean_return", 0.84), "threshold-pixels": ("mean_return", 0.76)},
     ideal=base.Ideal(_solve, IdealOptions),
     columns=(base.Column("friction", "float32", is_varied=True),),  # N
     fill=lambda hidden: {"friction": hidden},

@@ -2,12 +2,16 @@
 
 from collections.abc import Mapping
 import dataclasses
-from typing import Any
+import functools
+from typing import TYPE_CHECKING, Any
 
 from physexp.agents.a3c import config as a3c
 from physexp.agents.belief import config as belief
 from physexp.agents.ppo import config as ppo
 from physexp.analysis.domains import base
+
+if TYPE_CHECKING:
+    from physexp.agents import core
 
 _NAME = "towers"
 _DISCOUNT = 0.98
@@ -107,28 +111,51 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolu
     return search.solve(trajectories(task, task_kwargs), resolution, discount)
 
 
-_FROM_FEATURES, _FROM_IMAGES = (
-    config.replace(discount=_DISCOUNT) for config in (belief.BeliefConfig(), belief.FROM_IMAGES)
-)
-_BELIEF = {
-    "direct_features": _FROM_FEATURES,
-    "direct_pixels": _FROM_IMAGES,
-    "fist_features": _FROM_FEATURES,
-    "fist_pixels": _FROM_IMAGES,
+def _rule(interactions: tuple[int, ...], num_interactions: int) -> "core.Actor":
+    """Returns an actor that holds cubes for glued while their distance has not changed."""
+    from physexp.analysis.domains import glue
+
+    return glue.GlueRule(interactions, num_interactions)
+
+
+@functools.cache
+def _seen(task: str):
+    """Returns the ideal experimenter of a task without variation, to whom a millimetre is a difference."""
+    return _solve(task, {}, _DISCOUNT, resolution=0.001)
+
+
+def _lookup(task: str) -> "core.Actor":
+    """Returns an actor that plays the ideal policy, and takes each tower for the nearest of the 16 there are."""
+    return _seen(task).actor()
+
+
+_BASELINES = {
+    "direct_features": {
+        "rule": functools.partial(_rule, (4, 14), 20),  # Push cube 1 to +x, and cube 3 to +y.
+        "lookup": functools.partial(_lookup, "direct_features"),
+    },
+    "fist_features": {
+        "rule": functools.partial(_rule, (0,), 4),  # Move the fist to +x, where the tower is.
+        "lookup": functools.partial(_lookup, "fist_features"),
+    },
 }
+
+_FROM_IMAGES = {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}
+_BELIEF = {"direct_pixels": _FROM_IMAGES, "fist_pixels": _FROM_IMAGES}
 
 DOMAIN = base.Domain(
     name=_NAME,
     discount=_DISCOUNT,
-    presets={task: {"a3c": _A3C[task], "ppo": _PPO[task], "belief": _BELIEF[task]} for task in _A3C},
+    presets={task: {"a3c": _A3C[task], "ppo": _PPO[task], **_BELIEF.get(task, {})} for task in _A3C},
     labels={"direct_features": "D-F", "direct_pixels": "D-P", "fist_features": "F-F", "fist_pixels": "F-P"},
     targets={
-        "towers-direct_features": ("success_rate", 0.95),
-        "towers-fist_features": ("success_rate", 0.98),
+        "towers-direct_features": ("mean_return", 0.97),
+        "towers-fist_features": ("mean_return", 0.93),
         "towers-direct_pixels": ("success_rate", 0.93),
         "towers-fist_pixels": ("success_rate", 0.97),
     },
     ideal=base.Ideal(_solve, IdealOptions),
+    baselines=_BASELINES,
     columns=(base.Column("pattern", "int8", is_everywhere=True),),  # An index in `tower.PATTERNS`.
     fill=lambda hidden: {"pattern": hidden},
 )

@@ -67,9 +67,9 @@ DOMAIN = base.Domain(
     },
     labels={"features": "{difficulty:g}-F", "pixels": "{difficulty:g}-P"},
     targets={
-        "which_is_heavier-features-difficulty3": ("mean_return", 0.79),
-        "which_is_heavier-features-difficulty5": ("mean_return", 0.83),
-        "which_is_heavier-features-difficulty10": ("mean_return", 0.86),
+        "which_is_heavier-features-difficulty3": ("mean_return", 0.82),
+        "which_is_heavier-features-difficulty5": ("mean_return", 0.85),
+        "which_is_heavier-features-difficulty10": ("mean_return", 0.88),
         "which_is_heavier-pixels-difficulty3": ("success_rate", 0.88),
         "which_is_heavier-pixels-difficulty5": ("success_rate", 0.94),
         "which_is_heavier-pixels-difficulty10": ("success_rate", 0.97),

@@ -23,6 +23,7 @@ NAMES = (
     "learners",
     "data_efficiency",
     "ablations",
+    "generalization",
 )
 """The experiments in the paper's order; each is the `EXPERIMENT` of the module of its name."""
 

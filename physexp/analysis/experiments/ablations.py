@@ -2,13 +2,15 @@
 
 from typing import Any
 
+from physexp.agents.belief import config as belief
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions, learning, scores
 
 _WHOLE = "belief"
+# Without replay only the last round is learned from.
 VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
-    "belief_no_replay": ("without replay", {"replay_episodes": 16}),  # The last round alone.
+    "belief_no_replay": ("without replay", {"replay_episodes": belief.BeliefConfig.num_environments}),
     "belief_last_step": ("belief at the last step alone", {"every_step": False}),
     "belief_lstm": ("an LSTM in place of attention", {"memory": "lstm"}),
     "belief_revealed": ("answers revealed", {"answers_revealed": True}),
@@ -31,8 +33,15 @@ _CLAIMS = {
 
 
 def load(results: base.Results):
-    """Learning curves of all variants; see `scores.load`."""
-    return scores.load(results, CONDITIONS)
+    """Learning curves of all variants; see `scores.load`.
+
+    Raises:
+      ValueError: if no variant has been trained.
+    """
+    frame = scores.load(results, CONDITIONS)
+    if not frame.algorithm.isin(VARIANTS).any():
+        raise ValueError(f"{results.path} holds no finished runs of the variants; `physexp reproduce ablations` first")
+    return frame
 
 
 def find_claims(frame) -> list[claims.Claim]:

@@ -1,6 +1,6 @@
 """The parts of an experiment: the agents it needs, the episodes they play, its claims and its figure."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import dataclasses
 import functools
 import math
@@ -22,14 +22,14 @@ class Trial:
       name: of the folder with the episodes.
       interaction: learned, or random for the paper's randomized interaction.
       num_episodes, num_steps: it plays until it has had at least so many of both, in whole episodes.
-      control_timestep: time between actions, s; None for that of training.
+      task_kwargs: options of the task that differ from those of training.
     """
 
     name: str
     interaction: str = "learned"
     num_episodes: int = 1
     num_steps: int = 0
-    control_timestep: float | None = None
+    task_kwargs: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)  # A dictionary has no hash.
 
 
 LEARNED = Trial(name="learned", num_steps=10_000)
@@ -44,6 +44,7 @@ class Results:
 
     runs/NAME/                     a run: configuration, metrics, the agent in half precision
     episodes/TRIAL/NAME.parquet    what the run's agent played, a row an episode
+    ideal/, generalization/        what experimenters earn that nobody trained
     figures/EXPERIMENT.{svg,png}
     report.md, report.html
     """
@@ -79,6 +80,10 @@ class Results:
             raise ValueError(f"{self.path} holds no episodes of this experiment; `physexp reproduce` it first")
         frame = records.read(paths, [*always, *columns])
         return frame.assign(condition=_labels(frame))
+
+    def has_played(self, trial: Trial, config: config_lib.TrainConfig) -> bool:
+        """Returns whether an agent of a condition has played what is asked for, whatever its seed."""
+        return bool(self._complete([trial], config))
 
     def curves(self, configs: Sequence[config_lib.TrainConfig]) -> Any:
         """Learning curves: a DataFrame of the rows of `metrics.METRICS` of all seeds of these conditions."""

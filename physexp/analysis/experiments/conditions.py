@@ -38,6 +38,7 @@ _BELIEF_FRAMES = {
     "D-P": 80_000,
     "F-P": 100_000,
 }
+_VARIED_FRAMES = {"D-F": 150_000, "F-F": 150_000, "D-P": 200_000, "F-P": 250_000}  # The same, with variation.
 
 
 def heavier(
@@ -80,6 +81,12 @@ def with_belief(config: config_lib.TrainConfig, **changes: Any) -> config_lib.Tr
     agent = config_lib.preset(config.domain, config.task, algorithm="belief")
     agent = agent.replace(discount=config.agent.discount, frames=_BELIEF_FRAMES[config.label], **changes)
     return dataclasses.replace(config, agent=agent)
+
+
+def with_variation(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
+    """Returns a condition of Towers with full variation, and the belief learner's budget for that."""
+    agent = config.agent.replace(frames=_VARIED_FRAMES[config.label])
+    return dataclasses.replace(config, task_kwargs={**config.task_kwargs, "variation": 1.0}, agent=agent)
 
 
 def observations(config: config_lib.TrainConfig) -> str:

@@ -133,14 +133,13 @@ def _at_the_end(agents, label: str, learner: str) -> list[claims.Claim]:
     ]
     if not scores.sees_pixels(label):
         worst = agents.loc[agents.share.idxmin()]
-        margin = 1.96 * worst.error
         found.append(
             claims.Claim(
                 text="No agent of the belief learner is far from the optimum",
                 section="ours",
                 condition=label,
                 statistic=f"share of the ideal's return, {LEARNERS[learner]}, the worst; interval: of its episodes",
-                estimate=estimates.Estimate(worst.share, worst.share - margin, worst.share + margin),
+                estimate=estimates.normal(worst.share, worst.error),
                 above=LEAST_OF_THE_WORST,
             )
         )

@@ -95,7 +95,7 @@ def find_claims(frame) -> list[claims.Claim]:
                 )
             )
         best = int(shares.argmax())
-        margin = 1.96 * (agents.return_error / agents.ideal_return).to_numpy()[best]
+        error = (agents.return_error / agents.ideal_return).to_numpy()[best]
         found.append(
             claims.Claim(
                 text="No agent beats the ideal experimenter",
@@ -103,7 +103,7 @@ def find_claims(frame) -> list[claims.Claim]:
                 condition=condition,
                 statistic="share of the ideal's return, the best agent; interval: of its episodes; "
                 "1 % allowed for luck",
-                estimate=estimates.Estimate(shares[best], shares[best] - margin, shares[best] + margin),
+                estimate=estimates.normal(shares[best], error),
                 below=1.01,
             )
         )

@@ -11,6 +11,8 @@ from physexp.analysis.training import config as config_lib
 TASKS = (*conditions.HEAVIER, *conditions.TOWERS)
 LEVEL = 0.95  # Of the ideal's return, for features; of right answers, for pixels.
 FLOOR = -0.5  # Of figures; what is less is of no interest.
+_TASK_OF = {task.label: task for task in TASKS}
+_FROM_PIXELS = frozenset(task.label for task in TASKS if conditions.observations(task) == "pixels")
 _FINE = 0.001  # m, the least that the observer distinguishes whom agents from features are compared with.
 
 
@@ -38,15 +40,15 @@ def final(results: base.Results, wanted: Sequence[config_lib.TrainConfig]):
     import pandas
 
     rows = []
-    ideals = {task.label: task for task in TASKS}
+    ideals: dict[str, float] = {}
     for config in wanted:
-        try:
-            frame = results.episodes([base.EVALUATION], [config], ["reward", "length"])
-        except ValueError:
-            continue  # Not trained (yet): what is said is about those that are.
-        ideal = ideal_return(ideals[config.label], results)
+        if not results.has_played(base.EVALUATION, config):
+            continue  # What is said is about those that have been trained.
+        frame = results.episodes([base.EVALUATION], [config], ["reward", "length"])
+        if config.label not in ideals:
+            ideals[config.label] = ideal_return(_TASK_OF[config.label], results)
         for seed, episodes in frame.groupby("training_seed"):
-            shares = records.discounted_return(episodes) / ideal
+            shares = records.discounted_return(episodes) / ideals[config.label]
             rows.append(
                 {
                     "condition": config.label,
@@ -69,7 +71,7 @@ def ideal_return(task: config_lib.TrainConfig, results: base.Results) -> float:
 
 def sees_pixels(label: str) -> bool:
     """Returns whether agents observe pixels in a condition of this name."""
-    return label in {task.label for task in TASKS if conditions.observations(task) == "pixels"}
+    return label in _FROM_PIXELS
 
 
 def level(label: str) -> str:

@@ -9,7 +9,7 @@ from physexp.analysis.experiments import base, claims, conditions
 CONTROL_TIMESTEPS = tuple(round(0.01 * number, 2) for number in range(1, 11))  # s; the last is that of training
 CONDITIONS = tuple(conditions.towers("fist", kind) for kind in conditions.OBSERVATIONS)
 TRIALS = tuple(
-    base.Trial(name=f"timestep{timestep:g}", num_steps=10_000, control_timestep=timestep)
+    base.Trial(name=f"timestep{timestep:g}", num_steps=10_000, task_kwargs={"control_timestep": timestep})
     for timestep in CONTROL_TIMESTEPS
 )
 _FINEST, _TRAINED = CONTROL_TIMESTEPS[0], CONTROL_TIMESTEPS[-1]

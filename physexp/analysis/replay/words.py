@@ -18,9 +18,8 @@ _READING = f"""
 - **what is hidden**: guess first, then click *{HIDDEN_TAB}*, above the scene.
 """
 
-_OWN_BELIEF = (
-    """how likely it holds each label to be right. An answer now is worth twice the greatest of them, less one."""
-)
+_OWN_BELIEF = """how likely it holds each label to be right.
+  An answer now is worth twice the greatest of them, less one."""
 
 _BELIEF_OF_POLICY = """the policy restricted to the labels and renormalized: its answer, if it had to give one now.
   While it would rather experiment, the policy of every label is near 0, whatever it believes."""

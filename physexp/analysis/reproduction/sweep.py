@@ -188,8 +188,7 @@ def _replays(run: run_lib.Run, config: config_lib.TrainConfig) -> recorder.OnChe
 def _play(run: run_lib.Run, trial: base.Trial) -> pyarrow.Table:
     """Returns the rows of what a run's agent plays."""
     config = run.config
-    chosen = {} if trial.control_timestep is None else {"control_timestep": trial.control_timestep}
-    played_as = dataclasses.replace(config, task_kwargs={**config.task_kwargs, **chosen})
+    played_as = dataclasses.replace(config, task_kwargs={**config.task_kwargs, **trial.task_kwargs})
     played = playing.play(
         playing.load_network(run),
         played_as,

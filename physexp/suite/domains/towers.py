@@ -1,15 +1,16 @@
 """Towers: a column of five cubes, and the question how many rigid bodies it is made of (paper, Section 6)."""
 
 import dataclasses
+import functools
 import math
 
 from dm_control.utils import containers
 import numpy as np
 
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import declarations, seeding, senses, task
+from physexp.suite.engine import checks, declarations, seeding, senses, task
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import actuators, arena, material, tower
+from physexp.suite.parts import actuators, arena, block, material, tower
 
 SUITE = containers.TaggedTasks()
 
@@ -27,11 +28,26 @@ _ROOM = dict(mat_size=[0.6, 0.6], camera_pos=[0.35, -3.4, 2.0], camera_target=[-
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Options(options_lib.Options):
-    """The `task_kwargs` of this domain."""
+    """The `task_kwargs` of this domain.
+
+    Attributes:
+      cube_size: edge of the cubes, 0.08 to 0.12, m.
+      sliding_friction: coefficient of friction, 0.1 to 1, of cubes, floor and fist; by default 0.3, which `variation`
+        then varies.
+    """
 
     physics_timestep = PHYSICS_TIMESTEP
 
     time_limit: float = 2.6  # the paper's 26 steps at its control step of 0.1 s
+    cube_size: float = 2 * block.HALF_SIZE
+    sliding_friction: float | None = None
+
+    def __post_init__(self):
+        super().__post_init__()
+        object.__setattr__(self, "cube_size", checks.between("cube_size", self.cube_size, 0.08, 0.12, "m"))
+        if self.sliding_friction is not None:
+            friction = checks.between("sliding_friction", self.sliding_friction, 0.1, 1.0)
+            object.__setattr__(self, "sliding_friction", friction)
 
 
 NUM_BODIES = np.array([tower.num_bodies(pattern) for pattern in tower.PATTERNS])
@@ -62,6 +78,7 @@ def draw_patterns(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
 class Towers(task.QuestionTask):
     """A tower whose glue is hidden."""
 
+    options: Options
     question = "How many rigid bodies is the tower made of?"
     num_structures = len(tower.PATTERNS)
 
@@ -69,10 +86,17 @@ class Towers(task.QuestionTask):
         """Builds the scene around an actuator, a `DirectActuator` or a `FistActuator`."""
         room = arena.Laboratory(**_ROOM)
         room.add_walls(WALL_DISTANCE, CEILING)
+        self._build_tower = functools.partial(
+            tower.Tower, half_size=options.cube_size / 2, friction=options.sliding_friction or material.FRICTION
+        )
         self._actuator = actuator
         self._tower: tower.Tower | None = None
         self._towers: dict[int, tower.Tower] = {}  # Built when first needed, one for each pattern.
         actuator.attach_to(room)
+        if options.sliding_friction is not None:
+            for geom in room.mjcf_model.find_all("geom"):
+                if geom.friction is not None and geom.friction[0] == material.FRICTION:
+                    geom.friction[0] = options.sliding_friction
         self._room = room
         self.arrange(0)
         super().__init__(room, options, sense)
@@ -116,7 +140,7 @@ class Towers(task.QuestionTask):
 
     def arrange(self, structure):
         if structure not in self._towers:
-            self._towers[structure] = built = tower.Tower(tower.PATTERNS[structure])
+            self._towers[structure] = built = self._build_tower(tower.PATTERNS[structure])
             self._actuator.equip(built)
         if self._tower is not self._towers[structure]:
             if self._tower is not None:
@@ -143,7 +167,7 @@ class Towers(task.QuestionTask):
         return declarations.Circumstances(
             fields={
                 **apparatus_lib.scaled_masses(apparatus, standing.bodies, 1 + MASS_VARIATION * mass),
-                **_frictions(apparatus.model, friction),
+                **({} if self.options.sliding_friction else _frictions(apparatus.model, friction)),
             },
             qpos=(
                 np.concatenate([standing.qpos, addresses]),

@@ -329,10 +329,9 @@ class _Group:
         self._batch.state[rows] = self._rest
         self._control[rows] = 0
         self._is_at_rest[rows] = True
-        circumstances, starts = self._task.begin(self.apparatus, nuisances)
-        for fields in (self._task.hidden_fields(self.apparatus, hidden), circumstances.fields):
-            for field, (addresses, values) in fields.items():
-                self._batch.expand(field)[rows[:, None], addresses] = values
+        fields, starts = self._task.begin(self.apparatus, hidden, nuisances)
+        for field, addresses, values in fields:
+            self._batch.expand(field)[rows[:, None], addresses] = values
         if not self._are_alike:
             self._qpos[rows] = starts.qpos
             self._starts.put(rows, starts)

@@ -21,6 +21,10 @@ def is_integer(value) -> bool:
     return isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
 
 
+def _is_number(value) -> bool:
+    return is_integer(value) or isinstance(value, (float, np.floating))
+
+
 def integer(name: str, value, minimum: int, maximum: int) -> int:
     """Returns `value` as an int.
 
@@ -39,7 +43,7 @@ def number(name: str, value, minimum: float, unit: str, strictly: bool = False) 
     Raises:
       ValueError: if it is no finite number of at least (strictly: above) `minimum`.
     """
-    if is_integer(value) or isinstance(value, (float, np.floating)):
+    if _is_number(value):
         try:
             converted = float(value)
         except OverflowError:
@@ -48,6 +52,17 @@ def number(name: str, value, minimum: float, unit: str, strictly: bool = False) 
             return converted
     sign = ">" if strictly else ">="
     raise ValueError(f"{name} is {shown(value)}; give a finite number {sign} {minimum} ({unit})")
+
+
+def between(name: str, value, minimum: float, maximum: float, unit: str = "") -> float:
+    """Returns `value` as a float.
+
+    Raises:
+      ValueError: if it is no number from `minimum` to `maximum`.
+    """
+    if _is_number(value) and minimum <= value <= maximum:
+        return float(value)
+    raise ValueError(f"{name} is {shown(value)}; give a number from {minimum:g} to {f'{maximum:g} {unit}'.strip()}")
 
 
 def flag(name: str, value) -> bool:

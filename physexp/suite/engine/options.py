@@ -41,10 +41,7 @@ class Options:
             if seconds > longest:
                 raise ValueError(f"{name} is {checks.shown(getattr(self, name))}; give at most {longest:g} s")
             object.__setattr__(self, name, seconds)
-        variation = checks.number("variation", self.variation, 0, "at most 1")
-        if variation > 1:
-            raise ValueError(f"variation is {checks.shown(self.variation)}; give a number from 0 to 1")
-        object.__setattr__(self, "variation", variation)
+        object.__setattr__(self, "variation", checks.between("variation", self.variation, 0, 1))
         object.__setattr__(self, "noise", checks.number("noise", self.noise, 0, "m"))
         if self.substeps < 1 or abs(self.substeps * self.physics_timestep - self.control_timestep) > 1e-9:
             raise ValueError(

@@ -243,13 +243,24 @@ class QuestionTask(composer.Task):
         return apparatus_lib.build(self.root_entity.mjcf_model, self.readings, self.held, self.indicators)
 
     def begin(
-        self, apparatus: apparatus_lib.Apparatus, nuisances: np.ndarray
-    ) -> tuple[declarations.Circumstances, apparatus_lib.Starts]:
-        """Returns the circumstances of episodes, and how they start, of nuisances [N, number of them]."""
+        self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray, nuisances: np.ndarray
+    ) -> tuple[list[tuple[str, np.ndarray, np.ndarray]], apparatus_lib.Starts]:
+        """Returns what episodes are simulated with.
+
+        Args:
+          apparatus: what is simulated.
+          hidden: the hidden properties, [N, ...].
+          nuisances: float64 [N, number of them], which is 0 without variation.
+
+        Returns:
+          Fields of the model, their addresses, int [M], and values, float64 [N, M]; and how the episodes start.
+        """
+        fields = self.hidden_fields(apparatus, hidden)
         if not nuisances.shape[1]:
-            return declarations.Circumstances(), apparatus.start.repeated(len(nuisances))
+            return _listed(fields), apparatus.start.repeated(len(nuisances))
         circumstances = self.circumstances(apparatus, nuisances)
-        return circumstances, apparatus.starts(circumstances, len(nuisances))
+        starts = apparatus.starts(circumstances, len(nuisances))
+        return _listed(fields) + _listed(circumstances.fields), starts
 
     def blank_observations(self, size: int) -> dict[str, np.ndarray]:
         """Returns arrays for the observations of `size` environments."""
@@ -327,10 +338,9 @@ class QuestionTask(composer.Task):
         self.arrange(self.structure)
 
     def initialize_episode(self, physics, random_state):
-        circumstances, self._starts = self.begin(self.apparatus, self._ledger.nuisances)
-        for fields in (self.hidden_fields(self.apparatus, self._ledger.hidden), circumstances.fields):
-            for field, (addresses, values) in fields.items():
-                getattr(physics.model, field)[addresses] = values[0]
+        fields, self._starts = self.begin(self.apparatus, self._ledger.hidden, self._ledger.nuisances)
+        for field, addresses, values in fields:
+            getattr(physics.model, field)[addresses] = values[0]
         physics.data.qpos[:] = self._starts.qpos[0]
         self._action = 0
         self._look({field: self._starts.shown[field] for field in self.sense.fields})
@@ -368,3 +378,7 @@ class QuestionTask(composer.Task):
 
     def should_terminate_episode(self, physics):
         return self._last
+
+
+def _listed(fields: declarations.Fields) -> list[tuple[str, np.ndarray, np.ndarray]]:
+    return [(field, addresses, values) for field, (addresses, values) in fields.items()]

@@ -16,14 +16,14 @@ COLORS = (
 
 
 class Block(composer.Entity):
-    """A cube of edge 0.1 m with a site at its centre of mass."""
+    """A cube with a site at its centre of mass."""
 
-    def _build(self, rgba, mass, name="block"):
-        """Builds a cube of the given colour and mass (kg)."""
+    def _build(self, rgba, mass, half_size=HALF_SIZE, friction=material.FRICTION, name="block"):
+        """Builds a cube of the given colour, mass (kg), half an edge (m) and coefficient of friction."""
         self._root = mjcf.RootElement(model=name)
         world = self._root.worldbody
         self.geom = world.add(
-            "geom", name="geom", type="box", size=[HALF_SIZE] * 3, mass=mass, rgba=rgba, **material.solid()
+            "geom", name="geom", type="box", size=[half_size] * 3, mass=mass, rgba=rgba, **material.solid(friction)
         )
         self.center = world.add("site", name="center", size=[0.001], group=5)
 

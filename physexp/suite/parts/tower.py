@@ -5,7 +5,7 @@ import itertools
 from dm_control import composer, mjcf
 import numpy as np
 
-from physexp.suite.parts import block
+from physexp.suite.parts import block, material
 
 NUM_BLOCKS = 5
 BLOCK_MASS = 1.0  # kg
@@ -37,32 +37,35 @@ class Tower(composer.Entity):
     directly below the world. All coordinates are zero (and the quaternion the identity) in the initial column.
     """
 
-    def _build(self, pattern, name="tower"):
-        """Builds the tower with this glue pattern, four booleans from the lowest joint up."""
+    def _build(self, pattern, half_size=block.HALF_SIZE, friction=material.FRICTION, name="tower"):
+        """Builds the tower.
+
+        Args:
+          pattern: where it is glued, four booleans from the lowest joint up.
+          half_size: half the edge of a cube, m.
+          friction: of the cubes.
+          name: name of the MJCF model.
+        """
         self._root = mjcf.RootElement(model=name)
+        heights = [(2 * k + 1) * half_size for k in range(NUM_BLOCKS)]  # Of the cubes' centres.
         self.pattern = tuple(pattern)
         self.blocks = []
         self.joints = []
         for number, members in enumerate(_rigid_bodies(self.pattern)):
-            center = np.mean([self._height(k) for k in members])
+            center = np.mean([heights[k] for k in members])
             body = self._root.worldbody.add("body", name=f"body_{number}", pos=[0, 0, center])
             for axis, direction in zip("xyz", np.eye(3), strict=True):
                 self.joints.append(body.add("joint", name=f"{axis}_{number}", type="slide", axis=direction))
             self.joints.append(body.add("joint", name=f"ball_{number}", type="ball"))
             for k in members:
-                cube = block.Block(rgba=block.COLORS[k], mass=BLOCK_MASS, name=f"block_{k}")
-                mount = body.add("site", name=f"mount_{k}", pos=[0, 0, self._height(k) - center], group=5)
+                cube = block.Block(block.COLORS[k], BLOCK_MASS, half_size, friction, name=f"block_{k}")
+                mount = body.add("site", name=f"mount_{k}", pos=[0, 0, heights[k] - center], group=5)
                 self.attach(cube, mount)
                 self.blocks.append(cube)
         self.position_sensors = [
             self._root.sensor.add("framepos", name=f"position_{k}", objtype="site", objname=cube.center)
             for k, cube in enumerate(self.blocks)
         ]
-
-    @staticmethod
-    def _height(k: int) -> float:
-        """Height of block k's centre above the floor, m."""
-        return (2 * k + 1) * block.HALF_SIZE
 
     @property
     def mjcf_model(self):

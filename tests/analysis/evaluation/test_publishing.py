@@ -54,13 +54,13 @@ def test_the_command_on_the_card_describes_the_same_run(published):
     assert train.config == run.config.agent
 
 
-@pytest.mark.parametrize("card", sorted(pretrained.FOLDER.glob("**/*.json")), ids=lambda path: path.stem)
-def test_the_commands_of_the_agents_that_come_with_the_package_describe_them_still(card):
-    said = json.loads(card.read_text())
+@pytest.mark.parametrize("name", pretrained.names())
+def test_the_commands_of_the_agents_that_come_with_the_package_describe_them_still(name):
+    said = json.loads((pretrained.FOLDER / f"{name}.json").read_text())
     _, *arguments = shlex.split(said["command"])
     train = parsing.parse(arguments)
-    names = ("domain", "task", "difficulty", "task_kwargs", "agent")  # Earlier cards have a difficulty.
-    config = config_lib.TrainConfig.from_json({name: said[name] for name in names if name in said})
+    keys = ("domain", "task", "difficulty", "task_kwargs", "agent")  # Earlier cards have a difficulty.
+    config = config_lib.TrainConfig.from_json({key: said[key] for key in keys if key in said})
     assert (train.domain, train.task, options.chosen(train.options)) == (
         said["domain"],
         said["task"],

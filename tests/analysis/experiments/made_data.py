@@ -14,7 +14,15 @@ import pyarrow
 from scipy import special
 
 from physexp.analysis.evaluation import records
-from physexp.analysis.experiments import ablations, conditions, data_efficiency, learners, population, waiting
+from physexp.analysis.experiments import (
+    ablations,
+    conditions,
+    data_efficiency,
+    generalization,
+    learners,
+    population,
+    waiting,
+)
 from physexp.analysis.ideal import regret
 
 NUM_AGENTS = 6
@@ -223,6 +231,33 @@ def scores(num_agents, generator, middles, seconds_of_a_frame=0.0005):
                 )
             )
     return pandas.concat(found, ignore_index=True)
+
+
+def other_towers(num_agents, generator, varied=0.985, held_out=0.95, usual=0.5, rule=1.0, share=0.97):
+    """What agents are right in, where towers vary and beyond; and the share of the rule's return that they earn."""
+    right = {
+        generalization.USUAL: {"as usual": 1.0, "varied": usual, **dict.fromkeys(generalization.HELD_OUT, usual)},
+        generalization.VARIED: {"as usual": 1.0, "varied": varied, **dict.fromkeys(generalization.HELD_OUT, held_out)},
+        generalization.RULE: dict.fromkeys(generalization.TRIALS, rule),
+        generalization.LOOKUP: {**dict.fromkeys(generalization.TRIALS, 0.4), "as usual": 1.0},
+    }
+    return pandas.DataFrame(
+        [
+            {
+                "condition": label(config),
+                "player": player,
+                "training_seed": seed,
+                "test": test,
+                "right": value + (generator.normal(0, 0.002) if seed >= 0 else 0.0),
+                "return": 0.95 * (share if player == generalization.VARIED else 1.0),
+            }
+            for config in conditions.TOWERS
+            if conditions.observations(config) == "features"
+            for player, tests in right.items()
+            for seed in (range(num_agents) if player in generalization.CONDITIONS else [-1])
+            for test, value in tests.items()
+        ]
+    )
 
 
 # Episodes of Which is Heavier.
@@ -444,6 +479,14 @@ WORLDS: dict[str, dict[str, _World]] = {
         "the last step tells most": functools.partial(variants, belief_last_step=0.5),
         "LSTMs are quick": functools.partial(variants, belief_lstm=0.5),
         "answers confuse": functools.partial(variants, belief_revealed=2.0),
+    },
+    "generalization": {
+        "paper": other_towers,
+        "nothing is learned": functools.partial(other_towers, varied=0.9, held_out=0.8),
+        "nothing carries over": functools.partial(other_towers, held_out=0.8),
+        "sixteen are enough": functools.partial(other_towers, usual=1.0),
+        "nobody has a rule": functools.partial(other_towers, rule=0.9),
+        "agents who dawdle": functools.partial(other_towers, share=0.8),
     },
     "ideal_gap": {
         "paper": ideal_gap,

@@ -73,6 +73,16 @@ FALSE_IN = {
         "Attention saves environment steps against an LSTM": {"LSTMs are quick"},
         "Revealed answers save environment steps": {"answers confuse"},
     },
+    "generalization": {
+        "Agents trained with variation are right in episodes that training never saw": {"nothing is learned"},
+        "Agents trained with variation are right beyond what they were trained with": {
+            "nothing is learned",
+            "nothing carries over",
+        },
+        "Agents trained without variation have learned the towers that they saw": {"sixteen are enough"},
+        "A rule of one line is right wherever towers vary": {"nobody has a rule"},
+        "Agents trained with variation earn nearly what the rule earns": {"agents who dawdle"},
+    },
     "ideal_gap": {
         "Feature agents reach 95% of the ideal experimenter's return": {"clumsy agents"},
         "Feature agents reach 97% of the ideal experimenter's return": {"clumsy agents"},
@@ -89,6 +99,7 @@ DECIDED_BY_ONE = {
         ("data_efficiency", f"share of the ideal's return, {learner}, the worst; interval: of its episodes")
         for learner in ("belief", "belief, answers revealed")
     ),
+    ("generalization", "share of right answers in the worst test; interval: of its episodes"),
     ("population", "modal number of pokes, all agents pooled; interval: range over agents"),
     ("population", "share of such episodes, mean of agents"),  # One of each difficulty is three.
 }

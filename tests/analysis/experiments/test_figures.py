@@ -136,6 +136,7 @@ PARTS = [
     *((name, "3-F") for name in ("learning_heavier", "population", "individual", "random_heavier", "ideal_gap")),
     ("data_efficiency", "3-F"),
     ("ablations", "D-F"),
+    ("generalization", "F-F"),
     ("learners", "F-F PPO"),
     *((name, "F-P") for name in ("learning_towers", "waiting", "random_towers", "ideal_gap")),
 ]

@@ -1,0 +1,255 @@
+"""Generalization: how agents fare with towers that differ from those they were trained with. Ours."""
+
+from collections.abc import Callable
+import json
+import textwrap
+
+import numpy as np
+
+from physexp.agents import files
+from physexp.analysis import domains
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures, playing, records
+from physexp.analysis.experiments import base, claims, conditions
+
+USUAL, VARIED = "trained as usual", "trained with variation"
+RULE, LOOKUP = "rule", "lookup"
+_WORDS = {USUAL: USUAL, VARIED: VARIED, RULE: "rule: what changes its distance is not glued", LOOKUP: "nearest of 16"}
+CONDITIONS = {
+    USUAL: tuple(conditions.with_belief(task) for task in conditions.TOWERS),
+    VARIED: tuple(conditions.with_variation(conditions.with_belief(task)) for task in conditions.TOWERS),
+}
+"""The agents, by how they were trained."""
+
+_NUM_EPISODES = 2000  # Of each test.
+_NUM_ACTORS = 100  # Of those that nobody trained, side by side.
+
+
+def _trial(name: str, **task_kwargs: float) -> base.Trial:
+    return base.Trial(name=name, num_episodes=_NUM_EPISODES, task_kwargs=task_kwargs)
+
+
+TRIALS = {
+    "as usual": _trial("usual", variation=0.0),
+    "varied": _trial("varied", variation=1.0),
+    "friction 0.42": _trial("friction0.42", variation=1.0, sliding_friction=0.42),
+    "friction 0.45": _trial("friction0.45", variation=1.0, sliding_friction=0.45),
+    "friction 0.48": _trial("friction0.48", variation=1.0, sliding_friction=0.48),
+    "cubes of 95 mm": _trial("cubes0.095", variation=1.0, cube_size=0.095),
+    "steps of 0.05 s": _trial("steps0.05", variation=1.0, control_timestep=0.05),
+    "steps of 0.15 s": _trial("steps0.15", variation=1.0, control_timestep=0.15),
+}
+"""What is played, by the names of the tests."""
+HELD_OUT = tuple(TRIALS)[2:]
+"""The tests of what no agent is trained with."""
+
+# Written down before any agent was trained.
+LEAST_RIGHT, LEAST_RIGHT_HELD_OUT, LEAST_SHARE = 0.97, 0.93, 0.9
+
+
+def prepare(results: base.Results, report: Callable[[str], None]) -> None:
+    """Lets the experimenters that nobody trained play, where they have not; `report` is told which."""
+    for task in conditions.TOWERS:
+        path = _path(results, task.task)
+        baselines = domains.find(task.domain).baselines.get(task.task, {})
+        if path.exists() or not baselines:
+            continue
+        rows = []
+        for player, make in baselines.items():
+            report(f"{player} plays {task.task}")
+            actors = [make() for _ in range(_NUM_ACTORS)]
+            for test, trial in TRIALS.items():
+                rewards, lengths = playing.play_actors(
+                    actors, task.domain, task.task, trial.task_kwargs, _NUM_EPISODES // _NUM_ACTORS
+                )
+                rows.append(
+                    {
+                        "player": player,
+                        "test": test,
+                        "right": int((rewards > 0).sum()),
+                        "return": float((rewards * task.agent.discount ** (lengths - 1)).mean()),
+                    }
+                )
+        path.parent.mkdir(parents=True, exist_ok=True)
+        files.write_atomically(path, (json.dumps(rows, indent=1) + "\n").encode())
+
+
+def _path(results: base.Results, task: str):
+    return results.path / "generalization" / f"{task}.json"
+
+
+def _baselines(results: base.Results, task) -> list[dict]:
+    """Reads what `prepare` has written.
+
+    Raises:
+      ValueError: if that is missing or damaged.
+    """
+    path = _path(results, task.task)
+    if not path.exists():
+        raise ValueError(f"{path} is missing; `physexp reproduce generalization` makes it")
+    rows = files.read_json(path)
+    kinds = {"player": str, "test": str, "right": int, "return": float}
+    if not isinstance(rows, list) or not all(
+        isinstance(row, dict) and {name: type(value) for name, value in row.items()} == kinds for row in rows
+    ):
+        raise ValueError(f"{path} is not what was written; remove it, and `physexp reproduce generalization` makes it")
+    return rows
+
+
+def load(results: base.Results):
+    """How everybody has played: a row for each condition, player, agent and test.
+
+    Columns are condition, player, training_seed (-1 for those whom nobody trained), test, right (the share of right
+    answers) and return (the mean discounted one).
+
+    Raises:
+      ValueError: if no agent has played.
+    """
+    import pandas
+
+    rows = []
+    for player, configs in CONDITIONS.items():
+        for config in configs:
+            for test, trial in TRIALS.items():
+                if results.has_played(trial, config):
+                    frame = results.episodes([trial], [config], ["reward", "length"])
+                    frame = frame.assign(discounted=records.discounted_return(frame))
+                    rows += [
+                        _row(config, player, seed, test, (its.reward > 0).mean(), its.discounted.mean())
+                        for seed, its in frame.groupby("training_seed")
+                    ]
+    if not rows:
+        raise ValueError(f"{results.path} holds no episodes of this experiment; `physexp reproduce` it first")
+    played = {row["condition"] for row in rows}
+    for task in conditions.TOWERS:
+        if task.label in played and domains.find(task.domain).baselines.get(task.task):
+            rows += [
+                _row(task, row["player"], -1, row["test"], row["right"] / _NUM_EPISODES, row["return"])
+                for row in _baselines(results, task)
+            ]
+    return pandas.DataFrame(rows)
+
+
+def _row(config, player: str, seed: int, test: str, right: float, discounted: float) -> dict:
+    return {
+        "condition": config.label,
+        "player": player,
+        "training_seed": seed,
+        "test": test,
+        "right": right,
+        "return": discounted,
+    }
+
+
+def find_claims(frame) -> list[claims.Claim]:
+    """Agents trained with variation do well on fresh and on held-out episodes; those trained without do not."""
+    found = []
+    for condition, rows in frame.groupby("condition", sort=False):
+        common = dict(section="ours", condition=condition)
+        varied, usual, rule = (_by_test(rows, player, "right") for player in (VARIED, USUAL, RULE))
+        if len(varied):
+            found += [
+                claims.Claim(
+                    **common,
+                    text="Agents trained with variation are right in episodes that training never saw",
+                    statistic="share of right answers with variation, median of agents",
+                    estimate=estimates.median(varied["varied"]),
+                    above=LEAST_RIGHT,
+                ),
+                claims.Claim(
+                    **common,
+                    text="Agents trained with variation are right beyond what they were trained with",
+                    statistic="share of right answers in the worst held-out test, median of agents",
+                    estimate=estimates.median(varied[list(HELD_OUT)].min(axis=1)),
+                    above=LEAST_RIGHT_HELD_OUT,
+                ),
+            ]
+        if len(varied) and len(usual):
+            pairs = [table["varied"] for table in (varied, usual)]
+            found.append(
+                claims.Claim(
+                    **common,
+                    text="Agents trained without variation have learned the towers that they saw",
+                    statistic="share of right answers with variation, trained with it less trained without, "
+                    "mean difference",
+                    estimate=estimates.mean(np.subtract(*pairs[0].align(pairs[1], join="inner"))),
+                    above=0,
+                )
+            )
+        if len(rule):
+            found.append(
+                claims.Claim(
+                    **common,
+                    text="A rule of one line is right wherever towers vary",
+                    statistic="share of right answers in the worst test; interval: of its episodes",
+                    estimate=_share(float(rule.min(axis=1).iloc[0])),
+                    above=LEAST_RIGHT,
+                )
+            )
+            if len(varied):
+                least = _by_test(rows, RULE, "return")["varied"].iloc[0]
+                shares = _by_test(rows, VARIED, "return")["varied"] / least
+                found.append(
+                    claims.Claim(
+                        **common,
+                        text="Agents trained with variation earn nearly what the rule earns",
+                        statistic="share of the rule's return with variation, which the ideal's is no less than, "
+                        "median of agents",
+                        estimate=estimates.median(shares),
+                        above=LEAST_SHARE,
+                    )
+                )
+    return found
+
+
+def _by_test(rows, player: str, column: str):
+    """Returns a table of a column of a player's: a row for each agent, a column for each test."""
+    return rows[rows.player == player].pivot(index="training_seed", columns="test", values=column).dropna()
+
+
+def _share(right: float) -> estimates.Estimate:
+    return estimates.Estimate(right, *estimates.wilson_interval(round(right * _NUM_EPISODES), _NUM_EPISODES))
+
+
+def draw(frame):
+    """A panel for each condition: the share of right answers in each test."""
+    names = list(frame.condition.unique())
+    figure, panels = figures.new(rows=len(names), width=6.4, height=2.1, sharex=True, squeeze=False)
+    places = np.arange(len(TRIALS))
+    for axes, name in zip(panels[:, 0], names, strict=True):
+        for number, (player, words) in enumerate(_WORDS.items()):
+            table = _by_test(frame[frame.condition == name], player, "right")
+            if not len(table):
+                continue
+            table = table.reindex(columns=list(TRIALS))
+            style = dict(color=figures.COLORS[number + 1], marker=figures.MARKERS[number], markersize=4)
+            middle = table.median()
+            spread = np.abs(table.agg(["min", "max"]) - middle).to_numpy() if len(table) > 1 else None
+            shift = (number - 1.5) * 0.12
+            axes.errorbar(places + shift, middle, yerr=spread, linestyle="none", capsize=2, label=words, **style)
+        figures.reference(axes, conditions.chance("towers", conditions.TOWERS[0].task), "chance")
+        axes.set(title=conditions.spelled_out(name), ylabel="share of right answers", ylim=(0, 1.05))
+        axes.axvline(1.5, color=figures.GREY, linewidth=0.6)
+    panels[-1, 0].set_xticks(places, [textwrap.fill(test, 9) for test in TRIALS])
+    panels[-1, 0].set_xlabel("what is tested; right of the line: what no agent was trained with")
+    handles, labels = panels[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=2)
+    return figure
+
+
+EXPERIMENT = base.Experiment(
+    name="generalization",
+    title="Towers that nobody has seen",
+    section="ours",
+    caption="Share of right answers of agents that were trained as usual, where a tower with given actions plays one "
+    "of 16 trajectories, and of agents that were trained with variation: of the tower's place and yaw, of where the "
+    "fist starts, of forces or speed, friction and mass. Beside them two experimenters that nobody trained: one counts "
+    "the neighbours whose distance has changed by a millimetre; the other is the ideal experimenter without variation, "
+    "who takes each tower for the nearest of 16. Points are medians of agents, bars go from the worst to the best.",
+    conditions=tuple(config for configs in CONDITIONS.values() for config in configs),
+    trials=tuple(TRIALS.values()),
+    prepare=prepare,
+    load=load,
+    claims=find_claims,
+    draw=draw,
+)
