@@ -234,6 +234,8 @@ def json_digest(value: Any) -> str:
 def _read(path: Path, most: int | None) -> tuple[dict[str, torch.Tensor], dict[str, Any]]:
     """Reads a checkpoint; nothing in it is executed, and nothing whose checksum differs is used."""
     facts_path = path.with_suffix(".json")
+    if facts_path.is_dir():  # Nothing that is written later could replace it.
+        raise ValueError(f"{facts_path} is a folder; remove it")
     try:
         card = files.read_json(facts_path)
         form, checksum, facts = card["format"], card["sha256"], card["facts"]
