@@ -1,4 +1,4 @@
-"""Estimates with their 95 % confidence intervals.
+"""Estimates with their 95 % confidence intervals, and p-values of what else could be true.
 
 Means are over agents, since the episodes of one agent depend on how it was trained.
 """
@@ -6,20 +6,61 @@ Means are over agents, since the episodes of one agent depend on how it was trai
 from collections.abc import Callable, Sequence
 import dataclasses
 import math
+from typing import Any, Literal
 
 import numpy as np
 
 _LEVEL = 0.95
-_NORMAL = 1.96  # Standard errors on either side that hold so much of a normal distribution.
+Alternative = Literal["greater", "less"]
 
 
 @dataclasses.dataclass(frozen=True)
 class Estimate:
-    """A figure and its 95 % confidence interval."""
+    """A figure and its 95 % confidence interval.
+
+    Attributes:
+      value: what was measured.
+      low, high: ends of the interval.
+      p_value: the one-sided p-value of the hypothesis that the figure is a bound, against the alternative that it is
+        `greater` or `less`; 1 where too little is known.
+    """
 
     value: float
     low: float
     high: float
+    p_value: Callable[[float, Alternative], float] = dataclasses.field(
+        default=lambda bound, alternative: 1.0, compare=False, repr=False
+    )
+
+
+def _exact(value: float) -> Estimate:
+    """A figure without any spread."""
+
+    def p_value(bound: float, alternative: Alternative) -> float:
+        return float(value <= bound if alternative == "greater" else value >= bound)
+
+    return Estimate(value, value, value, p_value)
+
+
+def _around(value: float, error: float, distribution: Any) -> Estimate:
+    """A figure whose distance from the truth, in standard errors, has a distribution of scipy, symmetric about 0."""
+    half = float(distribution.ppf((1 + _LEVEL) / 2)) * error
+
+    def p_value(bound: float, alternative: Alternative) -> float:
+        distance = (value - bound) / error
+        return float(distribution.sf(distance if alternative == "greater" else -distance))
+
+    return Estimate(value, value - half, value + half, p_value)
+
+
+def _mapped(estimate: Estimate, function: Callable[[float], float], inverse: Callable[[float], float]) -> Estimate:
+    """An increasing function of what was estimated."""
+    return Estimate(
+        function(estimate.value),
+        function(estimate.low),
+        function(estimate.high),
+        lambda bound, alternative: estimate.p_value(inverse(bound), alternative),
+    )
 
 
 def better_half(values: Sequence[float] | np.ndarray) -> np.ndarray:
@@ -41,9 +82,18 @@ def wilson_interval(successes: int, trials: int) -> tuple[float, float]:
 
 
 def proportion(outcomes: Sequence[bool] | np.ndarray) -> Estimate:
-    """Returns the share of true outcomes that are independent, [N]."""
-    right = int(np.sum(outcomes))
-    return Estimate(right / len(outcomes), *wilson_interval(right, len(outcomes)))
+    """Returns the share of true outcomes that are independent, [N]; p-values are of the score test, as Wilson's."""
+    from scipy import stats
+
+    share = float(np.mean(outcomes))
+
+    def p_value(bound: float, alternative: Alternative) -> float:
+        if not 0 < bound < 1:
+            return _exact(share).p_value(bound, alternative)
+        distance = (share - bound) / math.sqrt(bound * (1 - bound) / len(outcomes))
+        return float(stats.norm.sf(distance if alternative == "greater" else -distance))
+
+    return Estimate(share, *wilson_interval(int(np.sum(outcomes)), len(outcomes)), p_value)
 
 
 def mean(values: Sequence[float] | np.ndarray) -> Estimate:
@@ -54,26 +104,29 @@ def mean(values: Sequence[float] | np.ndarray) -> Estimate:
     if len(values) < 2:
         return Estimate(average, -math.inf, math.inf)
     error = float(np.std(values, ddof=1)) / math.sqrt(len(values))
-    if not error:
-        return Estimate(average, average, average)
-    low, high = stats.t.interval(_LEVEL, len(values) - 1, loc=average, scale=error)
-    return Estimate(average, float(low), float(high))
+    return _around(average, error, stats.t(len(values) - 1)) if error else _exact(average)
 
 
 def mean_share(shares: Sequence[float] | np.ndarray) -> Estimate:
     """Returns the mean of independent shares, [N] in [0, 1], with Student's interval, cut to [0, 1]."""
     estimate = mean(shares)
-    return Estimate(estimate.value, max(0.0, estimate.low), min(1.0, estimate.high))
+    return dataclasses.replace(estimate, low=max(0.0, estimate.low), high=min(1.0, estimate.high))
 
 
 def median(values: Sequence[float] | np.ndarray) -> Estimate:
     """Returns the median of independent values, [N], with the order statistics' interval, infinite for too few."""
     from scipy import stats
 
+    def p_value(bound: float, alternative: Alternative) -> float:
+        return float(stats.quantile_test(np.asarray(values), q=bound, p=0.5, alternative=alternative).pvalue)
+
     interval = stats.quantile_test(np.asarray(values), p=0.5).confidence_interval(_LEVEL)
     low, high = (float(end) for end in interval)
     return Estimate(
-        float(np.median(values)), -math.inf if math.isnan(low) else low, math.inf if math.isnan(high) else high
+        float(np.median(values)),
+        -math.inf if math.isnan(low) else low,
+        math.inf if math.isnan(high) else high,
+        p_value,
     )
 
 
@@ -89,17 +142,30 @@ def ratio_of_means(numerators: Sequence[float] | np.ndarray, denominators: Seque
     groups = [np.asarray(group, float) for group in (numerators, denominators)]
     if not all(np.all((group > 0) & (group < math.inf)) for group in groups):
         return Estimate(math.nan, 0.0, math.inf)
-    logs = [np.log(group) for group in groups]
-    value = float(logs[0].mean() - logs[1].mean())
-    if min(map(len, logs)) < 2:
-        return Estimate(math.exp(value), 0.0, math.inf)
-    if not np.ptp(logs[1]):  # Without a spread of one group, Welch's interval is Student's of the other.
-        interval = mean(logs[0] - logs[1][0])
-    elif not np.ptp(logs[0]):
-        interval = mean(logs[0][0] - logs[1])
-    else:
-        interval = stats.ttest_ind(*logs, equal_var=False).confidence_interval(_LEVEL)
-    return Estimate(math.exp(value), math.exp(interval.low), math.exp(interval.high))
+    top, bottom = (np.log(group) for group in groups)
+    if min(len(top), len(bottom)) < 2:
+        return Estimate(math.exp(top.mean() - bottom.mean()), 0.0, math.inf)
+    if not np.ptp(bottom):  # Without a spread of one group, Welch's interval is Student's of the other.
+        return _exponential(mean(top - bottom[0]))
+    if not np.ptp(top):
+        return _exponential(mean(top[0] - bottom))
+
+    def test(shift: float = 0.0, alternative: str = "two-sided"):
+        return stats.ttest_ind(top - shift, bottom, equal_var=False, alternative=alternative)
+
+    interval = test().confidence_interval(_LEVEL)
+    return _exponential(
+        Estimate(
+            float(top.mean() - bottom.mean()),
+            float(interval.low),
+            float(interval.high),
+            lambda bound, alternative: float(test(bound, alternative).pvalue),
+        )
+    )
+
+
+def _exponential(estimate: Estimate) -> Estimate:
+    return _mapped(estimate, math.exp, math.log)
 
 
 def ratio_of_pairs(numerators: Sequence[float] | np.ndarray, denominators: Sequence[float] | np.ndarray) -> Estimate:
@@ -110,13 +176,21 @@ def ratio_of_pairs(numerators: Sequence[float] | np.ndarray, denominators: Seque
     top, bottom = np.asarray(numerators, float), np.asarray(denominators, float)
     if not np.all((np.minimum(top, bottom) > 0) & (np.maximum(top, bottom) < math.inf)):
         return Estimate(math.nan, 0.0, math.inf)
-    logs = mean(np.log(top / bottom))
-    return Estimate(math.exp(logs.value), math.exp(logs.low), math.exp(logs.high))
+    return _exponential(mean(np.log(top / bottom)))
 
 
 def normal(value: float, standard_error: float) -> Estimate:
     """Returns a figure with the normal interval of its standard error, as a mean of many values has it."""
-    return Estimate(value, value - _NORMAL * standard_error, value + _NORMAL * standard_error)
+    from scipy import stats
+
+    return _around(value, standard_error, stats.norm) if standard_error else _exact(value)
+
+
+def difference_of_shares(first: np.ndarray, second: np.ndarray) -> Estimate:
+    """Returns by how much larger a share of true outcomes is than another, [N] and [M] independent and many."""
+    shares = [float(np.mean(outcomes)) for outcomes in (first, second)]
+    variances = (share * (1 - share) / len(outcomes) for share, outcomes in zip(shares, (first, second), strict=True))
+    return normal(shares[0] - shares[1], math.sqrt(sum(variances)))
 
 
 def bootstrap(
@@ -137,7 +211,30 @@ def bootstrap(
         confidence_level=_LEVEL,
         rng=np.random.default_rng(seed),
     )
-    return Estimate(statistic(values), float(drawn.confidence_interval.low), float(drawn.confidence_interval.high))
+    found = drawn.bootstrap_distribution
+
+    def p_value(bound: float, alternative: Alternative) -> float:
+        beyond = found <= bound if alternative == "greater" else found >= bound
+        return float(1 + beyond.sum()) / (1 + len(found))
+
+    return Estimate(
+        statistic(values), float(drawn.confidence_interval.low), float(drawn.confidence_interval.high), p_value
+    )
+
+
+def correlation(x: np.ndarray, y: np.ndarray) -> Estimate:
+    """Returns Pearson's correlation of pairs, x and y [N >= 4], with Fisher's interval.
+
+    The interval is that of all correlations where all x or all y are the same.
+    """
+    from scipy import stats
+
+    if not np.ptp(x) or not np.ptp(y):
+        return Estimate(math.nan, -1.0, 1.0)
+    value = float(stats.pearsonr(x, y).statistic)
+    if abs(value) > 1 - 1e-12:
+        return _exact(value)
+    return _mapped(_around(math.atanh(value), 1 / math.sqrt(len(x) - 3), stats.norm), math.tanh, math.atanh)
 
 
 def slope(x: np.ndarray, y: np.ndarray) -> Estimate:
@@ -157,7 +254,4 @@ def slope(x: np.ndarray, y: np.ndarray) -> Estimate:
         return Estimate(value, -math.inf, math.inf)
     residuals = y - y.mean() - value * centered
     error = math.sqrt(float((centered**2) @ (residuals**2)) * len(x) / (len(x) - 2)) / square
-    if not error:
-        return Estimate(value, value, value)
-    low, high = stats.norm.interval(_LEVEL, loc=value, scale=error)
-    return Estimate(value, float(low), float(high))
+    return _around(value, error, stats.norm) if error else _exact(value)

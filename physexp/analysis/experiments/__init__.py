@@ -15,6 +15,7 @@ NAMES = (
     "learning_heavier",
     "population",
     "individual",
+    "patience",
     "random_heavier",
     "learning_towers",
     "waiting",

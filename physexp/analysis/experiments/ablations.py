@@ -55,7 +55,6 @@ def find_claims(frame) -> list[claims.Claim]:
                 found.append(
                     claims.Claim(
                         text=text,
-                        section="ours",
                         condition=label,
                         statistic=f"environment steps to {scores.level(label)} with less over those with more, ratio "
                         "of geometric means",

@@ -13,7 +13,7 @@ DIFFICULTIES = (3.0, 5.0, 10.0)
 OBSERVATIONS = ("features", "pixels")
 ACTUATORS = ("direct", "fist")
 PATIENT_DISCOUNT = 0.99  # Under which waiting costs little.
-SEEDS = {"features": 10, "pixels": 3}  # How many agents are trained in each condition.
+SEEDS = {"features": 10, "pixels": 5}  # How many agents are trained in each condition.
 
 # Environment steps: the easier, the sooner the curve is flat.
 _PATIENT_FRAMES = {3.0: 4_000_000, 5.0: 3_000_000, 10.0: 2_000_000}

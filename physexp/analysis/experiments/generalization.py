@@ -145,7 +145,7 @@ def find_claims(frame) -> list[claims.Claim]:
     """Agents trained with variation do well on fresh and on held-out episodes; those trained without do not."""
     found = []
     for condition, rows in frame.groupby("condition", sort=False):
-        common = dict(section="ours", condition=condition)
+        common = dict(condition=condition)
         varied, usual, rule = (_by_test(rows, player, "right") for player in (VARIED, USUAL, RULE))
         if len(varied):
             found += [
@@ -208,7 +208,7 @@ def _by_test(rows, player: str, column: str):
 
 
 def _share(right: float) -> estimates.Estimate:
-    return estimates.Estimate(right, *estimates.wilson_interval(round(right * _NUM_EPISODES), _NUM_EPISODES))
+    return estimates.proportion(np.arange(_NUM_EPISODES) < round(right * _NUM_EPISODES))
 
 
 def draw(frame):

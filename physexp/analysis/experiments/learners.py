@@ -45,7 +45,6 @@ def find_claims(frame) -> list[claims.Claim]:
                 found.append(
                     claims.Claim(
                         text=text,
-                        section="ours",
                         condition=task,
                         statistic=f"{unit} to {_LEARNED:.0%} right answers, PPO over A3C, ratio of geometric means",
                         estimate=estimates.ratio_of_means(ppo, a3c),

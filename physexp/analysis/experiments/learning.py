@@ -97,15 +97,14 @@ def final_success(frame, share: float = 0.05):
     return last.groupby(["condition", "training_seed"], as_index=False, sort=False).success_rate.mean()
 
 
-def find_claims(frame, above: float, **words: Any) -> list[claims.Claim]:
-    """In each condition agents are right at the end of training in a larger share than `above`, said in `words`."""
+def find_claims(frame, **wanted: Any) -> list[claims.Claim]:
+    """In each condition the share of right answers at the end of training is as `wanted`, attributes of claims."""
     final = final_success(frame)
     return [
         claims.Claim(
             condition=name,
             estimate=estimates.mean_share(final.success_rate[final.condition == name]),
-            above=above,
-            **words,
+            **wanted,
         )
         for name in final.condition.unique()
     ]

@@ -4,6 +4,9 @@ from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions, learning
 
+_STATISTIC = "share of right answers at the end of training, mean of agents"
+_PERFECT = 0.99
+
 
 def _names(kind: str) -> list[str]:
     """The conditions with a kind of observation, the hardest first."""
@@ -18,7 +21,19 @@ def find_claims(frame) -> list[claims.Claim]:
         above=2 * conditions.chance("which_is_heavier", "features"),
         text="Agents are trained successfully from features and from pixels",
         section="5.3",
-        statistic="share of right answers at the end of training, mean of agents; twice chance is 0.5",
+        statistic=f"{_STATISTIC}; twice chance is 0.5",
+        words="a sanity check to show that we can train agents successfully",
+        is_sanity_check=True,
+    )
+    found += learning.find_claims(
+        frame,
+        below=_PERFECT,
+        text="Agents do not reach perfect performance",
+        section="5.3",
+        statistic=_STATISTIC,
+        words="do not reach perfect performance",
+        reason="The easier the task, the closer our agents come to the ideal experimenter, who is nearly always "
+        "right; the paper's agents stopped short of it.",
     )
     for kind in conditions.OBSERVATIONS:
         names = _names(kind)
@@ -33,6 +48,7 @@ def find_claims(frame) -> list[claims.Claim]:
                         statistic="ratio of the shares of right answers",
                         estimate=estimates.ratio_of_means(rates[easier], rates[harder]),
                         above=1,
+                        words="plateauing at progressively lower performance",
                     )
                 )
     return found

@@ -16,6 +16,7 @@ def find_claims(frame) -> list[claims.Claim]:
         text="All four conditions are solved nearly perfectly",
         section="6.3",
         statistic="share of right answers at the end of training, mean of agents",
+        words="solve the task nearly perfectly",
     )
     for kind in conditions.OBSERVATIONS:
         names = [conditions.label("towers", f"{actuator}_{kind}") for actuator in ("fist", "direct")]
@@ -27,12 +28,12 @@ def find_claims(frame) -> list[claims.Claim]:
                     section="6.3",
                     condition=kind,
                     statistic=f"environment steps to {_LEARNED:.0%} right answers, fist over direct, ratio of "
-                    "geometric means",
+                    "geometric means; fist agents alone were told in which direction the tower is",
                     estimate=estimates.ratio_of_means(fist, direct),
                     below=1,
-                    reason="Every push touches the tower, while the fist must first travel to it, though our "
-                    "configurations start it in the right direction: what is slow here is reaching the tower, not "
-                    "affecting several blocks.",
+                    words="the fist actuators lead to the fastest learning",
+                    reason="A guess, not tested: every push touches the tower, while the fist must first travel to it. "
+                    "Agents who are told nothing are compared in data_efficiency.",
                 )
             )
     return found

@@ -18,6 +18,7 @@ def find_claims(frame) -> list[claims.Claim]:
         text="Agents tend to answer more quickly when following their learned interaction",
         statistic="interactions before an answer, learned over randomized, mean ratio of agents",
         below=1,
+        words="tend to produce labels more quickly",
     )
 
 

@@ -10,22 +10,33 @@ from physexp.analysis.experiments import base, claims, conditions
 from physexp.analysis.training import config as config_lib
 
 TRIALS = (base.LEARNED, base.RANDOM)
+_FEW = 0.1  # Of the episodes.
 
 
-def load(results: base.Results, configs: Sequence[config_lib.TrainConfig]):
-    """Episodes of both interactions."""
-    return results.episodes(TRIALS, configs, ["label", "reward", "interactions", "time"])
+def load(results: base.Results, configs: Sequence[config_lib.TrainConfig], columns: Sequence[str] = ()):
+    """Episodes of both interactions; `columns` are wanted beside those that every claim here needs."""
+    return results.episodes(TRIALS, configs, ["label", "reward", "interactions", "time", *columns])
 
 
 def per_agent(frame):
-    """For each condition, agent and interaction: accuracy (timeouts left out, as in the paper) and mean length."""
+    """For each condition, agent and interaction: accuracy (timeouts left out, as in the paper) and means.
+
+    The means are those of the `length`, interactions before an answer, and of the `blocks` looked at, where counted.
+    """
     answered = frame[frame.label >= 0]
     keys = ["condition", "training_seed", "interaction"]
     grouped = answered.assign(right=answered.reward > 0).groupby(keys, sort=False)
-    return grouped.agg(accuracy=("right", "mean"), length=("interactions", "mean")).reset_index()
+    means = {name: (name, "mean") for name in ("blocks",) if name in frame}
+    return grouped.agg(accuracy=("right", "mean"), length=("interactions", "mean"), **means).reset_index()
 
 
-def _paired(agents, condition: str, column: str) -> tuple[np.ndarray, np.ndarray]:
+def timeouts(frame):
+    """Returns the share of episodes without an answer, a column for each condition and a row for each agent."""
+    rows = frame.assign(is_silent=frame.label < 0)
+    return rows.pivot_table("is_silent", "training_seed", "condition", sort=False, observed=True)
+
+
+def paired(agents, condition: str, column: str) -> tuple[np.ndarray, np.ndarray]:
     """Values of each agent of a condition with learned and with randomized interaction."""
     table = agents[agents.condition == condition].pivot(index="training_seed", columns="interaction", values=column)
     table = table.dropna()
@@ -42,14 +53,29 @@ def find_claims(frame, section: str, **of_lengths) -> list[claims.Claim]:
             section=section,
             condition=name,
             statistic="difference of the shares of right answers, mean of agents",
-            estimate=estimates.mean(np.subtract(*_paired(agents, name, "accuracy"))),
+            estimate=estimates.mean(np.subtract(*paired(agents, name, "accuracy"))),
             above=0,
         )
         for name in names
     ]
-    lengths = {name: estimates.ratio_of_pairs(*_paired(agents, name, "length")) for name in names}
-    return accurate + [
-        claims.Claim(section=section, condition=name, estimate=ratio, **of_lengths) for name, ratio in lengths.items()
+    lengths = {name: estimates.ratio_of_pairs(*paired(agents, name, "length")) for name in names}
+    silent = timeouts(frame[frame.interaction == "random"])
+    return [
+        *accurate,
+        *(
+            claims.Claim(section=section, condition=name, estimate=ratio, **of_lengths)
+            for name, ratio in lengths.items()
+        ),
+        *(
+            claims.Claim(
+                text="Few episodes of randomized interaction, which are left out above, end by timeout",
+                condition=name,
+                statistic="share of episodes without an answer, mean of agents",
+                estimate=estimates.mean_share(silent[name].dropna()),
+                below=_FEW,
+            )
+            for name in silent
+        ),
     ]
 
 

@@ -38,27 +38,73 @@ def find_claims(frame) -> list[claims.Claim]:
         found.append(
             claims.Claim(
                 **common,
-                text="With smaller control steps the time to answer stays about the same, in up to ten times the steps",
+                text="With smaller control steps the time to answer stays about the same",
                 statistic=f"median time to the answer, control steps of {_FINEST:g} s over {_TRAINED:g} s, mean ratio",
                 estimate=estimates.ratio_of_pairs(*fine.time.align(trained.time, join="inner")),
-                above=0.5,
-                below=2,
+                above=0.67,
+                below=1.5,
+                words="approximate the same amount of real time",
+            )
+        )
+        found.append(
+            claims.Claim(
+                **common,
+                text="Agents wait for information, not for a number of steps",
+                statistic=f"median steps to the answer, control steps of {_FINEST:g} s over {_TRAINED:g} s, mean "
+                "ratio; 1 for a number of steps, 10 for a time",
+                estimate=estimates.ratio_of_pairs(*fine.interactions.align(trained.interactions, join="inner")),
+                above=5,
+                words="waiting a fixed amount of steps",
             )
         )
         worst = agents[agents.condition == condition].groupby("training_seed").accuracy.min()
+        silent = (frame[frame.condition == condition].label < 0).groupby(frame.training_seed).mean()
         found.append(
             claims.Claim(
                 **common,
                 text="Accuracy drops little with the control step",
-                statistic="share of right answers at the worst control step, mean of agents; chance is 0.2",
-                estimate=estimates.mean_share(worst),
-                above=0.6,
-                reason="Our agents were trained for few frames, with control steps of one size, and part of what "
-                "tells them to answer is how many steps have passed: with smaller ones they answer after less time, "
-                "before the tower has come apart.",
+                statistic=f"share of right answers at the worst control step over that at {_TRAINED:g} s, mean ratio",
+                estimate=estimates.ratio_of_pairs(*worst.align(trained.accuracy, join="inner")),
+                above=0.9,
+                words="a small drop",
+                reason="Without variation a tower with given actions plays one of sixteen films, and agents may know "
+                "their frames by heart, of which finer time shows others: from pixels they are right where a frame "
+                "falls on the time at which they answer in training, as is tested below, and generalization tests "
+                "agents for whom there are no sixteen films.",
+            )
+        )
+        found.append(
+            claims.Claim(
+                **common,
+                text="No test episode ends by timeout",
+                statistic="share of episodes without an answer, mean of agents",
+                estimate=estimates.mean_share(silent),
+                below=0.001,
+                words="none of the test episodes terminate by timeout",
+            )
+        )
+        found.append(
+            claims.Claim(
+                condition=condition,
+                text="In finer time agents are right where a frame falls on the time of their answers in training",
+                statistic="share of right answers at control steps of which the median time to the answer in training "
+                "is a multiple, less that at the others, mean of agents; found in these data",
+                estimate=estimates.mean(_on_time(agents[agents.condition == condition])),
+                above=0.03,
             )
         )
     return found
+
+
+def _on_time(agents) -> np.ndarray:
+    """What accuracy gains in finer time where a step ends at the time of the answers in training, for each agent."""
+    gains = []
+    for _, rows in agents.groupby("training_seed"):
+        is_trained = rows.control_timestep == _TRAINED
+        steps = rows.time[is_trained].iloc[0] / rows.control_timestep
+        is_whole = np.abs(steps - steps.round()) < 1e-3
+        gains.append(rows.accuracy[is_whole & ~is_trained].mean() - rows.accuracy[~is_whole].mean())
+    return np.array(gains)
 
 
 def draw(frame):
@@ -112,7 +158,7 @@ EXPERIMENT = base.Experiment(
     "of one agent (the first seed), with 95 % intervals; shaded: one control step to either side.",
     conditions=CONDITIONS,
     trials=TRIALS,
-    load=lambda results: results.episodes(TRIALS, CONDITIONS, ["reward", "interactions", "time"]),
+    load=lambda results: results.episodes(TRIALS, CONDITIONS, ["label", "reward", "interactions", "time"]),
     claims=find_claims,
     draw=draw,
 )

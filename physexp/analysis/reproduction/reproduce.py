@@ -5,7 +5,7 @@ from concurrent import futures
 
 from physexp.analysis import callbacks
 from physexp.analysis.evaluation import figures
-from physexp.analysis.experiments import EXPERIMENTS, base, conditions
+from physexp.analysis.experiments import EXPERIMENTS, base, claims, conditions
 from physexp.analysis.reproduction import sweep
 
 ALL = "all"
@@ -62,9 +62,10 @@ def run(
         frame = experiment.load(results)
         for path in figures.save(experiment.figure(frame), results.path / "figures", experiment.name):
             tell(str(path))
-        for claim in experiment.claims(frame):
+        found = experiment.claims(frame)
+        for claim, verdict in zip(found, claims.corrected(found), strict=True):
             estimate = claim.estimate
             tell(
-                f"{claim.verdict:9}  {claim.text} ({claim.condition}): {estimate.value:.3g}, 95 % interval "
+                f"{verdict:9}  {claim.text} ({claim.condition}): {estimate.value:.3g}, 95 % interval "
                 f"{estimate.low:.3g} to {estimate.high:.3g}, wanted {claim.wanted}"
             )

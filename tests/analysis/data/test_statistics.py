@@ -296,3 +296,71 @@ def test_a_ratio_of_pairs_with_a_zero_or_of_one_pair_has_an_infinite_interval():
 def test_the_mean_of_nothing_says_nothing():
     estimate = estimates.mean([])
     assert math.isnan(estimate.value) and (estimate.low, estimate.high) == (-math.inf, math.inf)
+
+
+def test_the_p_value_of_an_end_of_an_interval_is_what_the_interval_leaves_out_there():
+    source = generator()
+    x, y = source.normal(size=(2, 30))
+    found = [
+        estimates.proportion(source.random(40) < 0.4),
+        estimates.mean(x),
+        estimates.mean_share(0.5 + x / 100),
+        estimates.ratio_of_means(np.exp(x), np.exp(2 * y[:20])),
+        estimates.ratio_of_means(np.exp(x), [2.0, 2.0]),
+        estimates.ratio_of_means([2.0, 2.0], np.exp(x)),
+        estimates.ratio_of_pairs(np.exp(x), np.exp(y)),
+        estimates.normal(1.0, 0.3),
+        estimates.difference_of_shares(x > 0, y > 0.5),
+        estimates.slope(x, y),
+        estimates.correlation(x, y),
+    ]
+    for estimate in found:
+        ends = [(estimate.low, "greater", "less"), (estimate.high, "less", "greater")]
+        for end, inwards, outwards in ends:
+            assert estimate.p_value(end, inwards) == pytest.approx(0.025, rel=1e-4)
+            assert estimate.p_value(end, outwards) == pytest.approx(0.975, rel=1e-4)
+        assert estimate.p_value(estimate.value, "less") == pytest.approx(0.5)
+
+
+def test_p_values_of_medians_count_how_many_values_lie_beyond():
+    estimate = estimates.median([7, 1, 10, 4, 2, 9, 5, 3, 8, 6])
+    # Were 1.5 the median, ten coins would show at most one head: (1 + 10) / 2^10.
+    assert estimate.p_value(1.5, "greater") == pytest.approx(11 / 1024)
+    assert estimate.p_value(10.5, "less") == pytest.approx(1 / 1024)
+    assert estimate.p_value(10.5, "greater") == pytest.approx(1)
+
+
+def test_p_values_of_the_bootstrap_count_what_was_drawn_beyond_and_are_never_nothing():
+    estimate = estimates.bootstrap([0, 1], np.mean)  # Two drawn of two: 0, 1/2 or 1, with 1/4, 1/2 and 1/4.
+    assert estimate.p_value(0.25, "greater") == pytest.approx(0.25, abs=0.05)
+    assert estimate.p_value(-1, "greater") == estimate.p_value(2, "less") == 1 / 2001
+
+
+def test_figures_without_a_spread_are_certain_and_single_values_tell_nothing():
+    for estimate in (estimates.mean([2.0, 2.0]), estimates.normal(2.0, 0.0), estimates.ratio_of_means([4, 4], [2, 2])):
+        assert estimate.p_value(1.0, "greater") == estimate.p_value(3.0, "less") == 0
+        assert estimate.p_value(1.0, "less") == estimate.p_value(2.0, "greater") == estimate.p_value(2.0, "less") == 1
+    for estimate in (
+        estimates.mean([2.0]),
+        estimates.ratio_of_means([2.0], [1.0]),
+        estimates.bootstrap([2.0], np.mean),
+    ):
+        assert estimate.p_value(1.0, "greater") == estimate.p_value(1.0, "less") == 1
+
+
+def test_a_correlation_is_pearsons_with_fishers_interval():
+    x = np.arange(7.0)
+    y = np.array([0.0, 2, 1, 4, 3, 6, 5])
+    # Sums of products: Sxx = Syy = 28 and Sxy = 25, hence r = 25 / 28; atanh = 1.437, half width 1.96 / sqrt(4) = 0.98.
+    r = 25 / 28
+    half = 1.959964 / 2
+    expected = (r, math.tanh(math.atanh(r) - half), math.tanh(math.atanh(r) + half))
+    assert_same(estimates.correlation(x, y), expected, rel=1e-6)
+    assert_same(estimates.correlation(x, 2 * x), (1.0, 1.0, 1.0), rel=1e-9)
+    assert math.isnan(estimates.correlation(x, np.ones(7)).value)
+
+
+def test_a_difference_of_shares_has_the_variances_of_both():
+    first, second = np.arange(100) < 60, np.arange(400) < 100
+    half = 1.959964 * math.sqrt(0.6 * 0.4 / 100 + 0.25 * 0.75 / 400)
+    assert_same(estimates.difference_of_shares(first, second), (0.35, 0.35 - half, 0.35 + half), rel=1e-6)

@@ -23,6 +23,7 @@ from physexp.analysis.experiments import (
     population,
     waiting,
 )
+from physexp.analysis.experiments import patience as patience_lib
 from physexp.analysis.ideal import regret
 
 NUM_AGENTS = 6
@@ -103,6 +104,7 @@ def curves(
     learned_at: dict[str, float],
     configs=(*conditions.HEAVIER, *conditions.TOWERS),
     name_of=label,
+    spread=1.0,
 ) -> pandas.DataFrame:
     """Rows of metrics, as `Results.curves` gives them.
 
@@ -112,6 +114,7 @@ def curves(
       learned_at: environment steps after which a curve is half way, by the name of a condition.
       configs: the conditions that there are.
       name_of: the name of a condition, from its configuration.
+      spread: of agents, and of the rows of each, times what it usually is.
     """
     frames = np.linspace(_BUDGET / _CURVE_POINTS, _BUDGET, _CURVE_POINTS)
     found = []
@@ -120,14 +123,14 @@ def curves(
         if name not in plateaus:
             continue
         for seed in range(num_agents):
-            plateau = plateaus[name] + generator.normal(0, 0.004)
+            plateau = plateaus[name] + generator.normal(0, 0.004 * spread)
             middle = learned_at[name] * np.exp(generator.normal(0, 0.05))
             rising = chance + (plateau - chance) * special.expit((frames - middle) / 100_000)
             found.append(
                 pandas.DataFrame(
                     {
                         "frames": frames.astype(int),
-                        "success_rate": rising + generator.normal(0, 0.003, len(frames)),
+                        "success_rate": rising + generator.normal(0, 0.003 * spread, len(frames)),
                         "domain": config.domain,
                         "task": config.task,
                         "difficulty": config.task_kwargs.get("difficulty"),
@@ -143,11 +146,10 @@ def curves(
     return pandas.concat(found, ignore_index=True)
 
 
-def learning_heavier(num_agents, generator, features=(0.85, 0.9, 0.95), pixels=(0.7, 0.8, 0.9)):
+def learning_heavier(num_agents, generator, features=(0.85, 0.9, 0.95), pixels=(0.7, 0.8, 0.9), spread=1.0):
     names = [label(config) for config in conditions.HEAVIER]
-    return curves(
-        num_agents, generator, dict(zip(names, (*features, *pixels), strict=True)), 0.25, dict.fromkeys(names, 1e6)
-    )
+    plateaus = dict(zip(names, (*features, *pixels), strict=True))
+    return curves(num_agents, generator, plateaus, 0.25, dict.fromkeys(names, 1e6), spread=spread)
 
 
 def learning_towers(num_agents, generator, plateau=0.985, fist=1e6, direct=2e6):
@@ -168,21 +170,31 @@ def two_learners(num_agents, generator, ppo=5e5, a3c=2e6, seconds_of_a_ppo_frame
 
 
 def few_frames(
-    num_agents, generator, belief=0.5, a3c=20.0, seconds_of_a_frame=0.0005, loss=0.5, calibration_error=0.02
+    num_agents,
+    generator,
+    belief=0.5,
+    a3c=20.0,
+    fist=0.6,
+    direct=1.0,
+    seconds_of_a_frame=0.0005,
+    loss=0.5,
+    calibration_error=0.02,
 ):
     """Learning curves of all learners.
 
     Args:
       belief, a3c: where the belief learner in either track and the others are half way, in shares of the environment
         steps that the belief learner is to need at most.
+      fist, direct: how many times as many the belief learner needs with an actuator.
       seconds_of_a_frame: how long a learner takes for an environment step.
       loss: what agents lack of the ideal's return at the end, in shares of what they may lack.
       calibration_error: of all of them.
     """
     most = data_efficiency.MOST_FRAMES
+    of_actuators = {"F": fist, "D": direct}
     middles = {
         config: most.get(config.agent.title, most["belief"])[label(config)]
-        * (belief if config.agent.title.startswith("belief") else a3c)
+        * (belief * of_actuators.get(label(config)[0], 1.0) if config.agent.title.startswith("belief") else a3c)
         for config in data_efficiency.CONDITIONS
     }
     frame = scores(num_agents, generator, middles, seconds_of_a_frame).assign(calibration_error=calibration_error)
@@ -281,12 +293,26 @@ def pokes(num_agents, generator, means=(5.0, 3.0, 2.0), spread=0.5, long=0.0):
     return table(agents)
 
 
-def slopes(num_agents, generator, slope=-4.0, odd_one=None):
-    """Interactions that depend on the mass gap, and timeouts that would turn the slope about if they counted.
+def patience(num_agents, generator, patient=1.5):
+    """Interactions of agents under both discounts; those who are patient have so many times as many."""
+    means = (5.0, 3.0, 2.0)
+    agents = []
+    for config, mean in zip(patience_lib.CONDITIONS, (*means, *(patient * mean for mean in means)), strict=True):
+        for seed in range(num_agents):
+            drawn = generator.normal(mean + generator.normal(0, 0.02), 0.5, _EPISODES)
+            agents.append(episodes(config, seed, {"interactions": drawn.round().clip(0).astype(int)}))
+    frame = table(agents)
+    return frame.assign(discount=frame.discount.astype(float).round(3))
+
+
+def slopes(num_agents, generator, slope=-4.0, odd_one=None, seen=0.8, lost=1 / _EPISODES):
+    """Interactions that depend on the mass gap, and timeouts that would hide it if they counted.
 
     Args:
       slope: of interactions on the gap.
       odd_one: another slope, of one agent only.
+      seen: share of the slope that is pokes of other blocks.
+      lost: share of episodes that end by timeout, beside the others.
     """
     agents = []
     for config in conditions.PATIENT:
@@ -299,9 +325,10 @@ def slopes(num_agents, generator, slope=-4.0, odd_one=None):
                 "interactions": lengths.round().clip(0).astype(int),
                 "label": np.zeros(_EPISODES, int),
             }
-            columns = with_timeouts(columns, 0.2, mass_gap=1.0 if slope < 0 else 0.0)
+            columns = with_timeouts(columns, lost, mass_gap=1.0 if slope < 0 else 0.0)
             agents.append(episodes(config, seed, columns))
-    return table(agents)
+    frame = table(agents)
+    return frame.assign(blocks=2.5 + seen * slope * (frame.mass_gap - 0.5))
 
 
 def _interactions(mean, count, generator):
@@ -311,13 +338,14 @@ def _interactions(mean, count, generator):
     return drawn
 
 
-def learned_and_random(configs, num_agents, generator, gain: float, ratio: float) -> pandas.DataFrame:
+def learned_and_random(configs, num_agents, generator, gain: float, ratio: float, lost: float) -> pandas.DataFrame:
     """Episodes with learned and with randomized interaction; a third of the learned ones more run out of time.
 
     Args:
       configs: the conditions.
       gain: by how much the share of right answers is higher with learned interaction.
       ratio: of the interactions, learned over randomized.
+      lost: share of the randomized ones, beside the others, that run out of time.
     """
     agents = []
     for config in configs:
@@ -327,19 +355,21 @@ def learned_and_random(configs, num_agents, generator, gain: float, ratio: float
             for interaction, success, mean in (("learned", learned, length * ratio), ("random", random, length)):
                 columns = answers(success, _EPISODES)
                 columns["interactions"] = _interactions(mean, _EPISODES, generator)
-                if interaction == "learned":
-                    columns = with_timeouts(columns, 1 / 3)
+                columns = with_timeouts(columns, 1 / 3 if interaction == "learned" else lost)
                 columns["time"] = 0.1 * columns["interactions"]
                 agents.append(episodes(config, seed, columns, interaction))
     return table(agents)
 
 
-def random_heavier(num_agents, generator, gain=0.15, ratio=1.0):
-    return learned_and_random(conditions.HEAVIER, num_agents, generator, gain, ratio)
+def random_heavier(num_agents, generator, gain=0.15, ratio=1.0, lost=0.0, blocks=1.0):
+    """The same of Which is Heavier; `blocks` is the ratio of those that were looked at."""
+    frame = learned_and_random(conditions.HEAVIER, num_agents, generator, gain, ratio, lost)
+    seen = 2.0 * np.where(frame.interaction == "learned", blocks, 1.0) + generator.normal(0, 0.1, len(frame))
+    return frame.assign(blocks=seen)
 
 
-def random_towers(num_agents, generator, gain=0.15, ratio=0.6):
-    frame = learned_and_random(conditions.TOWERS, num_agents, generator, gain, ratio)
+def random_towers(num_agents, generator, gain=0.15, ratio=0.6, lost=0.0):
+    frame = learned_and_random(conditions.TOWERS, num_agents, generator, gain, ratio, lost)
     frame.attrs["ideal"] = {label(config): {"mean_interactions": 4.0, "accuracy": 1.0} for config in conditions.TOWERS}
     return frame
 
@@ -347,13 +377,15 @@ def random_towers(num_agents, generator, gain=0.15, ratio=0.6):
 # Episodes of the towers.
 
 
-def waiting_fists(num_agents, generator, slowdown=10.0, worst=0.9):
+def waiting_fists(num_agents, generator, slowdown=10.0, gain=0.07, loss=0.0, lost=0.0):
     """Fist agents in slower and slower time.
 
     Args:
       slowdown: how many times as many interactions come before the answer at the finest control step as at the one of
         training; 10 is as many seconds.
-      worst: share of right answers at the finest control step; it is 0.97 at that of training.
+      gain: of right answers where a control step ends at the median time to the answer in training.
+      loss: of right answers from the control step of training, where it is 0.98, to the finest.
+      lost: share of episodes that end by timeout, beside the others.
     """
     agents = []
     steps = np.array(waiting.CONTROL_TIMESTEPS)
@@ -361,13 +393,17 @@ def waiting_fists(num_agents, generator, slowdown=10.0, worst=0.9):
         for seed in range(num_agents):
             base = 16 * np.exp(generator.normal(0, 0.03))
             offset = generator.normal(0, 0.01)
-            for step in steps:
+            for step in steps[::-1]:
                 fineness = np.log(steps[-1] / step) / np.log(steps[-1] / steps[0])  # From 0 to 1.
-                columns = answers(0.97 + (worst - 0.97) * fineness + offset, 100)
-                lengths = base * slowdown**fineness * np.exp(generator.normal(0, 0.1, 100))
-                columns["interactions"] = lengths.round().astype(int)
+                lengths = base * slowdown**fineness * np.exp(generator.normal(0, 0.1, 101))
+                columns = answers(1.0, 101) | {"interactions": lengths.round().astype(int)}
+                columns = with_timeouts(columns, lost)
                 columns["time"] = columns["interactions"] * step
-                del columns["label"]
+                if step == steps[-1]:
+                    usual = np.median(columns["time"])
+                is_off = abs(usual / step - round(usual / step)) > 1e-3
+                success = 0.98 - gain * is_off - loss * fineness + offset
+                columns["reward"][:101] = answers(success, 101)["reward"]
                 agents.append(episodes(config, seed, columns, control_timestep=step))
     return table(agents)
 
@@ -430,6 +466,9 @@ WORLDS: dict[str, dict[str, _World]] = {
         "little more than chance": functools.partial(
             learning_heavier, features=(0.3, 0.35, 0.4), pixels=(0.25, 0.3, 0.35)
         ),
+        "nothing is too hard": functools.partial(
+            learning_heavier, features=(0.992, 0.995, 0.998), pixels=(0.992, 0.995, 0.998), spread=0.1
+        ),
     },
     "population": {
         "paper": pokes,
@@ -439,11 +478,20 @@ WORLDS: dict[str, dict[str, _World]] = {
     "individual": {
         "paper": slopes,
         "hard ones are quick": functools.partial(slopes, slope=4.0),
+        "known blocks again": functools.partial(slopes, seen=0.2),
+        "many are lost": functools.partial(slopes, lost=0.2),
+    },
+    "patience": {
+        "paper": patience,
+        "patience is short": functools.partial(patience, patient=0.7),
     },
     "random_heavier": {
         "paper": random_heavier,
         "chance helps and is quick": functools.partial(random_heavier, gain=-0.15, ratio=2.5),
         "chance is slow": functools.partial(random_heavier, ratio=0.4),
+        "chance is lost": functools.partial(random_heavier, lost=0.4),
+        "chance sees more": functools.partial(random_heavier, blocks=0.7),
+        "chance sees less": functools.partial(random_heavier, blocks=1.4),
     },
     "learning_towers": {
         "paper": learning_towers,
@@ -454,11 +502,14 @@ WORLDS: dict[str, dict[str, _World]] = {
         "paper": waiting_fists,
         "as many steps": functools.partial(waiting_fists, slowdown=1.0),
         "ever more steps": functools.partial(waiting_fists, slowdown=40.0),
-        "lost in fine time": functools.partial(waiting_fists, worst=0.4),
+        "lost in fine time": functools.partial(waiting_fists, loss=0.5),
+        "any frame will do": functools.partial(waiting_fists, gain=0.0),
+        "silent in the end": functools.partial(waiting_fists, lost=0.04),
     },
     "random_towers": {
         "paper": random_towers,
         "chance helps and is quick": functools.partial(random_towers, gain=-0.15, ratio=1.6),
+        "chance is lost": functools.partial(random_towers, lost=0.4),
     },
     "learners": {
         "paper": two_learners,
@@ -470,6 +521,7 @@ WORLDS: dict[str, dict[str, _World]] = {
         "belief is slow": functools.partial(few_frames, belief=2.0),
         "belief computes for long": functools.partial(few_frames, seconds_of_a_frame=1.0),
         "A3C is quick": functools.partial(few_frames, a3c=0.1),
+        "pushes are quick": functools.partial(few_frames, fist=1.2, direct=0.4),
         "agents who stop short": functools.partial(few_frames, loss=4.0),
         "beliefs too sure": functools.partial(few_frames, calibration_error=0.05),
     },
