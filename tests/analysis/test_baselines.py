@@ -7,7 +7,7 @@ from trainers import fresh_seed
 from physexp import suite
 from physexp.agents import core
 from physexp.analysis import domains
-from physexp.analysis.evaluation import playing
+from physexp.analysis.ideal import rollouts
 
 TASKS = ["direct_features", "fist_features"]
 NUM_ACTORS = 32
@@ -25,7 +25,7 @@ def _right(task, player, seed, **task_kwargs):
     """The share of right answers of a baseline, and its mean number of actions."""
     make = domains.find("towers").baselines[task][player]
     actors = [make() for _ in range(NUM_ACTORS)]
-    rewards, lengths = playing.play_actors(actors, "towers", task, task_kwargs, 1, seed)
+    rewards, lengths = rollouts.play(actors, "towers", task, task_kwargs, 1, seed)
     return (rewards > 0).mean(), lengths.mean()
 
 
@@ -73,7 +73,7 @@ class _Counter(core.Actor):
 
 def test_actors_side_by_side_play_as_each_alone(seed):
     actors = [_Counter(number, label) for number, label in [(0, 0), (2, 4), (5, 1), (99, 2)]]
-    rewards, lengths = playing.play_actors(actors, "towers", "fist_features", {}, 2, seed)
+    rewards, lengths = rollouts.play(actors, "towers", "fist_features", {}, 2, seed)
     assert lengths.tolist() == [[1, 3, 6, 26]] * 2  # The last runs out of time.
     batch = suite.load_batch("towers", "fist_features", 4, {"random": seed})
     for episode in range(2):

@@ -7,6 +7,7 @@ import numpy as np
 from physexp.agents import core
 
 _CHANGE = 0.001  # m; contacts give way by a hundredth of it, and glued cubes by nothing.
+_DEVIATIONS = 8  # Of noise, that are taken for no change.
 
 
 class GlueRule(core.Actor):
@@ -16,9 +17,10 @@ class GlueRule(core.Actor):
     answers with the number of bodies that it has seen.
     """
 
-    def __init__(self, interactions: Sequence[int], num_interactions: int):
-        """Takes the interactions that it repeats, and how many there are; labels come after them."""
+    def __init__(self, interactions: Sequence[int], num_interactions: int, noise: float = 0.0):
+        """Takes the interactions that it repeats, how many there are, and the standard deviation of readings, m."""
         self._interactions, self._num_interactions = tuple(interactions), num_interactions
+        self._change = _CHANGE + _DEVIATIONS * noise
 
     def observe_first(self, timestep):
         self._first = timestep.observation["positions"].astype(float)
@@ -35,9 +37,9 @@ class GlueRule(core.Actor):
         self._step += 1
         positions = next_timestep.observation["positions"].astype(float)
         changes = np.abs(_distances(positions) - _distances(self._first))
-        are_apart = self._are_apart | (changes > _CHANGE)
+        are_apart = self._are_apart | (changes > self._change)
         self._is_settled = self._has_moved and bool((are_apart == self._are_apart).all())
-        self._has_moved |= bool((np.linalg.norm(positions - self._first, axis=-1) > _CHANGE).any())
+        self._has_moved |= bool((np.linalg.norm(positions - self._first, axis=-1) > self._change).any())
         self._are_apart = are_apart
 
     def update(self):

@@ -88,34 +88,74 @@ class IdealOptions:
       task: the task.
       resolution: the smallest difference that can be observed: in metres for features, in differing pixels for images;
         at 0 every bit counts.
+      noise, variation: as the task's; then the ideal is bounded from both sides.
     """
 
     task: str = "fist_features"
     resolution: float = 0.0
+    noise: float | None = None
+    variation: float | None = None
 
 
-def trajectories(task: str, task_kwargs: Mapping[str, Any] | None = None):
-    """Returns the `Trajectories` of all glue patterns in a task of the towers."""
+def trajectories(task: str, task_kwargs: Mapping[str, Any] | None = None, nuisances=None):
+    """Returns the `Trajectories` of all glue patterns in a task of the towers; for `nuisances` see there."""
     import numpy as np
 
     from physexp.analysis.ideal import trajectories as trajectories_lib
     from physexp.suite.domains import towers
 
-    return trajectories_lib.Trajectories(_NAME, task, np.arange(len(towers.PRIOR)), towers.PRIOR, task_kwargs)
+    patterns = np.arange(len(towers.PRIOR))
+    return trajectories_lib.Trajectories(_NAME, task, patterns, towers.PRIOR, task_kwargs, nuisances)
 
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolution: float = IdealOptions.resolution):
-    """Returns the ideal experimenter, an observer of some resolution."""
-    from physexp.analysis.ideal import search
+    """Returns the ideal experimenter, an observer of some resolution.
 
-    return search.solve(trajectories(task, task_kwargs), resolution, discount)
+    With noise or variation, it is what the rule earns; and nobody earns more than one who is told what an episode
+    differs in and reads without noise, which is averaged over some episodes.
+    """
+    from physexp.analysis.ideal import bounds, search
+
+    if bounds.is_certain(task_kwargs):
+        return search.solve(trajectories(task, task_kwargs), resolution, discount)
+    if task not in _RULES:
+        raise ValueError(f"task is {task!r}; with noise or variation, choose from {', '.join(_RULES)}")
+    told = {name: value for name, value in task_kwargs.items() if name != "noise"}
+    upper = [
+        search.solve(trajectories(task, told, nuisances), resolution, discount).bound
+        for nuisances in _drawn_nuisances(task, told)
+    ]
+    rule = functools.partial(_rule, task, task_kwargs.get("noise") or 0.0)
+    return bounds.Solution(_NAME, task, task_kwargs, discount, rule, upper)
 
 
-def _rule(interactions: tuple[int, ...], num_interactions: int) -> "core.Actor":
+def _drawn_nuisances(task: str, task_kwargs: Mapping[str, Any]):
+    """Returns what some episodes differ in, [_NUM_NUISANCES, number of them]; None once where there is no variation."""
+    import numpy as np
+
+    from physexp import suite
+    from physexp.suite.engine import seeding
+
+    if not task_kwargs.get("variation"):
+        return [None]
+    count = suite.load_task(_NAME, task, dict(task_kwargs)).num_nuisances
+    episodes = np.arange(_NUM_NUISANCES)
+    return task_kwargs["variation"] * seeding.variations(np.zeros_like(episodes), episodes, count)
+
+
+_NUM_NUISANCES = 16
+_RULES = {
+    "direct_features": (4, 14),  # Push cube 1 to +x, and cube 3 to +y.
+    "fist_features": (0,),  # Move the fist to +x, where the tower is.
+}
+
+
+def _rule(task: str, noise: float = 0.0) -> "core.Actor":
     """Returns an actor that holds cubes for glued while their distance has not changed."""
+    from physexp import suite
     from physexp.analysis.domains import glue
 
-    return glue.GlueRule(interactions, num_interactions)
+    return glue.GlueRule(_RULES[task], suite.load_task(_NAME, task).num_interactions, noise)
 
 
 @functools.cache
@@ -130,14 +170,7 @@ def _lookup(task: str) -> "core.Actor":
 
 
 _BASELINES = {
-    "direct_features": {
-        "rule": functools.partial(_rule, (4, 14), 20),  # Push cube 1 to +x, and cube 3 to +y.
-        "lookup": functools.partial(_lookup, "direct_features"),
-    },
-    "fist_features": {
-        "rule": functools.partial(_rule, (0,), 4),  # Move the fist to +x, where the tower is.
-        "lookup": functools.partial(_lookup, "fist_features"),
-    },
+    task: {"rule": functools.partial(_rule, task), "lookup": functools.partial(_lookup, task)} for task in _RULES
 }
 
 _FROM_IMAGES = {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}

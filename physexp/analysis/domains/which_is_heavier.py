@@ -26,19 +26,33 @@ class IdealOptions:
     Attributes:
       difficulty: the paper's beta, a number >= 1, the larger the easier; by default the task's.
       blocks: how many blocks; by default the task's.
+      noise, variation: as the task's; then the ideal is bounded from both sides.
     """
 
     difficulty: float | None = None
     blocks: int | None = None
+    noise: float | None = None
+    variation: float | None = None
 
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks: int | None = None):
-    """Returns the ideal experimenter; with another number of blocks than the task's it cannot play."""
+    """Returns the ideal experimenter; with another number of blocks than the task's it cannot play.
+
+    With noise or variation, it is what the one without earns who takes all readings for those of a usual episode; and
+    nobody earns more than where there is neither, since the force of all pokes, once known, tells each mass exactly.
+    """
     from physexp import suite
-    from physexp.analysis.ideal import calibration, odd_one_out
+    from physexp.analysis.ideal import bounds, calibration, odd_one_out
     from physexp.suite.domains import which_is_heavier
     from physexp.suite.engine import checks
 
+    if not bounds.is_certain(task_kwargs):
+        if blocks is not None:
+            raise ValueError(
+                f"blocks is {blocks}; give none where there is noise or variation, since it has to be played"
+            )
+        usual = _solve(task, bounds.made_certain(task_kwargs), discount)
+        return bounds.Solution(_NAME, task, task_kwargs, discount, usual.actor, [usual.value])
     prior = which_is_heavier.prior(which_is_heavier.Options(**task_kwargs).difficulty)
     if blocks is not None:
         prior = dataclasses.replace(prior, num_things=checks.integer("blocks", blocks, 2, odd_one_out.MOST_THINGS))

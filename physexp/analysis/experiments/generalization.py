@@ -11,6 +11,7 @@ from physexp.analysis import domains
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures, playing, records
 from physexp.analysis.experiments import base, claims, conditions
+from physexp.analysis.ideal import rollouts
 
 USUAL, VARIED = "trained as usual", "trained with variation"
 RULE, LOOKUP = "rule", "lookup"
@@ -59,8 +60,8 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
             report(f"{player} plays {task.task}")
             actors = [make() for _ in range(_NUM_ACTORS)]
             for test, trial in TRIALS.items():
-                rewards, lengths = playing.play_actors(
-                    actors, task.domain, task.task, trial.task_kwargs, _NUM_EPISODES // _NUM_ACTORS
+                rewards, lengths = rollouts.play(
+                    actors, task.domain, task.task, trial.task_kwargs, _NUM_EPISODES // _NUM_ACTORS, playing.SEED
                 )
                 rows.append(
                     {

@@ -120,15 +120,17 @@ class Solution:
         label = self.prior.num_things + posterior(known, self.prior).argmax(axis=1)
         return np.where(touch > answer, np.isnan(known).argmax(axis=1), label)
 
-    def play(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def play(self, values: np.ndarray, read: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Plays episodes without physics.
 
         Args:
           values: of the things, float64 [N, K].
+          read: what touches show of them, float64 [N, K]; by default the values.
 
         Returns:
           Touches, int64 [N], and whether the answer was right, bool [N].
         """
+        read = values if read is None else read
         known = np.full(values.shape, np.nan)
         touches, labels = np.zeros(len(values), np.int64), np.full(len(values), -1)
         going = np.arange(len(values))
@@ -137,7 +139,7 @@ class Solution:
             touching = actions < self.prior.num_things
             labels[going[~touching]] = actions[~touching] - self.prior.num_things
             going, touched = going[touching], actions[touching]
-            known[going, touched] = values[going, touched]
+            known[going, touched] = read[going, touched]
             touches[going] += 1
         return touches, labels == values.argmax(axis=1)
 

@@ -34,6 +34,7 @@ class Trajectories:
         hidden: np.ndarray,
         prior: np.ndarray,
         task_kwargs: Mapping[str, Any] | None = None,
+        nuisances: np.ndarray | None = None,
         num_threads: int = 2,
     ):
         """Prepares the simulations.
@@ -41,6 +42,7 @@ class Trajectories:
         Args:
           domain_name, task_name, task_kwargs: as for `suite.load`.
           hidden, prior: as above.
+          nuisances: what the episode differs in beside, [number of nuisances], where the task has variation.
           num_threads: threads that simulate.
 
         Raises:
@@ -50,7 +52,7 @@ class Trajectories:
         self.hidden, self.prior = np.asarray(hidden), np.asarray(prior, float)
         self.answers = self.task.answers(self.hidden)
         self.steps = 0
-        self._num_threads = num_threads
+        self._nuisances, self._num_threads = nuisances, num_threads
         self._apart: dict[Actions, np.ndarray] = {(): np.zeros((len(self.hidden), len(self.hidden)))}
 
     def is_expanded(self, sequence: Actions) -> bool:
@@ -100,7 +102,8 @@ class Trajectories:
         """Plays sequences of one length side by side, each for all hypotheses; returns what is seen after each step."""
         size = len(self.hidden)
         rows = np.arange(size * len(sequences))
-        self._batch.reset(rows, hidden=self.hidden[rows % size])
+        nuisances = None if self._nuisances is None else np.repeat(self._nuisances[None], len(rows), axis=0)
+        self._batch.reset(rows, hidden=self.hidden[rows % size], nuisances=nuisances)
         for actions in np.array(sequences).T:
             timestep = self._batch.step(np.repeat(actions, size), rows)
             self.steps += len(rows)

@@ -104,7 +104,11 @@ class BatchEnvironment:
         return self._ledger.next_episodes - 1
 
     def reset(
-        self, environments: np.ndarray | None = None, episode: int | None = None, hidden: np.ndarray | None = None
+        self,
+        environments: np.ndarray | None = None,
+        episode: int | None = None,
+        hidden: np.ndarray | None = None,
+        nuisances: np.ndarray | None = None,
     ) -> dm_env.TimeStep:
         """Starts new episodes.
 
@@ -112,19 +116,22 @@ class BatchEnvironment:
           environments: which environments, sorted indices int [N]; all of them by default.
           episode: index of the episode to start, the same in each; by default the one after the current.
           hidden: their hidden properties, [N, ...], for analysis; by default they are drawn.
+          nuisances: what they differ in beside, [N, number of nuisances] in [-1, 1], for analysis of tasks with
+            variation; by default they are drawn.
 
         Returns:
           As `step`.
 
         Raises:
-          ValueError: for indices out of range, or if `hidden` does not have the shape of what would be drawn.
+          ValueError: for indices out of range, or if `hidden` or `nuisances` do not have the shape of what would be
+            drawn.
           RuntimeError: if the batch is closed, or another thread is using it.
         """
         with self._guard:
             chosen = self._choose(environments)
             if episode is not None:
                 self._ledger.next_episodes[chosen] = checks.integer("episode", episode, 0, seeding.LAST_EPISODE)
-            self._reset(chosen, hidden)
+            self._reset(chosen, hidden, nuisances)
             return self._time_step(chosen, np.full(len(chosen), _FIRST), np.zeros(len(chosen)), np.ones(len(chosen)))
 
     def step(self, actions: np.ndarray, environments: np.ndarray | None = None) -> dm_env.TimeStep:
@@ -242,10 +249,10 @@ class BatchEnvironment:
             return [(self._group(0), slice(None))] if len(chosen) else []
         return [(self._group(int(s)), np.flatnonzero(structures == s)) for s in np.unique(structures)]
 
-    def _reset(self, chosen: np.ndarray, hidden: np.ndarray | None = None) -> None:
+    def _reset(self, chosen: np.ndarray, hidden: np.ndarray | None = None, nuisances: np.ndarray | None = None) -> None:
         if not len(chosen):
             return
-        self._ledger.begin(chosen, hidden)
+        self._ledger.begin(chosen, hidden, nuisances)
         for group, members in self._by_structure(chosen):
             rows = chosen[members]
             group.reset(rows, self._ledger.hidden[rows], self._ledger.nuisances[rows])

@@ -52,34 +52,40 @@ class Ledger:
             raise RuntimeError("no episode has been started; call reset() first")
         return self._hidden
 
-    def begin(self, rows: np.ndarray, hidden: Any = None) -> None:
+    def begin(self, rows: np.ndarray, hidden: Any = None, nuisances: Any = None) -> None:
         """Starts the next episode of some environments.
 
         Args:
           rows: which, int [K].
           hidden: their hidden properties, [K, ...]; by default those that follow from seed and episode.
+          nuisances: what they differ in beside, [K, number of nuisances]; by default the same.
 
         Raises:
-          ValueError: if `hidden` does not have the shape of what would be drawn.
+          ValueError: if `hidden` or `nuisances` do not have the shape of what would be drawn.
         """
         drawn = self._task.draw(self.seeds[rows], self.next_episodes[rows])
+        differing = self._draw_nuisances(rows)
+        if nuisances is not None:
+            differing = _checked("nuisances", nuisances, differing)
         if hidden is not None:
-            given = np.asarray(hidden)
-            if given.shape != drawn.shape:
-                raise ValueError(f"hidden is {checks.shown(hidden)}; give an array of shape {drawn.shape}")
-            drawn = given.astype(drawn.dtype)
+            drawn = _checked("hidden", hidden, drawn)
         if self._hidden is None:
             self._hidden = np.zeros((len(self.seeds), *drawn.shape[1:]), drawn.dtype)
         self._hidden[rows] = drawn
         self.answers[rows] = self._task.answers(drawn)
         self.structures[rows] = self._task.structures(drawn)
-        if self.nuisances.shape[1]:
-            drawn = seeding.variations(self.seeds[rows], self.next_episodes[rows], self.nuisances.shape[1])
-            self.nuisances[rows] = self._task.options.variation * drawn
+        self.nuisances[rows] = differing
         self.next_episodes[rows] += 1
         self.steps[rows] = 0
         self.touched[rows] = False
         self.over[rows] = False
+
+    def _draw_nuisances(self, rows: np.ndarray) -> np.ndarray:
+        count = self.nuisances.shape[1]
+        if not count:
+            return self.nuisances[rows]
+        drawn = seeding.variations(self.seeds[rows], self.next_episodes[rows], count)
+        return self._task.options.variation * drawn
 
     def judge(self, rows: np.ndarray, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Judges the control step under way of some environments.
@@ -94,3 +100,11 @@ class Ledger:
         rewards, last = self._task.rules.judge(actions, self.answers[rows], self.steps[rows])
         self.over[rows] = last
         return rewards, last
+
+
+def _checked(name: str, given: Any, drawn: np.ndarray) -> np.ndarray:
+    """Returns what is given in place of what would be drawn."""
+    values = np.asarray(given)
+    if values.shape != drawn.shape:
+        raise ValueError(f"{name} is {checks.shown(given)}; give an array of shape {drawn.shape}")
+    return values.astype(drawn.dtype)

@@ -1,0 +1,115 @@
+"""Where readings are noisy or episodes differ in what cannot be seen, the ideal is bounded from both sides."""
+
+import types
+
+import numpy as np
+import pytest
+from trainers import fresh_seed
+
+from physexp import suite
+from physexp.analysis import domains
+from physexp.analysis.domains import towers
+from physexp.analysis.ideal import bounds
+from physexp.suite.domains import which_is_heavier
+from physexp.suite.engine import seeding
+
+_DISCOUNT = 0.95
+
+
+def _ideal(domain, task, **task_kwargs):
+    known = domains.find(domain)
+    return known.ideal(task, task_kwargs, known.discount)
+
+
+@pytest.fixture
+def few_episodes(monkeypatch):
+    """As many as a test has time for."""
+    monkeypatch.setattr(bounds, "NUM_EPISODES", 640)
+    monkeypatch.setattr(towers, "_NUM_NUISANCES", 2)
+
+
+def _heights(masses):
+    """The heights that pokes show of masses, [N]."""
+    batch = suite.load_batch("which_is_heavier", "features", len(masses))
+    batch.reset(hidden=np.repeat(masses[:, None], which_is_heavier.NUM_BLOCKS, axis=1))
+    return batch.step(np.zeros(len(masses), np.int64)).observation["heights"][:, 0].astype(float)
+
+
+@pytest.mark.parametrize("noise", [0.01])
+def test_what_is_earned_with_noise_is_what_a_computation_without_physics_says(few_episodes, noise):
+    """Masses are drawn and misread by noise on a curve of heights; the rest is Bayes' rule."""
+    generator = np.random.default_rng(fresh_seed())
+    solution, usual = (_ideal("which_is_heavier", "features", **kwargs) for kwargs in ({"noise": noise}, {}))
+    nodes = np.linspace(0, 1, 1001)
+    heights = _heights(nodes)
+    odd = generator.integers(4, size=50_000)
+    masses = generator.beta(1, 5, (50_000, 4))
+    masses[np.arange(50_000), odd] = generator.beta(5, 1, 50_000)
+    shown = np.interp(masses, nodes, heights) + generator.normal(0, noise, masses.shape)
+    read = np.interp(-shown, -heights, nodes).clip(1e-9, 1 - 1e-9)
+    pokes, right = usual.play(masses, read)
+    returns = np.where(right, 1, -1) * _DISCOUNT**pokes
+    error = np.hypot(returns.std() / len(returns) ** 0.5, solution.summary()["value_error"])
+    assert abs(solution.value - returns.mean()) < 5 * error
+    assert solution.bound == usual.value
+
+
+def test_bounds_with_noise_or_variation_are_near_each_other(few_episodes):
+    for domain, task, task_kwargs in (
+        ("which_is_heavier", "features", {"variation": 1.0}),
+        ("which_is_heavier", "features", {"noise": 0.003}),
+        ("towers", "direct_features", {"variation": 1.0}),
+    ):
+        found = _ideal(domain, task, **task_kwargs).summary()
+        error = np.hypot(found["value_error"], found["bound_error"])
+        assert -5 * error < found["bound"] - found["value"] < 0.03 + 5 * error
+        assert sum(found["histogram"].values()) == pytest.approx(1)
+
+
+def test_who_is_told_what_an_episode_differs_in_needs_one_push_still(few_episodes):
+    assert _ideal("towers", "direct_features", variation=1.0).bound == pytest.approx(0.98)
+
+
+def test_without_noise_and_variation_the_value_is_exact():
+    for kwargs in ({}, {"noise": 0.0}, {"variation": 0.0}):
+        solution = _ideal("which_is_heavier", "features", **kwargs)
+        assert solution.value == solution.bound == _ideal("which_is_heavier", "features").value
+
+
+def test_the_policy_plays_and_what_it_believes_is_not_known():
+    solution = _ideal("towers", "fist_features", noise=0.001)
+    actor = solution.actor()
+    environment = suite.load("towers", "fist_features", {"noise": 0.001})
+    timestep = environment.reset()
+    actor.observe_first(timestep)
+    while not timestep.last():
+        action = actor.select_action(timestep.observation)
+        timestep = environment.step(action)
+        actor.observe(action, timestep)
+    assert timestep.reward == 1
+    with pytest.raises(ValueError, match="where there is neither noise nor variation"):
+        solution.beliefs(types.SimpleNamespace())
+
+
+def test_what_cannot_be_bounded_is_refused_in_one_line():
+    with pytest.raises(ValueError, match="blocks is 3; give none where there is noise or variation"):
+        domains.find("which_is_heavier").ideal("features", {"noise": 0.001}, _DISCOUNT, blocks=3)
+    with pytest.raises(ValueError, match="task is 'fist_pixels'; with noise or variation, choose from direct_features"):
+        _ideal("towers", "fist_pixels", variation=1.0)
+
+
+@pytest.mark.parametrize("task", ["which_is_heavier features", "towers fist_features"])
+def test_circumstances_that_are_given_are_those_of_the_episode_that_draws_them(task):
+    domain, task = task.split()
+    seed = fresh_seed()
+    drawn, given = (suite.load_batch(domain, task, 8, {"variation": 0.5, "random": seed}) for _ in range(2))
+    expected = drawn.reset(episode=3)
+    count = drawn.task.num_nuisances
+    nuisances = 0.5 * seeding.variations(drawn.seeds, np.full(8, 3), count)
+    found = given.reset(episode=5, hidden=drawn.hidden, nuisances=nuisances)
+    for _ in range(3):
+        for name, value in expected.observation.items():
+            np.testing.assert_array_equal(found.observation[name], value)
+        expected, found = (batch.step(np.zeros(8, np.int64)) for batch in (drawn, given))
+    with pytest.raises(ValueError, match=r"nuisances is .*; give an array of shape \(8, "):
+        given.reset(nuisances=nuisances[:, :-1])
