@@ -1,6 +1,6 @@
 """The domains, in the order in which they are listed; each asks one question."""
 
-from physexp.suite.domains import threshold, towers, which_is_heavier
+from physexp.suite.domains import balance, threshold, towers, which_is_heavier
 
-DOMAINS = {module.__name__.rpartition(".")[2]: module for module in (which_is_heavier, towers, threshold)}
+DOMAINS = {module.__name__.rpartition(".")[2]: module for module in (which_is_heavier, towers, threshold, balance)}
 """The modules of the domains by name; each has `SUITE`, the factories of its tasks, and `Options`."""

@@ -212,6 +212,14 @@ def frictions(apparatus: Apparatus, joints: tuple[str, ...], newtons: np.ndarray
     return {"dof_frictionloss": (dofs, newtons)}
 
 
+def gains(apparatus: Apparatus, actuators: tuple[str, ...], values: np.ndarray) -> declarations.Fields:
+    """Returns the model fields of gains, float64 [N, K], of motors by their full names: N or N m at a control of 1."""
+    model = apparatus.model
+    parameters = np.zeros((*values.shape, model.actuator_gainprm.shape[1]))
+    parameters[..., 0] = values
+    return {"actuator_gainprm": (np.array([model.actuator(name).id for name in actuators]), parameters)}
+
+
 @functools.lru_cache(maxsize=256)
 def compile_xml(xml: str) -> mujoco.MjModel:
     """Returns the model of an MJCF string, compiled once per process."""

@@ -1,0 +1,52 @@
+"""What the analysis knows of Balance: its ideal and its columns."""
+
+from collections.abc import Mapping
+import dataclasses
+from typing import Any
+
+from physexp.agents.belief import config as belief
+from physexp.analysis.domains import base
+
+_NAME = "balance"
+_DISCOUNT = 0.95
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class IdealOptions:
+    """What can be chosen of the ideal experimenter, who reads only to which side the beam tilts.
+
+    Attributes:
+      difficulty: 1 more than the number of blocks that are known not to be the odd one, 1 to 3; by default the task's.
+    """
+
+    difficulty: int | None = None
+
+
+def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
+    """Returns the ideal experimenter; it plays from features."""
+    from physexp import suite
+    from physexp.analysis.ideal import counterfeit
+    from physexp.suite.domains import balance
+
+    played = suite.load_task(_NAME, task, dict(task_kwargs))
+    suspects = balance.num_suspects(played.options.difficulty)
+    solution = counterfeit.solve(balance.NUM_BLOCKS, suspects, discount, played.rules.step_limit)
+    return dataclasses.replace(
+        solution,
+        read=_tilt if "features" in suite.tags(_NAME, task) else None,
+        label=lambda hidden: int(played.answers(hidden[None])[0]),
+    )
+
+
+def _tilt(observation) -> int:
+    return int(observation["tilt"][0])
+
+
+DOMAIN = base.Domain(
+    name=_NAME,
+    discount=_DISCOUNT,
+    presets={"pixels": {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}},
+    ideal=base.Ideal(_solve, IdealOptions),
+    columns=(base.Column("weights", "float32", is_list=True, is_varied=True),),  # kg
+    fill=lambda hidden: {"weights": hidden},
+)

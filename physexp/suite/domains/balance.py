@@ -1,0 +1,223 @@
+"""Balance: six blocks of which one has another weight, and the question which, and whether it is heavier or lighter."""
+
+import dataclasses
+
+from dm_control.utils import containers
+import numpy as np
+
+from physexp.suite.engine import apparatus as apparatus_lib
+from physexp.suite.engine import checks, declarations, rendering, seeding, senses, task
+from physexp.suite.engine import options as options_lib
+from physexp.suite.parts import arena, block, flag
+
+SUITE = containers.TaggedTasks()
+
+PHYSICS_TIMESTEP = 0.01  # s
+
+# A beam on a hinge, with two pans. Blocks load it with their weight alone, so that laying one down is not felt, and
+# only the side to which the beam tilts is read: how far it tilts would tell the difference after one weighing.
+NUM_BLOCKS = 6
+WEIGHT = 1.0  # kg
+DIFFERENCES = (0.25, 0.4)  # Shares of the weight by which the odd block differs, the least and the greatest.
+SIDES = {"left": -1, "right": 1}
+PLACES = {**{f"on the {side} pan": value for side, value in SIDES.items()}, "aside": 0}
+"""Where a block may be put, and the reading that says so; the actions are in this order."""
+
+_GRAVITY = 9.81  # m/s^2
+ARM = 0.3  # m, from the hinge to a pan
+STOP = 0.05  # rad, the tilt at which the beam leans on a stop
+_READ = STOP / 2  # rad, the tilt that is read as one
+_BEAM_MASS = 0.1  # kg
+_INERTIA = _BEAM_MASS * (2 * ARM) ** 2 / 12  # kg m^2, of a thin beam about its middle
+_LEAST_TORQUE = DIFFERENCES[0] * WEIGHT * _GRAVITY * ARM  # N m, of the smallest difference
+# The hinge is above the beam's centre of mass, which brings it back: at the stop with half of the least torque. It is
+# damped critically, and level again, to a reader, after 0.035 s.
+_STIFFNESS = _LEAST_TORQUE / 2 / STOP  # N m/rad
+_DAMPING = 2 * np.sqrt(_STIFFNESS * _INERTIA)  # N m s/rad
+_STOPPING = dict(solimplimit=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreflimit=[2 * PHYSICS_TIMESTEP, 1.0])
+
+_SHORTEST_STEP = 0.08  # s: a beam is at rest, to a reader, within it
+
+_SPACING = 0.15  # m, between blocks
+_REACH = 0.34  # m, from where a block lies aside to where it lies on a pan
+_POINTER_Y, _POINTER_TRAVEL = -0.58, 0.34  # m
+_PAN_HALF_SIZE = (0.08, 0.47, 0.004)  # m
+_PAN_RGBA = (0.55, 0.55, 0.60, 1.0)
+_ROOM = dict(mat_size=[0.5, 0.68], camera_pos=[0, -1.7, 3.3], camera_target=[0, -0.07, 0], fovy=22.0)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Options(options_lib.Options):
+    """The `task_kwargs` of this domain.
+
+    Attributes:
+      difficulty: 1 more than the number of blocks, grey ones, that are known not to be the odd one, 1 to 3; the larger,
+        the easier.
+    """
+
+    physics_timestep = PHYSICS_TIMESTEP
+
+    time_limit: float = 4.0  # the longer, the less it costs never to answer
+    difficulty: int = 1  # where each block may be the odd one
+
+    def __post_init__(self):
+        super().__post_init__()
+        if self.control_timestep < _SHORTEST_STEP:
+            raise ValueError(
+                f"control_timestep is {self.control_timestep} s; give at least {_SHORTEST_STEP} s, in which the beam "
+                "comes to rest"
+            )
+        object.__setattr__(self, "difficulty", checks.integer("difficulty", self.difficulty, 1, 3))
+
+
+def num_suspects(difficulty: int) -> int:
+    """Returns how many blocks may be the odd one: the first ones."""
+    return NUM_BLOCKS + 1 - difficulty
+
+
+def draw_weights(seeds: np.ndarray, episodes: np.ndarray, difficulty: int) -> np.ndarray:
+    """Returns the weights of the blocks in some episodes, in kilograms, float64 [N, NUM_BLOCKS].
+
+    Which block is odd, among those that may be, and whether it is heavier or lighter are equally likely; the difference
+    is uniform within `DIFFERENCES`.
+
+    Args:
+      seeds, episodes: environment seeds and episode indices, int64 [N].
+      difficulty: as in `Options`.
+    """
+    draws = seeding.uniforms(seeds, episodes, 2)
+    labels = np.floor(draws[:, 0] * 2 * num_suspects(difficulty)).astype(np.int64)
+    least, greatest = DIFFERENCES
+    differences = WEIGHT * (least + (greatest - least) * draws[:, 1])
+    weights = np.full((len(labels), NUM_BLOCKS), WEIGHT)
+    weights[np.arange(len(labels)), labels // 2] += np.where(labels % 2, -differences, differences)
+    return weights
+
+
+def _tilt(angles: np.ndarray) -> np.ndarray:
+    """Returns to which side the beam tilts, -1, 0 or 1, from its angle, rad [N, 1]; right is positive."""
+    return (angles > _READ).astype(float) - (angles < -_READ)
+
+
+class Balance(task.QuestionTask):
+    """Six blocks beside a balance, which tells which of its pans is heavier."""
+
+    options: Options
+    question = "Which block has another weight than the others, and is it heavier or lighter?"
+
+    def __init__(self, options: Options, sense: senses.Sense):
+        """Builds the scene."""
+        room = arena.Laboratory(**_ROOM)
+        room.mjcf_model.option.flag.contact = "disable"
+        world = room.mjcf_model.worldbody
+        beam = world.add("body", name="beam", pos=[0, 0, 0.2])
+        beam.add(
+            "geom", name="beam", type="box", size=[ARM, 0.005, 0.005], mass=_BEAM_MASS, group=rendering.UNDRAWN_GROUP
+        )
+        hinge = beam.add(
+            "joint",
+            name="hinge",
+            type="hinge",
+            axis=[0, 1, 0],
+            limited=True,
+            range=[-STOP, STOP],
+            stiffness=_STIFFNESS,
+            damping=_DAMPING,
+            **_STOPPING,
+        )
+        for side, sign in SIDES.items():
+            world.add(
+                "geom",
+                name=f"{side}_pan",
+                type="box",
+                size=_PAN_HALF_SIZE,
+                pos=[sign * _REACH, 0, _PAN_HALF_SIZE[2]],
+                rgba=_PAN_RGBA,
+                contype=0,
+                conaffinity=0,
+            )
+        self._blocks, loads = [], []
+        for k in range(NUM_BLOCKS):
+            is_suspect = k < num_suspects(options.difficulty)
+            cube = block.Block(block.COLORS[k] if is_suspect else _PAN_RGBA, mass=WEIGHT, name=f"block_{k}")
+            room.attach(cube).pos = [0, ((NUM_BLOCKS - 1) / 2 - k) * _SPACING, block.HALF_SIZE]
+            self._blocks.append(cube)
+            loads.append(room.mjcf_model.actuator.add("motor", name=f"load_{k}", joint=hinge))
+        self._loads = tuple(load.full_identifier for load in loads)
+        self._pointer = flag.Flag(rgba=(0.15, 0.15, 0.18, 1.0), name="pointer")
+        room.attach(self._pointer).pos = [0, _POINTER_Y, flag.HALF_SIZE[2]]
+        sensors = room.mjcf_model.sensor
+        self._torques = [sensors.add("actuatorfrc", name=load.name, actuator=load) for load in loads]
+        self._angle = sensors.add("jointpos", name="angle", joint=hinge)
+        super().__init__(room, options, sense)
+
+    @property
+    def interactions(self):
+        return [
+            declarations.Interaction(
+                f"put block {k} {place}", side * np.eye(NUM_BLOCKS)[k], f"block_{k}", (0.0, 0.0, -float(abs(side)))
+            )
+            for k in range(NUM_BLOCKS)
+            for place, side in PLACES.items()
+        ]
+
+    @property
+    def label_names(self):
+        return [f"block {k} is {kind}" for k in range(NUM_BLOCKS) for kind in ("heavier", "lighter")]
+
+    @property
+    def readings(self):
+        return {
+            "places": declarations.Reading(self._torques, (NUM_BLOCKS,), unit="", bounds=(-1, 1), measure=np.sign),
+            "tilt": declarations.Reading([self._angle], (1,), unit="", bounds=(-1, 1), measure=_tilt),
+        }
+
+    @property
+    def indicators(self):
+        return [
+            *(declarations.Indicator(cube.geom, "places", k, (_REACH, 0, 0)) for k, cube in enumerate(self._blocks)),
+            declarations.Indicator(self._pointer.geom, "tilt", 0, (_POINTER_TRAVEL, 0, 0)),
+        ]
+
+    def draw(self, seeds, episodes):
+        """Returns the weights of the blocks, in kilograms, float64 [N, NUM_BLOCKS]."""
+        return draw_weights(seeds, episodes, self.options.difficulty)
+
+    def answers(self, hidden):
+        differences = hidden - WEIGHT
+        odd = np.abs(differences).argmax(axis=1)
+        return 2 * odd + (differences[np.arange(len(hidden)), odd] < 0)
+
+    def hidden_fields(self, apparatus, hidden):
+        return apparatus_lib.gains(apparatus, self._loads, _GRAVITY * ARM * hidden)
+
+    @property
+    def num_nuisances(self):
+        """Images differ in where the camera is; readings in nothing."""
+        return 3 if self.sense.needs_gl else 0
+
+    def circumstances(self, apparatus, nuisances):
+        return declarations.Circumstances(camera=arena.CAMERA_VARIATION * nuisances)
+
+    def drive(self, actions, qpos, ctrl):
+        """Returns where the blocks are, -1 for the left pan, 1 for the right one, 0 for aside, [N, NUM_BLOCKS]."""
+        places = ctrl.copy()
+        moved = np.asarray(actions) // len(PLACES)
+        rows = np.arange(len(places))
+        places[rows, moved] = self.controls[actions][rows, moved]
+        return places
+
+    def reveal(self, hidden):
+        return declarations.Revealed(marks={f"block_{k}": f"{weight:.2f} kg" for k, weight in enumerate(hidden)})
+
+
+@SUITE.add("features")
+def features(options):
+    """Observes `places`, float32 (6,): -1 left, 1 right, 0 aside; `tilt`, float32 (1,): the heavier side, or 0."""
+    return Balance(options, senses.Features())
+
+
+@SUITE.add("pixels")
+def pixels(options):
+    """Observes `pixels`, uint8 (84, 84, 3): blocks, aside or on one of two pans, and a pointer that shows the tilt."""
+    return Balance(options, senses.Pixels())
