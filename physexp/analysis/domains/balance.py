@@ -19,7 +19,7 @@ class IdealOptions:
       difficulty: 1 more than the number of blocks that are known not to be the odd one, 1 to 3; by default the task's.
     """
 
-    difficulty: int | None = None
+    difficulty: float | None = None
 
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):

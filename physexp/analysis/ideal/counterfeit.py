@@ -20,7 +20,7 @@ from physexp.agents import core
 from physexp.analysis.ideal import base
 from physexp.suite.engine import checks, rules
 
-LEFT, RIGHT, ASIDE = range(3)
+ASIDE, LEFT, RIGHT = range(3)
 """Where things lie. Interaction 3 k + p puts thing k in place p; label 2 k says that it is heavier, 2 k + 1 lighter."""
 UNKNOWN, HEAVIER, LIGHTER, GENUINE = range(4)
 """What may be known of a thing."""
@@ -33,17 +33,17 @@ _TIE = 1e-12  # Returns that differ by less are equal: the shorter way is taken.
 # What is known after a weighing, by tilt (-1, 0, 1), kind and place. If the balance tilts, the odd thing is on a pan,
 # and heavier if that went down.
 _KINDS_AFTER = {
-    0: [[GENUINE, GENUINE, kind] for kind in range(_NUM_KINDS)],
+    0: [[kind, GENUINE, GENUINE] for kind in range(_NUM_KINDS)],
     -1: [
-        [HEAVIER, LIGHTER, GENUINE],
-        [HEAVIER, GENUINE, GENUINE],
-        [GENUINE, LIGHTER, GENUINE],
+        [GENUINE, HEAVIER, LIGHTER],
+        [GENUINE, HEAVIER, GENUINE],
+        [GENUINE, GENUINE, LIGHTER],
         [GENUINE, GENUINE, GENUINE],
     ],
     1: [
-        [LIGHTER, HEAVIER, GENUINE],
-        [GENUINE, HEAVIER, GENUINE],
-        [LIGHTER, GENUINE, GENUINE],
+        [GENUINE, LIGHTER, HEAVIER],
+        [GENUINE, GENUINE, HEAVIER],
+        [GENUINE, LIGHTER, GENUINE],
         [GENUINE, GENUINE, GENUINE],
     ],
 }
@@ -71,7 +71,7 @@ def _tells(left: int, right: int) -> bool:
 
 def _outcomes(state: State) -> Iterator[tuple[float, State]]:
     """Probabilities and states after the balance has been read, where things lie as in a state."""
-    left, right, _ = (sum(state[place::_NUM_PLACES]) for place in range(_NUM_PLACES))
+    _, left, right = (sum(state[place::_NUM_PLACES]) for place in range(_NUM_PLACES))
     if not _tells(left, right):
         yield 1.0, state
         return
@@ -224,9 +224,7 @@ class Solution:
           ValueError: if it cannot be read from what the task observes.
         """
         if self.read is None:
-            raise ValueError(
-                "the ideal experimenter reads the balance from features, not from images; choose such a task"
-            )
+            raise ValueError("the ideal experimenter reads the tilt from features, not from images; choose such a task")
         return _Player(self, self.read)
 
     def beliefs(self, episode: base.Episode) -> np.ndarray:
@@ -251,7 +249,7 @@ class Solution:
             return kinds, places
         places = places.copy()
         places[action // _NUM_PLACES] = action % _NUM_PLACES
-        side = {LEFT: -1, RIGHT: 1, ASIDE: 0}[int(places[label // 2])]
+        side = (0, -1, 1)[places[label // 2]]
         return weighed(kinds, places, -side if label % 2 else side), places
 
     def play(self, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

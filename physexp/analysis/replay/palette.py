@@ -45,10 +45,13 @@ def of_labels(labels: Sequence[str], shapes: recording.Shapes) -> list[tuple[int
     ]
 
 
-def short(label: str, shapes: recording.Shapes) -> str:
-    """Returns a label in few words: the thing that it names, or itself."""
-    name = _named(label, shapes)
-    return readings.spoken(name) if name else label
+def short(labels: Sequence[str], shapes: recording.Shapes) -> list[str]:
+    """Returns labels in few words: the things that they name, where each names another one, or themselves."""
+    named = [_named(label, shapes) for label in labels]
+    are_told_apart = len({name for name in named if name}) == sum(name is not None for name in named)
+    if not are_told_apart:
+        return list(labels)
+    return [readings.spoken(name) if name else label for name, label in zip(named, labels, strict=True)]
 
 
 def _named(label: str, shapes: recording.Shapes) -> str | None:

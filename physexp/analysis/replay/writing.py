@@ -249,7 +249,7 @@ class EpisodeWriter:
 
     def _write_belief(self) -> None:
         episode, shapes, labels = self._episode, self._episode.shapes, self._task.label_names
-        names, colors = [palette.short(label, shapes) for label in labels], palette.of_labels(labels, shapes)
+        names, colors = palette.short(labels, shapes), palette.of_labels(labels, shapes)
         ideal = beliefs.of_ideal(episode)
         if ideal is not None:
             self._series("belief/ideal", ideal, names, colors, steps=True)

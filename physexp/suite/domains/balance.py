@@ -20,7 +20,7 @@ NUM_BLOCKS = 6
 WEIGHT = 1.0  # kg
 DIFFERENCES = (0.25, 0.4)  # Shares of the weight by which the odd block differs, the least and the greatest.
 SIDES = {"left": -1, "right": 1}
-PLACES = {**{f"on the {side} pan": value for side, value in SIDES.items()}, "aside": 0}
+PLACES = {"aside": 0, **{f"on the {side} pan": value for side, value in SIDES.items()}}
 """Where a block may be put, and the reading that says so; the actions are in this order."""
 
 _GRAVITY = 9.81  # m/s^2
@@ -43,7 +43,7 @@ _REACH = 0.34  # m, from where a block lies aside to where it lies on a pan
 _POINTER_Y, _POINTER_TRAVEL = -0.58, 0.34  # m
 _PAN_HALF_SIZE = (0.08, 0.47, 0.004)  # m
 _PAN_RGBA = (0.55, 0.55, 0.60, 1.0)
-_ROOM = dict(mat_size=[0.5, 0.68], camera_pos=[0, -1.7, 3.3], camera_target=[0, -0.07, 0], fovy=22.0)
+_ROOM = dict(mat_size=[0.5, 0.68], camera_pos=[0, -1.9, 3.2], camera_target=[0, -0.07, 0], fovy=19.0)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -58,7 +58,7 @@ class Options(options_lib.Options):
     physics_timestep = PHYSICS_TIMESTEP
 
     time_limit: float = 4.0  # the longer, the less it costs never to answer
-    difficulty: int = 1  # where each block may be the odd one
+    difficulty: float = 1.0  # where each block may be the odd one
 
     def __post_init__(self):
         super().__post_init__()
@@ -67,15 +67,17 @@ class Options(options_lib.Options):
                 f"control_timestep is {self.control_timestep} s; give at least {_SHORTEST_STEP} s, in which the beam "
                 "comes to rest"
             )
-        object.__setattr__(self, "difficulty", checks.integer("difficulty", self.difficulty, 1, 3))
+        if self.difficulty not in (1, 2, 3):
+            raise ValueError(f"difficulty is {checks.shown(self.difficulty)}; give 1, 2 or 3")
+        object.__setattr__(self, "difficulty", float(self.difficulty))
 
 
-def num_suspects(difficulty: int) -> int:
+def num_suspects(difficulty: float) -> int:
     """Returns how many blocks may be the odd one: the first ones."""
-    return NUM_BLOCKS + 1 - difficulty
+    return NUM_BLOCKS + 1 - int(difficulty)
 
 
-def draw_weights(seeds: np.ndarray, episodes: np.ndarray, difficulty: int) -> np.ndarray:
+def draw_weights(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
     """Returns the weights of the blocks in some episodes, in kilograms, float64 [N, NUM_BLOCKS].
 
     Which block is odd, among those that may be, and whether it is heavier or lighter are equally likely; the difference
@@ -147,7 +149,10 @@ class Balance(task.QuestionTask):
         self._pointer = flag.Flag(rgba=(0.15, 0.15, 0.18, 1.0), name="pointer")
         room.attach(self._pointer).pos = [0, _POINTER_Y, flag.HALF_SIZE[2]]
         sensors = room.mjcf_model.sensor
-        self._torques = [sensors.add("actuatorfrc", name=load.name, actuator=load) for load in loads]
+        self._torques = [
+            sensors.add("actuatorfrc", name=cube.mjcf_model.model, actuator=load)
+            for cube, load in zip(self._blocks, loads, strict=True)
+        ]
         self._angle = sensors.add("jointpos", name="angle", joint=hinge)
         super().__init__(room, options, sense)
 

@@ -13,7 +13,7 @@ from physexp import suite
 from physexp.analysis import domains
 from physexp.analysis.ideal import counterfeit
 
-SIDES = (-1, 1, 0)
+SIDES = (0, -1, 1)
 
 
 def search(num_things, num_suspects, discount, step_limit, choose):
@@ -48,7 +48,7 @@ def search(num_things, num_suspects, discount, step_limit, choose):
             expected.append(sum(chance * value(moved, part, steps - 1) for chance, part in parts(moved, labels)))
         return max(answer, discount * choose(expected))
 
-    return value((2,) * num_things, frozenset(weights), step_limit)
+    return value((0,) * num_things, frozenset(weights), step_limit)
 
 
 def mean(values):
