@@ -17,6 +17,7 @@ EPISODES = {
     "which_is_heavier": ("which_is_heavier/features", 12, 1),
     "towers": ("towers/fist_features", 8, 0),
     "threshold": ("ppo/threshold-features", 5, 8),
+    "balance": ("balance/features", 5, 1),
 }
 """For each picture whose agent plays, and the seed and the index of the episode."""
 

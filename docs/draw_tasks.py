@@ -19,6 +19,7 @@ EPISODES = (
     ),  # Three bodies: some glue, not all. Pushed block by block.
     ("towers", "fist_pixels", 6, [0] * 7),  # Along +x, into the tower.
     ("threshold", "pixels", 2, [3, 5, 4, 1, 7, 0, 4]),
+    ("balance", "pixels", 1, [1, 5, 7, 11, 3, 13, 6]),
 )
 """Domain, task, index of the episode and actions of each row."""
 

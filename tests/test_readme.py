@@ -119,7 +119,7 @@ def test_an_experiment_draws_its_figure_and_holds_and_the_report_has_it(tmp_path
     assert "holds" in printed and (tmp_path / "results/figures/mass_gap.png").exists()
     physexp("physexp report", capsys)
     report = (tmp_path / "results/report.md").read_text()
-    assert "figures/mass_gap.png" in report and "**holds**" in report
+    assert "figures/mass_gap.png" in report and "**holds (sanity check)**" in report
 
 
 @pytest.mark.long

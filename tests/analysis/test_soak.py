@@ -27,32 +27,39 @@ GROWTH = 16e6  # Bytes; that is three for each step of the full length, and the 
 
 
 class Players:
-    """Plays a batch: every other environment with the trained agent of the task, the rest at random."""
+    """Plays a batch: every other environment with the trained agent of the task, the rest at random.
+
+    Where there is no agent that can be stepped here, all are played at random.
+    """
 
     def __init__(self, domain, task, size, seed):
         self.batch = suite.load_batch(domain, task, size, {"random": seed})
         # Environments are in different steps here, and the belief learner's memory has one length for all of them.
-        learner = "ppo" if domain == "threshold" else "a3c"
-        self._network = pretrained.load(domain, task, agent=learner).network
+        learner = {"threshold": "ppo", "balance": None}.get(domain, "a3c")
+        self._network = pretrained.load(domain, task, agent=learner).network if learner else None
         self._generator = np.random.default_rng(seed)
         self._random = np.arange(size) % 2 == 1
-        self._state = self._network.initial_state(size)
+        self._state = self._network.initial_state(size) if self._network else ()
         self._timestep = self.batch.reset()
         self.started, self.ended, self.rewards = size, 0, set()
 
-    @torch.inference_mode()
-    def step(self):
-        timestep, task = self._timestep, self.batch.task
+    def _learned(self, timestep):
+        """What the agent does, [B]."""
         fresh = torch.from_numpy(timestep.step_type == dm_env.StepType.FIRST)
         for part in self._state:
             part[:, fresh] = 0  # An episode starts: so does the memory.
         encoded = self._network.encode(acting.as_tensors(timestep.observation))
         logits, _, self._state = self._network.step(encoded, self._state)
+        return acting.sample(logits, self._generator)
+
+    @torch.inference_mode()
+    def step(self):
+        timestep, task = self._timestep, self.batch.task
         size = len(self._random)
         labels = task.num_interactions + self._generator.integers(task.num_labels, size=size)
         pokes = self._generator.integers(task.num_interactions, size=size)
         at_random = np.where(self._generator.random(size) < LABELS, labels, pokes)
-        actions = np.where(self._random, at_random, acting.sample(logits, self._generator))
+        actions = np.where(self._random, at_random, self._learned(timestep)) if self._network else at_random
         self._timestep = timestep = self.batch.step(actions)
         self.started += int((timestep.step_type == dm_env.StepType.FIRST).sum())
         self.ended += int((timestep.step_type == dm_env.StepType.LAST).sum())

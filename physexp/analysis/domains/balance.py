@@ -16,7 +16,8 @@ class IdealOptions:
     """What can be chosen of the ideal experimenter, who reads only to which side the beam tilts.
 
     Attributes:
-      difficulty: 1 more than the number of blocks that are known not to be the odd one, 1 to 3; by default the task's.
+      difficulty: 1 more than the number of blocks that are known not to be the odd one, 1 to 3, the larger
+        the easier; by default the task's.
     """
 
     difficulty: float | None = None
@@ -45,7 +46,7 @@ def _tilt(observation) -> int:
 DOMAIN = base.Domain(
     name=_NAME,
     discount=_DISCOUNT,
-    presets={"pixels": {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}},
+    presets={"features": {}, "pixels": {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}},
     ideal=base.Ideal(_solve, IdealOptions),
     columns=(base.Column("weights", "float32", is_list=True, is_varied=True),),  # kg
     fill=lambda hidden: {"weights": hidden},

@@ -88,7 +88,8 @@ class IdealOptions:
       task: the task.
       resolution: the smallest difference that can be observed: in metres for features, in differing pixels for images;
         at 0 every bit counts.
-      noise, variation: as the task's; then the ideal is bounded from both sides.
+      noise: standard deviation of readings, m; with it, the ideal is bounded from both sides.
+      variation: how far episodes differ in what is not asked, 0 to 1; with it, the same.
     """
 
     task: str = "fist_features"

@@ -26,7 +26,8 @@ class IdealOptions:
     Attributes:
       difficulty: the paper's beta, a number >= 1, the larger the easier; by default the task's.
       blocks: how many blocks; by default the task's.
-      noise, variation: as the task's; then the ideal is bounded from both sides.
+      noise: standard deviation of readings, m; with it, the ideal is bounded from both sides.
+      variation: how far episodes differ in what is not asked, 0 to 1; with it, the same.
     """
 
     difficulty: float | None = None

@@ -144,7 +144,7 @@ class Balance(task.QuestionTask):
             cube = block.Block(block.COLORS[k] if is_suspect else _PAN_RGBA, mass=WEIGHT, name=f"block_{k}")
             room.attach(cube).pos = [0, ((NUM_BLOCKS - 1) / 2 - k) * _SPACING, block.HALF_SIZE]
             self._blocks.append(cube)
-            loads.append(room.mjcf_model.actuator.add("motor", name=f"load_{k}", joint=hinge))
+            loads.append(room.mjcf_model.actuator.add("motor", name=cube.mjcf_model.model, joint=hinge))
         self._loads = tuple(load.full_identifier for load in loads)
         self._pointer = flag.Flag(rgba=(0.15, 0.15, 0.18, 1.0), name="pointer")
         room.attach(self._pointer).pos = [0, _POINTER_Y, flag.HALF_SIZE[2]]
