@@ -25,6 +25,7 @@ SCALE = 2  # For dense screens.
 SIZE = (880 * SCALE, 400 * SCALE)  # pixels
 SCENE = 340 * SCALE  # pixels
 FRAMES_PER_STEP = 4
+MANY_LABELS = 8  # More are written smaller.
 THINKING, MOVING, ENDING = 700, 100, 3000  # ms, of a decision, of a frame that moves, of the verdict
 COLORS = 96
 LABEL_COLOR, RIGHT, WRONG = "#2b8a94", "#2f7d3b", "#b3362b"
@@ -88,12 +89,14 @@ def scenes(episode: recording.Episode, substeps: Sequence[int]) -> Iterator[np.n
 
 def drawn(episode: recording.Episode, frame: Frame, scene: np.ndarray) -> Image.Image:
     """Returns a frame: the scene, the action in words, the belief as named bars, and the verdict."""
-    names = [palette.short(label, episode.shapes) for label in episode.declared.label_names]
-    things = [name.replace(" ", "_") for name in names]
+    labels = episode.declared.label_names
+    names = palette.short(labels, episode.shapes)
+    of_things = {palette.of_thing(episode.shapes, thing) for thing in episode.shapes.names}
     colors = [
-        np.array(palette.of_thing(episode.shapes, thing)) / 255 if thing in episode.shapes.names else LABEL_COLOR
-        for thing in things
+        np.array(color) / 255 if color in of_things else LABEL_COLOR
+        for color in palette.of_labels(labels, episode.shapes)
     ]
+    are_many = len(labels) > MANY_LABELS
     width, height = SIZE
     picture = figure.Figure((width / 100 / SCALE, height / 100 / SCALE), dpi=100 * SCALE, facecolor="white")
     canvas = backend_agg.FigureCanvasAgg(picture)
@@ -108,17 +111,18 @@ def drawn(episode: recording.Episode, frame: Frame, scene: np.ndarray) -> Image.
     )
     left = (40 * SCALE + SCENE) / width
     picture.text(left, 0.82, frame.action, fontsize=13, va="center")
-    axes = picture.add_axes((left + 0.11, 0.27, 0.81 - left, 0.38))
+    indent = 0.17 if are_many else 0.11
+    axes = picture.add_axes((left + indent, 0.2 if are_many else 0.27, 0.92 - indent - left, 0.5 if are_many else 0.38))
     axes.barh(names, frame.belief, color=colors, height=0.7)
     axes.invert_yaxis()
     axes.set_xlim(0, 1)
     axes.set_title("the agent's belief", fontsize=11, loc="left", color="#555555")
     axes.set_xticks([])
-    axes.tick_params(axis="y", length=0, labelsize=12)
+    axes.tick_params(axis="y", length=0, labelsize=9 if are_many else 12)
     axes.spines[:].set_visible(False)
     axes.spines["left"].set_visible(True)
     for row, chance in enumerate(frame.belief):
-        axes.text(chance + 0.015, row, f"{chance:.0%}", va="center", fontsize=11)
+        axes.text(chance + 0.015, row, f"{chance:.0%}", va="center", fontsize=9 if are_many else 11)
     color = RIGHT if episode.rewards[-1] > 0 else WRONG
     picture.text(left, 0.12, frame.verdict, fontsize=15, fontweight="bold", color=color, va="center")
     canvas.draw()

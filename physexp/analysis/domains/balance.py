@@ -47,6 +47,7 @@ DOMAIN = base.Domain(
     name=_NAME,
     discount=_DISCOUNT,
     presets={"features": {}, "pixels": {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}},
+    targets={"balance-features": ("mean_return", 0.72)},
     ideal=base.Ideal(_solve, IdealOptions),
     columns=(base.Column("weights", "float32", is_list=True, is_varied=True),),  # kg
     fill=lambda hidden: {"weights": hidden},
