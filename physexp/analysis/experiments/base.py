@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+from physexp.agents import files
 from physexp.analysis.evaluation import figures, records
 from physexp.analysis.experiments import claims as claims_lib
 from physexp.analysis.experiments import conditions
@@ -125,6 +126,25 @@ def _labels(frame) -> list[str]:
     """Returns the names of the conditions of rows, of which many have the same."""
     keys = zip(frame.domain, frame.task, frame.difficulty, strict=True)
     return [_label(domain, task, None if value is None or math.isnan(value) else value) for domain, task, value in keys]
+
+
+def read_made(path: Path, experiment: str, is_as_written: Callable[[Any], bool]) -> Any:
+    """Returns what the preparation of an experiment has left in a JSON file.
+
+    Args:
+      path: the file.
+      experiment: its name.
+      is_as_written: tells whether this is something that it writes.
+
+    Raises:
+      ValueError: if the file is missing or damaged.
+    """
+    if not path.exists():
+        raise ValueError(f"{path} is missing; `physexp reproduce {experiment}` makes it")
+    found = files.read_json(path)
+    if not is_as_written(found):
+        raise ValueError(f"{path} is not what was written; remove it, and `physexp reproduce {experiment}` makes it")
+    return found
 
 
 @functools.cache

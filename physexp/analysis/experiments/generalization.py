@@ -3,6 +3,7 @@
 from collections.abc import Callable
 import json
 import textwrap
+from typing import Any
 
 import numpy as np
 
@@ -85,16 +86,14 @@ def _baselines(results: base.Results, task) -> list[dict]:
     Raises:
       ValueError: if that is missing or damaged.
     """
-    path = _path(results, task.task)
-    if not path.exists():
-        raise ValueError(f"{path} is missing; `physexp reproduce generalization` makes it")
-    rows = files.read_json(path)
+    return base.read_made(_path(results, task.task), "generalization", _are_rows)
+
+
+def _are_rows(rows: Any) -> bool:
     kinds = {"player": str, "test": str, "right": int, "return": float}
-    if not isinstance(rows, list) or not all(
+    return isinstance(rows, list) and all(
         isinstance(row, dict) and {name: type(value) for name, value in row.items()} == kinds for row in rows
-    ):
-        raise ValueError(f"{path} is not what was written; remove it, and `physexp reproduce generalization` makes it")
-    return rows
+    )
 
 
 def load(results: base.Results):

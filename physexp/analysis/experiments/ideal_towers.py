@@ -31,15 +31,14 @@ def read(results: base.Results) -> dict[str, list[dict]]:
     Raises:
       ValueError: if they have not been computed, or a file is damaged.
     """
-    found = {}
-    for condition in conditions.TOWERS:
-        path = _path(results, condition.task)
-        if not path.exists():
-            raise ValueError(f"{path} is missing; `physexp reproduce ideal_gap` makes it")
-        found[condition.task] = rows = files.read_json(path)
-        if not isinstance(rows, list) or not rows or not all(map(_is_summary, rows)):
-            raise ValueError(f"{path} is not what was written; remove it, and `physexp reproduce ideal_gap` makes it")
-    return found
+    return {
+        condition.task: base.read_made(_path(results, condition.task), "ideal_gap", _are_summaries)
+        for condition in conditions.TOWERS
+    }
+
+
+def _are_summaries(rows: Any) -> bool:
+    return isinstance(rows, list) and bool(rows) and all(map(_is_summary, rows))
 
 
 def _is_summary(row: Any) -> bool:

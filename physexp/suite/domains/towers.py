@@ -49,6 +49,11 @@ class Options(options_lib.Options):
             friction = checks.between("sliding_friction", self.sliding_friction, 0.1, 1.0)
             object.__setattr__(self, "sliding_friction", friction)
 
+    @property
+    def friction(self) -> float:
+        """The coefficient of friction of cubes, floor and fist; with variation it differs between episodes."""
+        return material.FRICTION if self.sliding_friction is None else self.sliding_friction
+
 
 NUM_BODIES = np.array([tower.num_bodies(pattern) for pattern in tower.PATTERNS])
 """How many rigid bodies a tower is made of, for each glue pattern, int64 [16]."""
@@ -84,19 +89,13 @@ class Towers(task.QuestionTask):
 
     def __init__(self, options: Options, actuator, sense: senses.Sense):
         """Builds the scene around an actuator, a `DirectActuator` or a `FistActuator`."""
-        room = arena.Laboratory(**_ROOM)
+        room = arena.Laboratory(**_ROOM, friction=options.friction)
         room.add_walls(WALL_DISTANCE, CEILING)
-        self._build_tower = functools.partial(
-            tower.Tower, half_size=options.cube_size / 2, friction=options.sliding_friction or material.FRICTION
-        )
+        self._build_tower = functools.partial(tower.Tower, half_size=options.cube_size / 2, friction=options.friction)
         self._actuator = actuator
         self._tower: tower.Tower | None = None
         self._towers: dict[int, tower.Tower] = {}  # Built when first needed, one for each pattern.
         actuator.attach_to(room)
-        if options.sliding_friction is not None:
-            for geom in room.mjcf_model.find_all("geom"):
-                if geom.friction is not None and geom.friction[0] == material.FRICTION:
-                    geom.friction[0] = options.sliding_friction
         self._room = room
         self.arrange(0)
         super().__init__(room, options, sense)
@@ -202,7 +201,7 @@ def direct_features(options):
 @SUITE.add("features", "fist")
 def fist_features(options):
     """Observes `positions`, float32 (5, 3), and `fist_position`, float32 (3,), m."""
-    return Towers(options, actuators.FistActuator(), senses.Features())
+    return Towers(options, actuators.FistActuator(options.friction), senses.Features())
 
 
 @SUITE.add("pixels", "direct")
@@ -214,4 +213,4 @@ def direct_pixels(options):
 @SUITE.add("pixels", "fist")
 def fist_pixels(options):
     """Observes `pixels`, uint8 (84, 84, 3): the room from above its front wall."""
-    return Towers(options, actuators.FistActuator(), senses.Pixels())
+    return Towers(options, actuators.FistActuator(options.friction), senses.Pixels())

@@ -3,7 +3,7 @@
 import numpy as np
 
 from physexp.suite.engine import declarations
-from physexp.suite.parts import arena, fist, tower
+from physexp.suite.parts import arena, fist, material, tower
 
 # The lowest cube alone is held by friction of 0.3 * (4 + 5) * 9.81 = 26.5 N: twice that moves it, and slides a cube
 # from the middle out by a good part of its edge in one control step.
@@ -54,10 +54,11 @@ class DirectActuator:
 class FistActuator:
     """Sets the velocity of the fist."""
 
-    def __init__(self):
+    def __init__(self, friction: float = material.FRICTION):
+        """Builds a fist with this coefficient of friction."""
         x, y, _ = FIST_START
         reach = _FIST_REACH
-        self.fist = fist.Fist(x_range=[-reach - x, reach - x], y_range=[-reach - y, reach - y])
+        self.fist = fist.Fist([-reach - x, reach - x], [-reach - y, reach - y], friction)
 
     @property
     def readings(self) -> dict[str, declarations.Reading]:

@@ -18,7 +18,7 @@ class Laboratory(composer.Arena):
     The visible floor is a box, much cheaper to draw than a plane; a plane that is not drawn carries the contacts.
     """
 
-    def _build(self, mat_size, camera_pos, camera_target, fovy, name="laboratory"):
+    def _build(self, mat_size, camera_pos, camera_target, fovy, friction=material.FRICTION, name="laboratory"):
         """Builds the room.
 
         Args:
@@ -26,6 +26,7 @@ class Laboratory(composer.Arena):
           camera_pos: position of the camera, m (3,).
           camera_target: the point that it looks at, m (3,).
           fovy: vertical field of view, degrees.
+          friction: coefficient of friction of the ground.
           name: name of the MJCF model.
         """
         super()._build(name=name)
@@ -69,7 +70,12 @@ class Laboratory(composer.Arena):
             conaffinity=0,
         )
         self.ground = world.add(
-            "geom", name="ground", type="plane", size=[1, 1, 0.1], group=rendering.UNDRAWN_GROUP, **material.solid()
+            "geom",
+            name="ground",
+            type="plane",
+            size=[1, 1, 0.1],
+            group=rendering.UNDRAWN_GROUP,
+            **material.solid(friction),
         )
         self.camera = world.add(
             "camera", name="observer", pos=camera_pos, fovy=fovy, xyaxes=_looking_at(camera_pos, camera_target)

@@ -15,11 +15,12 @@ RGBA = (0.15, 0.15, 0.18, 1.0)
 class Fist(base.Walker):
     """A sphere on two sliding joints, driven by velocity actuators."""
 
-    def _build(self, x_range, y_range, name="fist"):
+    def _build(self, x_range, y_range, friction=material.FRICTION, name="fist"):
         """Builds the fist.
 
         Args:
           x_range, y_range: limits of its displacement from where it is attached, m (2,).
+          friction: coefficient of friction.
           name: name of the MJCF model.
         """
         self._root = mjcf.RootElement(model=name)
@@ -33,7 +34,7 @@ class Fist(base.Walker):
                 "velocity", name=axis, joint=joint, kv=SPEED_GAIN, forcelimited=True, forcerange=[-MAX_FORCE, MAX_FORCE]
             )
         self.geom = self._body.add(
-            "geom", name="geom", type="sphere", size=[RADIUS], mass=MASS, rgba=RGBA, **material.solid()
+            "geom", name="geom", type="sphere", size=[RADIUS], mass=MASS, rgba=RGBA, **material.solid(friction)
         )
         center = self._body.add("site", name="center", size=[0.001], group=5)
         self.position_sensor = self._root.sensor.add("framepos", name="position", objtype="site", objname=center)
