@@ -130,12 +130,14 @@ class Solution:
         return interactions, answers == labels
 
     def summary(self) -> dict[str, Any]:
-        """`value`, `bound`, `accuracy`, `mean_interactions` and `histogram` (share of episodes for each number)."""
+        """`value`, `bound`, `at_once`, `random_value`, `accuracy`, `mean_interactions` and `histogram`."""
         interactions, right = self.play(np.arange(len(self.prior)))  # A label's episodes are all alike.
         shares = np.bincount(interactions, self.prior)
         return {
             "value": self.value,
             "bound": self.bound,
+            "at_once": self.at_once,
+            "random_value": self.random_value,
             "accuracy": float(self.prior @ right),
             "mean_interactions": float(self.prior @ interactions),
             "histogram": {number: float(share) for number, share in enumerate(shares)},

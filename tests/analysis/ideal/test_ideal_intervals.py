@@ -91,6 +91,8 @@ def test_halving_finds_one_of_eight_equally_likely_labels_in_three_tests():
     assert solution.summary() == {
         "value": pytest.approx(0.95**3),
         "bound": solution.value,
+        "at_once": pytest.approx(2 / 8 - 1),
+        "random_value": solution.random_value,
         "accuracy": pytest.approx(1.0),
         "mean_interactions": pytest.approx(3.0),
         "histogram": {0: 0.0, 1: 0.0, 2: 0.0, 3: pytest.approx(1.0)},
