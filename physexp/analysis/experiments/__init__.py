@@ -25,6 +25,7 @@ NAMES = (
     "data_efficiency",
     "ablations",
     "generalization",
+    "weighing",
 )
 """The experiments in the paper's order; each is the `EXPERIMENT` of the module of its name."""
 

@@ -37,6 +37,7 @@ _BELIEF_FRAMES = {
     "10-P": 40_000,
     "D-P": 80_000,
     "F-P": 100_000,
+    "balance features": 150_000,
 }
 _VARIED_FRAMES = {"D-F": 150_000, "F-F": 150_000, "D-P": 200_000, "F-P": 250_000}  # The same, with variation.
 
@@ -68,6 +69,9 @@ PATIENT = tuple(heavier(beta, "features", _PATIENT_FRAMES[beta], discount=PATIEN
 """At the paper's gamma of 0.99."""
 
 TOWERS = tuple(towers(actuator, kind) for actuator in ACTUATORS for kind in OBSERVATIONS)
+
+
+BALANCE = config_lib.TrainConfig(domain="balance", task="features", agent=config_lib.preset("balance", "features"))
 
 
 def with_ppo(config: config_lib.TrainConfig) -> config_lib.TrainConfig:

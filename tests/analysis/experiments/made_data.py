@@ -22,6 +22,7 @@ from physexp.analysis.experiments import (
     learners,
     population,
     waiting,
+    weighing,
 )
 from physexp.analysis.experiments import patience as patience_lib
 from physexp.analysis.ideal import regret
@@ -408,6 +409,28 @@ def waiting_fists(num_agents, generator, slowdown=10.0, gain=0.07, loss=0.0, los
     return table(agents)
 
 
+# Episodes of Balance.
+
+
+def weighings(num_agents, generator, alone=1.0, share=0.98):
+    """First weighings: one against one in this share of the episodes, else two against two; and what is earned."""
+    agents = []
+    for seed in range(num_agents):
+        is_alone = np.arange(_EPISODES) < alone * _EPISODES - generator.integers(0, 3)
+        agents.append(
+            pandas.DataFrame(
+                {
+                    "condition": label(weighing.CONDITION),
+                    "training_seed": seed,
+                    "first": np.where(is_alone, 1, 2),
+                    "interactions": np.where(is_alone, 5, 7),
+                    "share": share + generator.normal(0, 0.01, _EPISODES),
+                }
+            )
+        )
+    return pandas.concat(agents, ignore_index=True)
+
+
 # Agents against the ideal experimenter.
 
 
@@ -539,6 +562,11 @@ WORLDS: dict[str, dict[str, _World]] = {
         "sixteen are enough": functools.partial(other_towers, usual=1.0),
         "nobody has a rule": functools.partial(other_towers, rule=0.9),
         "agents who dawdle": functools.partial(other_towers, share=0.8),
+    },
+    "weighing": {
+        "paper": weighings,
+        "as with coins": functools.partial(weighings, alone=0.5),
+        "clumsy agents": functools.partial(weighings, share=0.9),
     },
     "ideal_gap": {
         "paper": ideal_gap,

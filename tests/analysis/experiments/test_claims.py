@@ -12,7 +12,7 @@ from scipy import stats
 from trainers import fresh_seed
 
 from physexp.analysis.data import estimates
-from physexp.analysis.experiments import EXPERIMENTS, claims, individual, learning, randomized
+from physexp.analysis.experiments import EXPERIMENTS, claims, individual, learning, randomized, weighing
 from physexp.analysis.experiments import ideal_gap as ideal_gap_lib
 
 HOLDS, FAILS, UNDECIDED = claims.HOLDS, claims.FAILS, claims.UNDECIDED
@@ -101,6 +101,10 @@ FALSE_IN = {
         "Agents trained without variation have learned the towers that they saw": {"sixteen are enough"},
         "A rule of one line is right wherever towers vary": {"nobody has a rule"},
         "Agents trained with variation earn nearly what the rule earns": {"agents who dawdle"},
+    },
+    "weighing": {
+        "Where each placing costs a step, one block is weighed against one first": {"as with coins"},
+        "Agents who are told the answers come near the optimum of Balance": {"clumsy agents"},
     },
     "ideal_gap": {
         "Feature agents reach 95% of the ideal experimenter's return": {"clumsy agents"},
@@ -386,6 +390,14 @@ def test_an_actuator_with_which_nobody_learns_is_the_slower_one(never, verdict):
     frame = made_data.learning_towers(made_data.NUM_AGENTS, generator(), **{never: 1e9})
     found = [one for one in EXPERIMENTS["learning_towers"].claims(frame) if "faster" in one.text]
     assert [one.verdict for one in found] == [verdict, verdict]
+
+
+def test_the_first_weighing_is_the_first_time_that_pans_are_equally_full():
+    # Block 0 left, block 1 left, block 2 right, block 0 aside: one against one. Then an answer.
+    assert weighing.first_weighing([1, 4, 8, 0, 18]) == 1
+    assert weighing.first_weighing([1, 4, 8, 11, 18]) == 2
+    assert weighing.first_weighing([1, 5, 8, 10]) == 1
+    assert weighing.first_weighing([1, 4, 18]) == weighing.first_weighing([0, 3, 18]) == 0
 
 
 def test_the_better_half_is_the_larger_one_where_the_number_is_odd():
