@@ -40,25 +40,20 @@ class IdealOptions:
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
     """Returns the ideal experimenter; it plays from features."""
     from physexp import suite
-    from physexp.analysis.ideal import intervals
+    from physexp.analysis.ideal import intervals, resting
+    from physexp.suite.domains import threshold
 
     played = suite.load_task("threshold", task, dict(task_kwargs))
-    solution = intervals.solve(_prior(played.options), discount, played.rules.step_limit)
+    tests = intervals.Thresholds(threshold.prior(played.options.difficulty))
     return dataclasses.replace(
-        solution,
-        passed=_has_slid if "features" in suite.tags("threshold", task) else None,
+        resting.solve(tests, discount, played.rules.step_limit),
+        read=_slid if "features" in suite.tags("threshold", task) else None,
         label=lambda hidden: int(played.answers(hidden[None])[0]),
     )
 
 
-def _prior(options):
-    from physexp.suite.domains import threshold
-
-    return threshold.prior(options.difficulty)
-
-
-def _has_slid(observation) -> bool:
-    return bool(observation["slid"][0])
+def _slid(observation) -> int:
+    return int(observation["slid"][0])
 
 
 DOMAIN = base.Domain(

@@ -11,16 +11,20 @@ from trainers import fresh_seed
 
 from physexp import suite
 from physexp.analysis import domains
-from physexp.analysis.ideal import counterfeit
+from physexp.analysis.ideal import counterfeit, resting
 
 SIDES = (0, -1, 1)
+
+
+def solve(num_things, num_suspects, discount, step_limit):
+    return resting.solve(counterfeit.Scale(num_things, num_suspects), discount, step_limit)
 
 
 def search(num_things, num_suspects, discount, step_limit, choose):
     """Expected discounted return by a search over places of things and sets of labels, with weights and a sum of them.
 
     Args:
-      num_things, num_suspects, discount, step_limit: as for `counterfeit.solve`.
+      num_things, num_suspects, discount, step_limit: as for `solve`.
       choose: what follows from the values of all interactions: `max`, or their mean where they are drawn at random.
     """
     weights = {
@@ -68,14 +72,14 @@ def mean(values):
     ],
 )
 def test_a_search_over_sets_of_labels_finds_the_same_values(things, suspects, discount, step_limit):
-    solution = counterfeit.solve(things, suspects, discount, step_limit)
+    solution = solve(things, suspects, discount, step_limit)
     assert solution.value == pytest.approx(search(things, suspects, discount, step_limit, max), abs=1e-9)
     assert solution.random_value == pytest.approx(search(things, suspects, discount, step_limit, mean), abs=1e-9)
 
 
 def test_one_suspect_of_two_by_hand():
     # Two placings, and the tilt tells heavier from lighter: gamma^2. At once, one of two labels is a guess, worth 0.
-    solution = counterfeit.solve(2, 1, 0.9, 10)
+    solution = solve(2, 1, 0.9, 10)
     assert solution.value == pytest.approx(0.81)
     assert solution.at_once == 0
     assert solution.summary()["histogram"] == {0: 0.0, 1: 0.0, 2: 1.0}
@@ -83,7 +87,7 @@ def test_one_suspect_of_two_by_hand():
 
 def test_of_two_things_nobody_can_say_which_is_odd():
     # One is heavier, or the other lighter: after a weighing two labels are left, worth 0. At once 2 / 4 - 1 is less.
-    assert counterfeit.solve(2, 2, 0.9, 10).value == pytest.approx(0.0)
+    assert solve(2, 2, 0.9, 10).value == pytest.approx(0.0)
 
 
 def test_there_is_something_to_find_out_in_balance():
@@ -103,16 +107,15 @@ def test_the_more_blocks_are_known_the_easier_it_is():
 
 
 def test_where_laying_on_costs_as_much_as_weighing_one_thing_is_weighed_against_one_first():
-    solution = counterfeit.solve(6, 6, 0.95, 40)
-    kinds, places = solution.start()
-    first = solution.action(kinds, places, 0)
-    places[first // 3] = first % 3
-    second = solution.action(kinds, places, 1)
-    assert {first % 3, second % 3} == {counterfeit.LEFT, counterfeit.RIGHT} and first // 3 != second // 3
+    solution = solve(6, 6, 0.95, 40)
+    scale = solution.apparatus
+    first = solution.action(scale.start, 0)
+    second = solution.action(scale.after(scale.start, first, np.sign(SIDES[first % 3])), 1)
+    assert {SIDES[first % 3], SIDES[second % 3]} == {-1, 1} and first // 3 != second // 3
 
 
 def test_episodes_earn_what_was_promised():
-    solution = counterfeit.solve(6, 6, 0.95, 40)
+    solution = solve(6, 6, 0.95, 40)
     labels = np.random.default_rng(fresh_seed()).integers(12, size=100_000)
     interactions, right = solution.play(labels)
     earned = 0.95**interactions * np.where(right, 1, -1)
@@ -156,4 +159,4 @@ def test_it_plays_the_environment_from_observations_and_its_beliefs_are_the_post
 def test_what_makes_no_sense_is_refused_in_a_line(change, message):
     good = {"num_things": 6, "num_suspects": 6, "discount": 0.9, "step_limit": 10}
     with pytest.raises(ValueError, match=message):
-        counterfeit.solve(**{**good, **change})
+        solve(**{**good, **change})

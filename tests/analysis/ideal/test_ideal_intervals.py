@@ -7,12 +7,21 @@ import numpy as np
 import pytest
 from trainers import fresh_seed
 
-from physexp.analysis.ideal import intervals
+from physexp.analysis.ideal import intervals, resting
 
 
 def skewed(size, skew):
     """Probabilities of `size` labels, the lower the likelier for a skew above 1: Beta(1, skew) in equal parts."""
     return np.diff(1 - (1 - np.arange(size + 1) / size) ** skew)
+
+
+def solve(prior, discount, step_limit):
+    return resting.solve(intervals.Thresholds(prior), discount, step_limit)
+
+
+def between(low, high):
+    """What is known when the labels from one to another are possible."""
+    return sum(1 << label for label in range(low, high + 1)), None
 
 
 def search(prior, discount, step_limit, tests, choose):
@@ -68,7 +77,7 @@ PRIORS = {
 @pytest.mark.parametrize("discount", [0.3, 0.95, 1.0])
 @pytest.mark.parametrize("prior", PRIORS.values(), ids=PRIORS.keys())
 def test_a_search_over_sets_of_labels_finds_the_same_values(prior, discount):
-    solution = intervals.solve(prior, discount, 12)
+    solution = solve(prior, discount, 12)
     tests = thresholds(len(prior))
     assert solution.value == pytest.approx(search(prior, discount, 12, tests, max), abs=1e-9)
     assert solution.random_value == pytest.approx(search(prior, discount, 12, tests, mean), abs=1e-9)
@@ -79,14 +88,14 @@ def test_at_random_priors_too():
     for _ in range(20):
         size, step_limit = int(generator.integers(2, 9)), int(generator.integers(1, 8))
         prior, discount = generator.dirichlet(np.full(size, 0.5)), float(generator.uniform(0.2, 1))
-        solution = intervals.solve(prior, discount, step_limit)
+        solution = solve(prior, discount, step_limit)
         assert solution.value == pytest.approx(search(prior, discount, step_limit, thresholds(size), max), abs=1e-9)
         at_random = search(prior, discount, step_limit, thresholds(size), mean)
         assert solution.random_value == pytest.approx(at_random, abs=1e-9)
 
 
 def test_halving_finds_one_of_eight_equally_likely_labels_in_three_tests():
-    solution = intervals.solve(np.full(8, 1 / 8), 0.95, 30)
+    solution = solve(np.full(8, 1 / 8), 0.95, 30)
     assert solution.value == pytest.approx(0.95**3)
     assert solution.summary() == {
         "value": pytest.approx(0.95**3),
@@ -97,9 +106,9 @@ def test_halving_finds_one_of_eight_equally_likely_labels_in_three_tests():
         "mean_interactions": pytest.approx(3.0),
         "histogram": {0: 0.0, 1: 0.0, 2: 0.0, 3: pytest.approx(1.0)},
     }
-    assert solution.actions(0, 7, 0) == 3
-    assert solution.actions(4, 7, 1) == 5
-    assert solution.actions(6, 6, 3) == 8 + 6
+    assert solution.action(between(0, 7), 0) == 3
+    assert solution.action(between(4, 7), 1) == 5
+    assert solution.action(between(6, 6), 3) == 8 + 6
 
 
 def test_three_labels_by_hand():
@@ -107,30 +116,30 @@ def test_three_labels_by_hand():
     # once. Test 1 first: 0.9 (0.8 * 0.9 + 0.2) = 0.828. At once: 0.
     # Tests at random: two labels, a, are told apart by one test of three, a = 0.3 (1 + 2 a) = 0.75. All three, r, are
     # divided by tests 0 and 1: r = 0.3 ((0.5 + 0.5 a) + (0.8 a + 0.2) + r) = 0.3 (0.875 + 0.8 + r) = 0.5025 / 0.7.
-    solution = intervals.solve([0.5, 0.3, 0.2], 0.9, 200)
+    solution = solve([0.5, 0.3, 0.2], 0.9, 200)
     assert solution.value == pytest.approx(0.855)
     assert solution.at_once == pytest.approx(0.0)
     assert solution.random_value == pytest.approx(0.5025 / 0.7)
-    assert [solution.actions(0, 2, 0), solution.actions(1, 2, 1)] == [0, 1]
+    assert [solution.action(between(0, 2), 0), solution.action(between(1, 2), 1)] == [0, 1]
 
 
 def test_a_skewed_prior_is_split_by_probability_and_not_by_rank():
     # Labels 0, 1 and 2 have 15, 13 and 11 of 64: test 1 is passed by 28, nearer to a half than the 39 that pass test 2.
-    solution = intervals.solve(PRIORS["the default of threshold"], 0.95, 30)
-    assert solution.actions(0, 7, 0) == 1
+    solution = solve(PRIORS["the default of threshold"], 0.95, 30)
+    assert solution.action(between(0, 7), 0) == 1
     assert solution.value == pytest.approx(0.8685, abs=1e-4)
     assert solution.summary()["mean_interactions"] == pytest.approx(2.766, abs=1e-3)
 
 
 def test_there_is_something_to_find_out_at_the_default_of_threshold():
-    solution = intervals.solve(PRIORS["the default of threshold"], 0.95, 30)
+    solution = solve(PRIORS["the default of threshold"], 0.95, 30)
     assert solution.summary()["mean_interactions"] >= 2
     assert solution.at_once <= 0.3 * solution.value
     assert solution.random_value <= 0.8 * solution.value
 
 
 def test_with_ever_more_skew_the_question_is_easier():
-    solutions = [intervals.solve(skewed(8, skew), 0.95, 30) for skew in (1.0, 1.5, 2.0, 3.0, 5.0)]
+    solutions = [solve(skewed(8, skew), 0.95, 30) for skew in (1.0, 1.5, 2.0, 3.0, 5.0)]
     assert (np.diff([solution.value for solution in solutions]) > 0).all()
     assert (np.diff([solution.summary()["mean_interactions"] for solution in solutions]) < 0).all()
 
@@ -138,7 +147,7 @@ def test_with_ever_more_skew_the_question_is_easier():
 @pytest.mark.parametrize(("skew", "discount"), [(1.0, 0.95), (2.0, 0.95), (3.0, 0.95), (2.0, 0.7)])
 def test_episodes_earn_what_was_promised(skew, discount):
     prior = skewed(8, skew)
-    solution = intervals.solve(prior, discount, 30)
+    solution = solve(prior, discount, 30)
     labels = np.random.default_rng(fresh_seed()).choice(8, 100_000, p=prior)
     interactions, right = solution.play(labels)
     earned = discount**interactions * np.where(right, 1, -1)
@@ -151,41 +160,49 @@ def test_episodes_earn_what_was_promised(skew, discount):
 
 
 def test_when_information_costs_nothing_all_is_found_out_and_nothing_is_tested_in_vain():
-    solution = intervals.solve(skewed(8, 2.0), 1.0, 30)
+    solution = solve(skewed(8, 2.0), 1.0, 30)
     assert solution.value == pytest.approx(1.0)
     # The same tree as at any discount below 1: no test more is made although it would be free.
-    expected = intervals.solve(skewed(8, 2.0), 0.999, 30).summary()["mean_interactions"]
+    expected = solve(skewed(8, 2.0), 0.999, 30).summary()["mean_interactions"]
     assert solution.summary()["mean_interactions"] == pytest.approx(expected)
 
 
 def test_dear_tests_look_for_one_label_at_a_time():
     # n equally likely labels at gamma 0.1, times n: w(1) = 1 and w(n) = 0.1 (1 + w(n - 1)), so w(2) = 0.2, w(3) = 0.12,
     # w(4) = 0.112, ... w(8) = 0.1111112. Halves would be worth 8 * 0.001.
-    assert intervals.solve(np.full(8, 1 / 8), 0.1, 30).value == pytest.approx(0.1111112 / 8)
+    assert solve(np.full(8, 1 / 8), 0.1, 30).value == pytest.approx(0.1111112 / 8)
 
 
 def test_when_time_is_short_the_best_guess_is_given_at_the_last_step():
     # Three steps leave two tests, and one of two labels to be guessed: its chance is a half, worth 0.
-    solution = intervals.solve(np.full(8, 1 / 8), 0.95, 3)
+    solution = solve(np.full(8, 1 / 8), 0.95, 3)
     assert solution.value == pytest.approx(0.0, abs=1e-12)
-    assert intervals.solve(np.full(8, 1 / 8), 0.95, 1).value == pytest.approx(2 / 8 - 1)
+    assert solve(np.full(8, 1 / 8), 0.95, 1).value == pytest.approx(2 / 8 - 1)
 
 
 def test_a_loss_that_is_certain_is_put_off():
     # In two steps there is time for one test, after which each answer is right once in four: -0.5, but a step later.
-    assert intervals.solve(np.full(8, 1 / 8), 0.1, 2).value == pytest.approx(-0.05)
+    assert solve(np.full(8, 1 / 8), 0.1, 2).value == pytest.approx(-0.05)
 
 
 def test_what_is_known_is_the_prior_within_the_interval():
-    solution = intervals.solve([0.5, 0.3, 0.2], 0.9, 10)
-    np.testing.assert_allclose(solution.posterior(0, 2), [0.5, 0.3, 0.2])
-    np.testing.assert_allclose(solution.posterior([0, 1, 2], [1, 2, 2]), [[0.625, 0.375, 0], [0, 0.6, 0.4], [0, 0, 1]])
+    solution = solve([0.5, 0.3, 0.2], 0.9, 10)
+    posteriors = {(0, 2): [0.5, 0.3, 0.2], (0, 1): [0.625, 0.375, 0], (1, 2): [0, 0.6, 0.4], (2, 2): [0, 0, 1]}
+    for interval, expected in posteriors.items():
+        np.testing.assert_allclose(solution.apparatus.posterior(between(*interval)), expected)
 
 
 def test_a_test_leaves_the_labels_on_its_side():
-    low, high = intervals.narrow([0, 0, 2, 2], [7, 7, 4, 4], [3, 3, 6, 1], [True, False, True, False])
-    np.testing.assert_array_equal(low, [0, 4, 2, 2])
-    np.testing.assert_array_equal(high, [3, 7, 4, 4])
+    tests = intervals.Thresholds(np.full(8, 1 / 8))
+    assert tests.after(between(0, 7), 3, 1) == between(0, 3)
+    assert tests.after(between(0, 7), 3, 0) == between(4, 7)
+    assert tests.after(between(2, 4), 6, 1) == between(2, 4)
+    assert tests.after(between(2, 4), 1, 0) == between(2, 4)
+
+
+def test_a_reading_that_cannot_be_is_refused():
+    with pytest.raises(ValueError, match=r"after interaction 6 the reading is 0; expected one of \[1\]"):
+        intervals.Thresholds(np.full(8, 1 / 8)).after(between(2, 4), 6, 0)
 
 
 @pytest.mark.parametrize(
@@ -206,4 +223,4 @@ def test_a_test_leaves_the_labels_on_its_side():
 def test_what_makes_no_sense_is_refused_in_a_line(change, message):
     good = {"prior": [0.5, 0.5], "discount": 0.9, "step_limit": 10}
     with pytest.raises(ValueError, match=message):
-        intervals.solve(**{**good, **change})
+        solve(**{**good, **change})
