@@ -196,14 +196,6 @@ class Balance(task.QuestionTask):
     def hidden_fields(self, apparatus, hidden):
         return apparatus_lib.gains(apparatus, self._loads, _GRAVITY * ARM * hidden)
 
-    @property
-    def num_nuisances(self):
-        """Images differ in where the camera is; readings in nothing."""
-        return 3 if self.sense.needs_gl else 0
-
-    def circumstances(self, apparatus, nuisances):
-        return declarations.Circumstances(camera=arena.CAMERA_VARIATION * nuisances)
-
     def drive(self, actions, qpos, ctrl):
         """Returns where the blocks are, -1 for the left pan, 1 for the right one, 0 for aside, [N, NUM_BLOCKS]."""
         places = ctrl.copy()

@@ -37,7 +37,6 @@ _LONGEST_EPISODE = 10.0  # s
 
 _ROOM = dict(mat_size=[0.36, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.1], fovy=14.5)
 _COVER_HALF_SIZE = (0.13, 0.08, 0.07)  # m
-_COVER_RGBA = (0.50, 0.50, 0.55, 1.0)
 _FLAG_X, _POINTER_X = 0.24, -0.24  # m
 _RISE = 0.3  # m, of the flag when the block has slid, and of the pointer with the greatest force
 
@@ -125,16 +124,7 @@ class Threshold(task.QuestionTask):
         room = arena.Laboratory(**_ROOM)
         room.mjcf_model.option.gravity = [0, 0, 0]
         room.mjcf_model.option.flag.contact = "disable"
-        room.mjcf_model.worldbody.add(
-            "geom",
-            name="cover",
-            type="box",
-            size=_COVER_HALF_SIZE,
-            pos=[0, 0, _COVER_HALF_SIZE[2]],
-            rgba=_COVER_RGBA,
-            contype=0,
-            conaffinity=0,
-        )
+        room.add_cover(_COVER_HALF_SIZE)
         cube = block.Block(rgba=block.COLORS[0], mass=MASS, name="block")
         cube.geom.group = rendering.UNDRAWN_GROUP
         frame = room.attach(cube)
@@ -188,14 +178,6 @@ class Threshold(task.QuestionTask):
 
     def hidden_fields(self, apparatus, hidden):
         return apparatus_lib.frictions(apparatus, self._rails, hidden[:, None])
-
-    @property
-    def num_nuisances(self):
-        """Images differ in where the camera is; readings in nothing, since the question is about forces."""
-        return 3 if self.sense.needs_gl else 0
-
-    def circumstances(self, apparatus, nuisances):
-        return declarations.Circumstances(camera=arena.CAMERA_VARIATION * nuisances)
 
     def drive(self, actions, qpos, ctrl):
         """Returns the force of a push, which goes away from the stop that the block leans on, N [N, 1]."""

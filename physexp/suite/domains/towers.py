@@ -173,7 +173,7 @@ class Towers(task.QuestionTask):
                 np.concatenate([np.tile(turned, len(standing.qpos) // 7), displaced], axis=1),
             ),
             strength=1 + actuators.STRENGTH_VARIATION * strength[:, None],
-            camera=arena.CAMERA_VARIATION * camera,
+            camera=task.CAMERA_VARIATION * camera,
         )
 
     def reveal(self, hidden):

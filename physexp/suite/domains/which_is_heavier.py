@@ -124,7 +124,7 @@ class WhichIsHeavier(task.QuestionTask):
         _, bodies = apparatus.dofs(self._rails)
         places = np.repeat(apparatus.model.body_pos[None, bodies], len(nuisances), axis=0)
         places[:, :, 0] *= 1 + SPACING_VARIATION * nuisances[:, 1:2]
-        camera = arena.CAMERA_VARIATION * nuisances[:, 2:]
+        camera = task.CAMERA_VARIATION * nuisances[:, 2:]
         return declarations.Circumstances({"body_pos": (bodies, places)}, strength=strength, camera=camera)
 
     def reveal(self, hidden):

@@ -220,6 +220,24 @@ def gains(apparatus: Apparatus, actuators: tuple[str, ...], values: np.ndarray) 
     return {"actuator_gainprm": (np.array([model.actuator(name).id for name in actuators]), parameters)}
 
 
+def bands(
+    apparatus: Apparatus, tendons: tuple[str, ...], stiffness: np.ndarray, slack: np.ndarray
+) -> declarations.Fields:
+    """Returns the model fields of fixed tendons that pull once their slack is used up, by their full names.
+
+    Args:
+      apparatus: of which they are part.
+      tendons: their names, K.
+      stiffness: N/m, float64 [N, K]; 0 for none.
+      slack: how far a tendon's length may be from 0 without a force, m, float64 [N, K].
+    """
+    addresses = np.array([apparatus.model.tendon(tendon).id for tendon in tendons])
+    return {
+        "tendon_stiffness": (addresses, stiffness),
+        "tendon_lengthspring": (addresses, np.stack([-slack, slack], axis=-1)),
+    }
+
+
 @functools.lru_cache(maxsize=256)
 def compile_xml(xml: str) -> mujoco.MjModel:
     """Returns the model of an MJCF string, compiled once per process."""

@@ -17,6 +17,8 @@ from physexp.suite.engine import checks, declarations, episodes, rules, seeding
 from physexp.suite.engine import options as options_lib
 from physexp.suite.engine import senses as senses_lib
 
+CAMERA_VARIATION = 0.02  # m, in each direction
+
 _OK_RGBA, _WRONG_RGBA = (0.45, 0.75, 0.45, 1.0), (0.80, 0.45, 0.40, 1.0)
 _ROW = np.zeros(1, np.intp)  # The only row of a single environment.
 
@@ -108,8 +110,11 @@ class QuestionTask(composer.Task):
 
     @property
     def num_nuisances(self) -> int:
-        """How many numbers say what episodes differ in beside what is hidden, where there is variation."""
-        return 0
+        """How many numbers say what episodes differ in beside what is hidden, where there is variation.
+
+        By default images differ in where the camera is, and readings in nothing.
+        """
+        return 3 if self.sense.needs_gl else 0
 
     @property
     def held(self) -> Sequence[composer.Entity]:
@@ -142,7 +147,7 @@ class QuestionTask(composer.Task):
 
     def circumstances(self, apparatus: apparatus_lib.Apparatus, nuisances: np.ndarray) -> declarations.Circumstances:
         """Returns what follows from nuisances, float64 [N, num_nuisances] in [-1, 1], 0 for no variation."""
-        return declarations.Circumstances()
+        return declarations.Circumstances(camera=CAMERA_VARIATION * nuisances)
 
     def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
         """Returns what is sent to the actuators during a control step, float64 [N, nu].

@@ -6,10 +6,10 @@ import numpy as np
 from physexp.suite.engine import rendering
 from physexp.suite.parts import material
 
-CAMERA_VARIATION = 0.02  # m, in each direction
 FLOOR_HALF_SIZE = 8.0  # m: the floor fills the view
 FLOOR_RGBA = (0.72, 0.72, 0.70, 1.0)
 MAT_RGBA = (0.86, 0.86, 0.84, 1.0)
+COVER_RGBA = (0.50, 0.50, 0.55, 1.0)
 
 
 class Laboratory(composer.Arena):
@@ -79,6 +79,19 @@ class Laboratory(composer.Arena):
         )
         self.camera = world.add(
             "camera", name="observer", pos=camera_pos, fovy=fovy, xyaxes=_looking_at(camera_pos, camera_target)
+        )
+
+    def add_cover(self, half_size) -> None:
+        """Adds a box in the middle of the floor, m (3,), that hides what is in it."""
+        self.mjcf_model.worldbody.add(
+            "geom",
+            name="cover",
+            type="box",
+            size=half_size,
+            pos=[0, 0, half_size[2]],
+            rgba=COVER_RGBA,
+            contype=0,
+            conaffinity=0,
         )
 
     def add_walls(self, distance: float, height: float) -> None:

@@ -1,0 +1,53 @@
+"""What the analysis knows of Strings: its ideal and its columns."""
+
+from collections.abc import Mapping
+import dataclasses
+from typing import Any
+
+from physexp.agents.belief import config as belief
+from physexp.analysis.domains import base
+
+_NAME = "strings"
+_DISCOUNT = 0.95
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class IdealOptions:
+    """What can be chosen of the ideal experimenter, who reads only which pucks are away from home.
+
+    Attributes:
+      difficulty: the odds that two pucks are not joined, a number >= 1, the larger the easier; by default the task's.
+    """
+
+    difficulty: float | None = None
+
+
+def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
+    """Returns the ideal experimenter; it plays from features."""
+    from physexp import suite
+    from physexp.analysis.ideal import bands, resting
+    from physexp.suite.domains import strings
+
+    played = suite.load_task(_NAME, task, dict(task_kwargs))
+    pucks = bands.Clamped(strings.NUM_PUCKS, strings.prior(played.options.difficulty))
+    return dataclasses.replace(
+        resting.solve(pucks, discount, played.rules.step_limit),
+        read=_away if "features" in suite.tags(_NAME, task) else None,
+        label=lambda hidden: int(played.answers(hidden[None])[0]),
+    )
+
+
+def _away(observation) -> int:
+    """Returns which pucks are away from home, as a bit mask."""
+    return sum(1 << k for k, is_away in enumerate(observation["away"]) if is_away)
+
+
+DOMAIN = base.Domain(
+    name=_NAME,
+    discount=_DISCOUNT,
+    presets={"features": {}, "pixels": {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}},
+    targets={},
+    ideal=base.Ideal(_solve, IdealOptions),
+    columns=(base.Column("slacks", "float32", is_list=True, is_varied=True),),  # m; 0 where there is no band
+    fill=lambda hidden: {"slacks": hidden},
+)

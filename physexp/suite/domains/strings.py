@@ -1,0 +1,262 @@
+"""Strings: three pucks under a cover, some of them joined by rubber bands, and the question which."""
+
+from collections.abc import Sequence
+import dataclasses
+import itertools
+
+from dm_control import mjcf
+from dm_control.utils import containers
+import numpy as np
+
+from physexp.suite.engine import apparatus as apparatus_lib
+from physexp.suite.engine import checks, declarations, rendering, seeding, senses, task
+from physexp.suite.engine import options as options_lib
+from physexp.suite.parts import arena, block, flag, puck
+
+SUITE = containers.TaggedTasks()
+
+PHYSICS_TIMESTEP = 0.01  # s
+
+# Pucks on parallel rails, each brought home by a spring. A band pulls along what it is tied to once its slack is used
+# up, so that a pull moves all pucks that are joined to the pulled one, directly or through others. All that can be read
+# is whether a puck is away from home: how far, and when, would tell all bands after two pulls. Only a clamp, which
+# holds a puck still and so cuts the ways through it, tells apart what is joined in a row from what is joined in a ring.
+NUM_PUCKS = 3
+PAIRS = tuple(itertools.combinations(range(NUM_PUCKS), 2))
+"""The pairs of pucks that a band may join; label bits and hidden properties are in this order."""
+NUM_GRAPHS = 2 ** len(PAIRS)
+SLACKS = (0.004, 0.010)  # m, the least and the greatest slack of a band
+
+MASS = 0.0142  # kg: a puck is home again, to a reader, 0.1 s after it was pulled
+_SPRING = 60.0  # N/m, and of a band
+_DAMPING = 2 * np.sqrt(_SPRING * MASS)  # N s/m: critical
+_PULL = 8.0  # N: takes a puck 0.09 to 0.13 m from home, and the last one of three in a row 0.012 m or more
+_AWAY = 0.005  # m, the distance from home that is read
+# A clamp is a brake: it is as if the puck stood in honey that lets it creep by a nanometre in an episode.
+_BRAKE = 1e9  # N s/m
+
+_SHORTEST_STEP = 0.1  # s: pucks come home within it
+
+_SPACING = 0.2  # m, between pucks
+_ROOM = dict(mat_size=[0.36, 0.42], camera_pos=[0, -2.6, 1.6], camera_target=[0, 0.06, 0], fovy=16.5)
+_COVER_HALF_SIZE = (0.3, 0.17, 0.05)  # m
+_CLAMP_RGBA = (0.15, 0.15, 0.18, 1.0)
+# Boards that show readings, m: where they stand, and how far they move. A clamp is in the cover when it is off.
+_HANDLE_Y, _HANDLE_TRAVEL = -0.22, (0.0, -0.14, 0.0)
+_CLAMP_Y, _CLAMP_TRAVEL = -0.03, (0.0, 0.0, 0.1)
+_FLAG_Y, _FLAG_TRAVEL = 0.2, (0.0, 0.0, 0.2)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Options(options_lib.Options):
+    """The `task_kwargs` of this domain.
+
+    Attributes:
+      difficulty: how much likelier it is that two pucks are not joined than that they are, >= 1; the larger, the
+        easier.
+    """
+
+    physics_timestep = PHYSICS_TIMESTEP
+
+    time_limit: float = 2.0  # the longer, the less it costs never to answer
+    difficulty: float = 1.0  # where all graphs are equally likely
+
+    def __post_init__(self):
+        super().__post_init__()
+        if self.control_timestep < _SHORTEST_STEP:
+            raise ValueError(
+                f"control_timestep is {self.control_timestep} s; give at least {_SHORTEST_STEP} s, in which pucks come "
+                "home"
+            )
+        object.__setattr__(
+            self, "difficulty", checks.number("difficulty", self.difficulty, 1, "the odds that two are not joined")
+        )
+
+
+def prior(difficulty: float) -> np.ndarray:
+    """Returns the probabilities of the labels, float64 [NUM_GRAPHS]."""
+    chances = np.array([difficulty, 1.0]) / (1 + difficulty)
+    return chances[is_joined(np.arange(NUM_GRAPHS)).astype(int)].prod(axis=1)
+
+
+def is_joined(graphs: np.ndarray) -> np.ndarray:
+    """Returns which pairs are joined in graphs, bool [N, number of pairs] from the numbers of their labels, int [N]."""
+    return np.asarray(graphs)[:, None] >> np.arange(len(PAIRS)) & 1 == 1
+
+
+def draw_slacks(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
+    """Returns the slacks of the bands of some episodes, m, 0 where there is none, float64 [N, number of pairs].
+
+    Which pairs are joined follows from the prior; slacks are uniform within `SLACKS`.
+
+    Args:
+      seeds, episodes: environment seeds and episode indices, int64 [N].
+      difficulty: as in `Options`.
+    """
+    draws = seeding.uniforms(seeds, episodes, 2 * len(PAIRS))
+    joined, slack = np.split(draws, 2, axis=1)
+    least, greatest = SLACKS
+    return np.where(joined * (1 + difficulty) < 1, least + (greatest - least) * slack, 0.0)
+
+
+def _is_away(positions: np.ndarray) -> np.ndarray:
+    """Returns 1 for each puck that is away from home and 0 for the others, from positions on rails, m [N, pucks]."""
+    return (np.abs(positions) > _AWAY).astype(float)
+
+
+def _is_on(forces: np.ndarray) -> np.ndarray:
+    """Returns 1 for each actuator that acts and 0 for the others, from their forces, N [N, pucks]."""
+    return (forces != 0).astype(float)
+
+
+class Strings(task.QuestionTask):
+    """Three covered pucks, some of them joined by bands, a clamp, and flags that tell which of them are away."""
+
+    options: Options
+    question = "Which pucks are joined by bands?"
+
+    def __init__(self, options: Options, sense: senses.Sense):
+        """Builds the scene."""
+        room = arena.Laboratory(**_ROOM)
+        root = room.mjcf_model
+        root.option.flag.contact = "disable"
+        root.option.integrator = "implicitfast"  # With the brake, the others diverge.
+        room.add_cover(_COVER_HALF_SIZE)
+        rails = [_add_puck(room, k) for k in range(NUM_PUCKS)]
+        self._bands = tuple(_add_band(root, rails, pair).full_identifier for pair in PAIRS)
+        self._positions = [
+            root.sensor.add("jointpos", name=f"position_{k}", joint=rail) for k, rail in enumerate(rails)
+        ]
+        # In the order of `drive`. What presses the clamp on a puck does not push it along its rail.
+        self._pulls = _add_actuators(root, "pull", rails, "motor")
+        self._presses = _add_actuators(root, "press", rails, "motor", gear=[0.0])
+        _add_actuators(root, "brake", rails, "damper", kv=_BRAKE, ctrlrange=[0, 1])
+        self._boards = [
+            [_add_board(room, f"{kind}_{k}", rgba or block.COLORS[k], (_x(k), y)) for k in range(NUM_PUCKS)]
+            for kind, rgba, y in (
+                ("handle", None, _HANDLE_Y),
+                ("clamp", _CLAMP_RGBA, _CLAMP_Y),
+                ("flag", None, _FLAG_Y),
+            )
+        ]
+        super().__init__(room, options, sense)
+
+    @property
+    def interactions(self):
+        controls = np.eye(3 * NUM_PUCKS)
+        return [
+            *(
+                declarations.Interaction(f"pull puck {k}", _PULL * controls[k], f"puck_{k}", (0.0, -_PULL, 0.0))
+                for k in range(NUM_PUCKS)
+            ),
+            *(
+                declarations.Interaction(
+                    f"clamp or free puck {k}", controls[NUM_PUCKS + k], f"puck_{k}", (0.0, 0.0, -1.0)
+                )
+                for k in range(NUM_PUCKS)
+            ),
+        ]
+
+    @property
+    def label_names(self):
+        return [_name(graph) for graph in range(NUM_GRAPHS)]
+
+    @property
+    def readings(self):
+        return {
+            name: declarations.Reading(sensors, (NUM_PUCKS,), unit="", bounds=(0, 1), measure=measure)
+            for name, sensors, measure in (
+                ("pulled", self._pulls, _is_on),
+                ("clamped", self._presses, _is_on),
+                ("away", self._positions, _is_away),
+            )
+        }
+
+    @property
+    def indicators(self):
+        travels = (_HANDLE_TRAVEL, _CLAMP_TRAVEL, _FLAG_TRAVEL)
+        return [
+            declarations.Indicator(board, reading, k, travel)
+            for boards, reading, travel in zip(self._boards, self.readings, travels, strict=True)
+            for k, board in enumerate(boards)
+        ]
+
+    def draw(self, seeds, episodes):
+        """Returns the slacks of the bands, m, 0 where there is none, float64 [N, number of pairs]."""
+        return draw_slacks(seeds, episodes, self.options.difficulty)
+
+    def answers(self, hidden):
+        return (hidden > 0) @ 2 ** np.arange(len(PAIRS))
+
+    def hidden_fields(self, apparatus, hidden):
+        return apparatus_lib.bands(apparatus, self._bands, np.where(hidden > 0, _SPRING, 0.0), hidden)
+
+    def drive(self, actions, qpos, ctrl):
+        """Returns the pulls, N, where the clamp is pressed, and where it holds, float64 [N, 3 * NUM_PUCKS].
+
+        The clamp takes hold with the step after the one that puts it on, in which the puck comes home.
+        """
+        pulls, wanted, _ = np.split(self.controls[actions], 3, axis=1)
+        _, before, _ = np.split(ctrl, 3, axis=1)
+        pressed = np.where(wanted.any(axis=1, keepdims=True), wanted * (1 - before), before)
+        return np.concatenate([pulls, pressed, pressed * before], axis=1)
+
+    def reveal(self, hidden):
+        joined = [pair for pair, slack in zip(PAIRS, hidden, strict=True) if slack > 0]
+        return declarations.Revealed(joined=[(f"puck_{i}", f"puck_{j}") for i, j in joined])
+
+
+def _x(puck: int) -> float:
+    """Where a puck's rail is, m."""
+    return (puck - (NUM_PUCKS - 1) / 2) * _SPACING
+
+
+def _add_puck(room: arena.Laboratory, number: int) -> mjcf.Element:
+    """Adds a puck and returns its rail."""
+    added = puck.Puck(block.COLORS[number], MASS, name=f"puck_{number}")
+    added.geom.group = rendering.UNDRAWN_GROUP
+    frame = room.attach(added)
+    frame.pos = [_x(number), 0, puck.HALF_HEIGHT]
+    return frame.add("joint", name="rail", type="slide", axis=[0, -1, 0], stiffness=_SPRING, damping=_DAMPING)
+
+
+def _add_band(root: mjcf.RootElement, rails: Sequence[mjcf.Element], pair: tuple[int, int]) -> mjcf.Element:
+    """Adds a band between two pucks and returns it."""
+    i, j = pair
+    band = root.tendon.add("fixed", name=f"band_{i}_{j}", springlength=[0, 0])
+    band.add("joint", joint=rails[i], coef=1)
+    band.add("joint", joint=rails[j], coef=-1)
+    return band
+
+
+def _add_actuators(
+    root: mjcf.RootElement, name: str, rails: Sequence[mjcf.Element], kind: str, **settings
+) -> list[mjcf.Element]:
+    """Adds an actuator for each rail and returns the sensors of their forces."""
+    actuators = [root.actuator.add(kind, name=f"{name}_{k}", joint=rail, **settings) for k, rail in enumerate(rails)]
+    return [root.sensor.add("actuatorfrc", name=each.name, actuator=each) for each in actuators]
+
+
+def _add_board(room: arena.Laboratory, name: str, rgba, place) -> mjcf.Element:
+    """Adds a board that shows a reading and returns its geom."""
+    board = flag.Flag(rgba=rgba, name=name)
+    room.attach(board).pos = (*place, flag.HALF_SIZE[2])
+    return board.geom
+
+
+def _name(graph: int) -> str:
+    """Returns a graph in words."""
+    joined = [f"{i} and {j}" for (i, j), is_band in zip(PAIRS, is_joined(np.array([graph]))[0], strict=True) if is_band]
+    return ", ".join(joined) or "none"
+
+
+@SUITE.add("features")
+def features(options):
+    """Observes what was `pulled`, what is `clamped` and which pucks are `away` from home, float32 (3,) each: 0 or 1."""
+    return Strings(options, senses.Features())
+
+
+@SUITE.add("pixels")
+def pixels(options):
+    """Observes `pixels`, uint8 (84, 84, 3): the cover, and for each puck a handle, a clamp and a flag."""
+    return Strings(options, senses.Pixels())

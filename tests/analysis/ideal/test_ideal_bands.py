@@ -1,0 +1,137 @@
+"""The ideal experimenter of bands and a clamp, against a search over sets of graphs, and in the real environment."""
+
+import functools
+import itertools
+
+import numpy as np
+import pytest
+from trainers import fresh_seed
+
+from physexp.analysis import domains
+from physexp.analysis.ideal import bands, resting
+
+PAIRS = {2: [(0, 1)], 3: [(0, 1), (0, 2), (1, 2)]}
+
+
+def search(num_things, weights, discount, step_limit, choose):
+    """Expected discounted return by a search over sets of graphs and the clamp, which joins things one by one.
+
+    Args:
+      num_things, weights, discount, step_limit: as for `bands.Clamped` and `resting.solve`.
+      choose: what follows from the values of all interactions: `max`, or their mean where they are drawn at random.
+    """
+    graphs = [
+        frozenset(pair for pair, joined in zip(PAIRS[num_things], reversed(bits), strict=True) if joined)
+        for bits in itertools.product((False, True), repeat=len(PAIRS[num_things]))
+    ]
+
+    def moved(graph, clamped, pulled):
+        if pulled == clamped:
+            return frozenset()
+        found, frontier = {pulled}, [pulled]
+        while frontier:
+            thing = frontier.pop()
+            for other in set(range(num_things)) - found - {clamped}:
+                if (min(thing, other), max(thing, other)) in graph:
+                    found.add(other)
+                    frontier.append(other)
+        return frozenset(found)
+
+    def chance(possible):
+        return sum(weights[graphs.index(graph)] for graph in possible)
+
+    @functools.cache
+    def value(possible, clamped, steps):
+        answer = 2 * max(chance([graph]) for graph in possible) / chance(possible) - 1
+        if steps == 1:
+            return answer
+        expected = [value(possible, None if clamped == thing else thing, steps - 1) for thing in range(num_things)]
+        for pulled in range(num_things):
+            parts = {}
+            for graph in possible:
+                parts.setdefault(moved(graph, clamped, pulled), []).append(graph)
+            expected.append(
+                sum(
+                    chance(part) / chance(possible) * value(frozenset(part), clamped, steps - 1)
+                    for part in parts.values()
+                )
+            )
+        return max(answer, discount * choose(expected))
+
+    return value(frozenset(graph for graph in graphs if chance([graph]) > 0), None, step_limit)
+
+
+def mean(values):
+    return sum(values) / len(values)
+
+
+def solve(num_things, weights, discount, step_limit):
+    return resting.solve(bands.Clamped(num_things, weights), discount, step_limit)
+
+
+@pytest.mark.parametrize("discount", [0.5, 0.95, 1.0])
+@pytest.mark.parametrize(
+    "num_things, weights, step_limit",
+    [
+        (2, [0.5, 0.5], 5),
+        (3, np.full(8, 1 / 8), 12),
+        (3, [0.3, 0.2, 0.1, 0.1, 0.1, 0.1, 0.05, 0.05], 10),
+        (3, [0, 0, 0, 0.25, 0, 0.25, 0.25, 0.25], 10),
+    ],
+)
+def test_a_search_over_sets_of_graphs_finds_the_same_values(num_things, weights, step_limit, discount):
+    solution = solve(num_things, weights, discount, step_limit)
+    assert solution.value == pytest.approx(search(num_things, weights, discount, step_limit, max), abs=1e-9)
+    assert solution.random_value == pytest.approx(search(num_things, weights, discount, step_limit, mean), abs=1e-9)
+
+
+def test_at_random_priors_too():
+    generator = np.random.default_rng(fresh_seed())
+    for _ in range(10):
+        weights, step_limit = generator.dirichlet(np.full(8, 0.5)), int(generator.integers(1, 9))
+        solution = solve(3, weights, 0.9, step_limit)
+        assert solution.value == pytest.approx(search(3, weights, 0.9, step_limit, max), abs=1e-9)
+        assert solution.random_value == pytest.approx(search(3, weights, 0.9, step_limit, mean), abs=1e-9)
+
+
+def test_one_pull_tells_whether_two_things_are_joined():
+    solution = solve(2, [0.5, 0.5], 0.9, 10)
+    assert solution.value == pytest.approx(0.9)
+    assert solution.at_once == 0
+
+
+def test_the_ideal_clamps_when_and_only_when_pulls_leave_several_graphs():
+    """By hand: pull 0. Alone: pull 1, which tells. With one other: that is all. With both: four graphs hang together.
+
+    They differ in which pair is missing, or none. Each of three clamps tells of one pair: clamp 0 and pull 1, then
+    clamp 1 and pull 0, then clamp 2 and pull 0 tell one after the other whether 1-2, 0-2, 0-1 is missing; the first
+    that is missing ends it. If none of the first two is, the third pair may be missing or none.
+    """
+    solution = domains.find("strings").ideal("features", {}, 0.95)
+    interactions, right = solution.play(np.arange(8))
+    assert right.all()
+    # None and 1-2: two pulls. 0-1 and 0-2: one. Rows of three: 3, 5 or 7; the ring, 7.
+    assert sorted(interactions) == [1, 1, 2, 2, 3, 5, 7, 7]
+    assert solution.value == pytest.approx(sum(0.95**count for count in (1, 1, 2, 2, 3, 5, 7, 7)) / 8)
+    for graph in range(8):
+        state, clamps = solution.apparatus.start, 0
+        for step in range(interactions[graph]):
+            action = solution.action(state, step)
+            clamps += action >= 3
+            reading = solution.apparatus.readings(state[1])[action, graph]
+            state = solution.apparatus.after(state, action, reading)
+        assert (clamps > 0) == (graph in (3, 5, 6, 7))  # Two bands, or three.
+
+
+def test_there_is_something_to_find_out_in_strings():
+    for difficulty in (1, 2, 3):
+        solution = domains.find("strings").ideal("features", {"difficulty": difficulty}, 0.95)
+        assert solution.summary()["mean_interactions"] >= 2
+        assert solution.at_once <= 0.3 * solution.value
+        assert solution.random_value <= 0.8 * solution.value
+
+
+def test_the_rarer_bands_are_the_easier_it_is():
+    solutions = [domains.find("strings").ideal("features", {"difficulty": d}, 0.95) for d in (1, 1.5, 2, 3, 5)]
+    assert (np.diff([solution.value for solution in solutions]) > 0).all()
+    assert (np.diff([solution.summary()["mean_interactions"] for solution in solutions]) < 0).all()
