@@ -20,6 +20,7 @@ EPISODES = (
     ("towers", "fist_pixels", 6, [0] * 7),  # Along +x, into the tower.
     ("threshold", "pixels", 2, [3, 5, 4, 1, 7, 0, 4]),
     ("balance", "pixels", 1, [1, 5, 7, 11, 3, 13, 6]),
+    ("strings", "pixels", 3, [0, 3, 1, 4, 0, 5, 2]),
 )
 """Domain, task, index of the episode and actions of each row."""
 

@@ -35,7 +35,7 @@ class Players:
     def __init__(self, domain, task, size, seed):
         self.batch = suite.load_batch(domain, task, size, {"random": seed})
         # Environments are in different steps here, and the belief learner's memory has one length for all of them.
-        learner = {"threshold": "ppo", "balance": None}.get(domain, "a3c")
+        learner = {"which_is_heavier": "a3c", "towers": "a3c", "threshold": "ppo"}.get(domain)
         self._network = pretrained.load(domain, task, agent=learner).network if learner else None
         self._generator = np.random.default_rng(seed)
         self._random = np.arange(size) % 2 == 1
@@ -56,7 +56,11 @@ class Players:
     def step(self):
         timestep, task = self._timestep, self.batch.task
         size = len(self._random)
-        labels = task.num_interactions + self._generator.integers(task.num_labels, size=size)
+        labels = self._generator.integers(task.num_labels, size=size)
+        # Every other answer is right: in a short life, one of twelve might never be.
+        labels = task.num_interactions + np.where(
+            self._generator.random(size) < 0.5, self.batch.correct_answers, labels
+        )
         pokes = self._generator.integers(task.num_interactions, size=size)
         at_random = np.where(self._generator.random(size) < LABELS, labels, pokes)
         actions = np.where(self._random, at_random, self._learned(timestep)) if self._network else at_random

@@ -112,7 +112,8 @@ def test_answers_are_named_after_the_pairs_that_are_joined():
     assert task.label_names[0] == "none" and task.label_names[7] == "0 and 1, 0 and 2, 1 and 2"
     assert task.answers(np.array([[0, LEAST, 0], [LEAST, 0, GREATEST]])).tolist() == [2, 5]
     assert [task.label_names[label] for label in (2, 5)] == ["0 and 2", "0 and 1, 1 and 2"]
-    assert task.reveal(np.array([0, 0, LEAST])).joined == [("puck_1", "puck_2")]
+    assert task.reveal(np.array([0, 0, LEAST])).tied == [("puck_1", "puck_2")]
+    assert task.reveal(np.zeros(3)).marks == {"puck_1": "no bands"}
 
 
 @pytest.mark.parametrize(

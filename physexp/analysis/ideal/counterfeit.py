@@ -11,8 +11,9 @@ from physexp.analysis.ideal import resting
 from physexp.suite.engine import checks
 
 SIDES = (0, -1, 1)
-"""Where things lie: aside, on the left pan, on the right one. Interaction 3 k + p puts thing k in the place of index p.
+"""Where things lie, that is aside, on the left pan or on the right one.
 
+Interaction 3 k + p puts thing k in the place of index p.
 Label 2 k says that thing k is heavier, 2 k + 1 that it is lighter. A setting has the side of each thing.
 """
 

@@ -20,7 +20,7 @@ _MOST_STEPS = 100_000
 _TIE = 1e-12  # Returns that differ by less are equal: the shorter way is taken.
 
 State = tuple[int, Hashable]
-"""What is known: the labels that are possible, a bit mask, and the setting."""
+"""What is known, that is the labels that are possible, a bit mask, and the setting."""
 
 
 class Apparatus(abc.ABC):

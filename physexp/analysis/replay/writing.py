@@ -32,6 +32,7 @@ from physexp.suite.engine import declarations
 
 _ARROW_LENGTH = 0.25  # m
 _FLOOR_THICKNESS, _FLOOR_COLOR = 0.01, (190, 190, 185)  # m
+_BAND_RADIUS = 0.004  # m
 _TEXT_ABOVE = (0.05, 0.11)  # m, of a mark above its thing: neighbours' texts at two heights.
 _MERGE_SECONDS = 300.0  # A few hundred times what it takes.
 
@@ -179,7 +180,7 @@ class EpisodeWriter:
         self._columns(entity, episode.times, columns)
 
     def _write_hidden(self) -> None:
-        """Writes things that images do not show, texts beside things, and bars between things that are one."""
+        """Writes things that images do not show, texts beside things, bars between things that are one, and bands."""
         episode, shapes = self._episode, self._episode.shapes
         for k in np.flatnonzero(~shapes.are_drawn).tolist():
             self._write_shape(f"world/hidden/{shapes.names[k]}", k)
@@ -195,6 +196,13 @@ class EpisodeWriter:
             entity = f"world/hidden/{first}_to_{second}"
             self._log(entity, self._bar(shapes.index(first), shapes.index(second)))
             self._follow(entity, shapes.index(first))
+        for first, second in revealed.tied:
+            self._write_band(f"world/hidden/{first}_to_{second}", [shapes.index(first), shapes.index(second)])
+
+    def _write_band(self, entity: str, ends: list[int]) -> None:
+        """Writes a line between two shapes, wherever they are."""
+        self._log(entity, rr.LineStrips3D.from_fields(colors=[palette.JOINT], radii=[_BAND_RADIUS]))
+        self._columns(entity, self._episode.times, rr.LineStrips3D.columns(strips=self._episode.positions[:, ends]))
 
     def _bar(self, first: int, second: int) -> rr.Boxes3D:
         """Returns a bar from one shape to another, which stands out of both, as the first one sees it."""

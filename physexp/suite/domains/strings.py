@@ -202,8 +202,8 @@ class Strings(task.QuestionTask):
         return np.concatenate([pulls, pressed, pressed * before], axis=1)
 
     def reveal(self, hidden):
-        joined = [pair for pair, slack in zip(PAIRS, hidden, strict=True) if slack > 0]
-        return declarations.Revealed(joined=[(f"puck_{i}", f"puck_{j}") for i, j in joined])
+        tied = [(f"puck_{i}", f"puck_{j}") for (i, j), slack in zip(PAIRS, hidden, strict=True) if slack > 0]
+        return declarations.Revealed(marks={} if tied else {"puck_1": "no bands"}, tied=tied)
 
 
 def _x(puck: int) -> float:

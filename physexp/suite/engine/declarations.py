@@ -92,7 +92,9 @@ class Revealed:
     Attributes:
       marks: texts beside things, by the thing's name.
       joined: pairs of things that are one rigid body, by their names.
+      tied: pairs of things that a band ties to each other, by their names.
     """
 
     marks: Mapping[str, str] = dataclasses.field(default_factory=dict)
     joined: Sequence[tuple[str, str]] = ()
+    tied: Sequence[tuple[str, str]] = ()

@@ -300,10 +300,11 @@ def test_a_replay_shows_the_right_names(domain, task, tmp_path):
     assert f"{domain}/{task}, seed" in chunks(path, "/did/outcome")["TextDocument:text"][0][0]
     assert entities(path, "/world/things/") == things(played, is_drawn=True)
     revealed = played.reveal(episode.hidden)
-    assert revealed.marks or revealed.joined or played.answers(played.hidden[None]) == played.num_labels - 1
+    shown = (revealed.marks, revealed.joined, revealed.tied)
+    assert any(shown) or played.answers(played.hidden[None]) == played.num_labels - 1
     assert entities(path, "/world/hidden/") == things(played, is_drawn=False) | {
         *(f"mark_{thing}" for thing in revealed.marks),
-        *(f"{first}_to_{second}" for first, second in revealed.joined),
+        *(f"{first}_to_{second}" for first, second in (*revealed.joined, *revealed.tied)),
     }
     if task.endswith("pixels"):
         assert entities(path, "/seen/") == {"pixels"}
@@ -355,6 +356,24 @@ def test_what_is_covered_is_seen_through_its_cover_where_what_is_hidden_is_shown
     shown = np.linalg.norm(vectors, axis=1) > 0
     assert np.ptp(origins[shown], axis=0).max() == 0  # The arrow does not follow the block.
     assert vectors[steps[0] + 1, 0] > 0 > vectors[steps[1] + 1, 0]  # A push goes away from the stop.
+
+
+def test_bands_are_hidden_lines_that_follow_what_they_tie(tmp_path):
+    environment = suite.load("strings", "features", task_kwargs={"random": fresh_seed()})
+    recorder = replay.EpisodeRecorder(environment, "strings", "features")
+    timestep = environment.reset()
+    while environment.task.correct_answer != 1:  # A band between the first two alone.
+        timestep = environment.reset()
+    recorder.observe_first(environment, timestep)
+    for action in (0, 2, 7):
+        recorder.observe(environment, environment.step(action), action)
+    episode = recorder.episode
+    path = writing.write(tmp_path / "one.rrd", [lambda: [episode]])
+    assert entities(path, "/world/hidden/") == {"puck_0", "puck_1", "puck_2", "puck_0_to_puck_1"}
+    strips = np.array(chunks(path, "/world/hidden/puck_0_to_puck_1")["LineStrips3D:strips"])[:, 0]
+    ends = [episode.shapes.names.index(f"puck_{k}") for k in range(2)]
+    np.testing.assert_allclose(strips, episode.positions[:, ends], atol=1e-6)
+    assert np.ptp(strips[:, :, 1], axis=0).min() > 0.02  # A pull at one of them moves both.
 
 
 def test_any_kind_of_shape_is_drawn_and_several_of_one_thing_have_names_of_their_own(tmp_path):
