@@ -18,6 +18,7 @@ EPISODES = {
     "towers": ("towers/fist_features", 8, 0),
     "threshold": ("ppo/threshold-features", 5, 8),
     "balance": ("balance/features", 5, 1),
+    "strings": ("strings/features", 5, 2),
 }
 """For each picture whose agent plays, and the seed and the index of the episode."""
 

@@ -30,7 +30,7 @@ def card_of(path):
     return json.loads(path.read_text())
 
 
-UNTRAINED = {("balance", "pixels")}
+UNTRAINED = {("balance", "pixels"), ("strings", "pixels")}
 """Tasks of which no agent has been trained yet."""
 
 

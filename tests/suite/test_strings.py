@@ -109,9 +109,9 @@ def test_graphs_follow_the_prior_and_slacks_are_within_their_range(seed):
 
 def test_answers_are_named_after_the_pairs_that_are_joined():
     task = suite.load_task("strings", "features")
-    assert task.label_names[0] == "none" and task.label_names[7] == "0 and 1, 0 and 2, 1 and 2"
+    assert task.label_names[0] == "none" and task.label_names[7] == "0-1, 0-2, 1-2"
     assert task.answers(np.array([[0, LEAST, 0], [LEAST, 0, GREATEST]])).tolist() == [2, 5]
-    assert [task.label_names[label] for label in (2, 5)] == ["0 and 2", "0 and 1, 1 and 2"]
+    assert [task.label_names[label] for label in (2, 5)] == ["0-2", "0-1, 1-2"]
     assert task.reveal(np.array([0, 0, LEAST])).tied == [("puck_1", "puck_2")]
     assert task.reveal(np.zeros(3)).marks == {"puck_1": "no bands"}
 

@@ -46,7 +46,7 @@ DOMAIN = base.Domain(
     name=_NAME,
     discount=_DISCOUNT,
     presets={"features": {}, "pixels": {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}},
-    targets={},
+    targets={"strings-features": ("mean_return", 0.82)},
     ideal=base.Ideal(_solve, IdealOptions),
     columns=(base.Column("slacks", "float32", is_list=True, is_varied=True),),  # m; 0 where there is no band
     fill=lambda hidden: {"slacks": hidden},

@@ -246,7 +246,7 @@ def _add_board(room: arena.Laboratory, name: str, rgba, place) -> mjcf.Element:
 
 def _name(graph: int) -> str:
     """Returns a graph in words."""
-    joined = [f"{i} and {j}" for (i, j), is_band in zip(PAIRS, is_joined(np.array([graph]))[0], strict=True) if is_band]
+    joined = [f"{i}-{j}" for (i, j), is_band in zip(PAIRS, is_joined(np.array([graph]))[0], strict=True) if is_band]
     return ", ".join(joined) or "none"
 
 
