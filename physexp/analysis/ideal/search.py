@@ -5,6 +5,7 @@ found by search over sequences of actions, with a lower and an upper bound: wher
 """
 
 from collections.abc import Sequence
+import dataclasses
 import functools
 import math
 from typing import Any
@@ -12,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from physexp.agents import core
-from physexp.analysis.ideal import base, branch_and_bound
+from physexp.analysis.ideal import base, branch_and_bound, random_play
 from physexp.analysis.ideal import trajectories as trajectories_lib
 from physexp.suite.engine import checks
 
@@ -111,6 +112,13 @@ class Solution:
         return np.array(found, np.int64)
 
     def summary(self) -> dict[str, Any]:
+        """Returns what `figures` does, and for the return what others earn, see `random_play.Bounds`."""
+        if self.objective != "return":
+            return self.figures()
+        others = random_play.bounds(self.trajectories, self.resolution, self.discount)
+        return {**self.figures(), **dataclasses.asdict(others)}
+
+    def figures(self) -> dict[str, Any]:
         """Returns `value`, `bound`, `accuracy`, `mean_interactions`, `mean_seconds` and `histogram`.
 
         The value is None where the right label cannot be known for certain within the depth of the search.
@@ -168,12 +176,12 @@ def solve(
 def curve(
     trajectories: trajectories_lib.Trajectories, resolutions: Sequence[float], discount: float
 ) -> list[dict[str, Any]]:
-    """Returns summaries for both objectives at several resolutions, with `resolution` and `objective` beside them."""
+    """Returns figures for both objectives at several resolutions, with `resolution` and `objective` beside them."""
     return [
         {
             "resolution": resolution,
             "objective": objective,
-            **solve(trajectories, resolution, discount, objective).summary(),
+            **solve(trajectories, resolution, discount, objective).figures(),
         }
         for resolution in resolutions
         for objective in OBJECTIVES

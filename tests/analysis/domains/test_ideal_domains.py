@@ -3,6 +3,7 @@
 import math
 import types
 
+import ideals
 import numpy as np
 import observers
 import pyarrow
@@ -34,7 +35,7 @@ class Recorder(observers.Watcher):
 @pytest.mark.parametrize(("domain", "task"), IDEALS)
 def test_what_it_earns_in_the_real_environment_is_its_value(domain, task):
     discount = domains.find(domain).discount
-    solution = domains.find(domain).ideal(task, {}, discount)
+    solution = ideals.of(domain, task)
     environment = suite.load(domain, task, task_kwargs={"random": fresh_seed()})
     played = environment_loop.EnvironmentLoop(environment, solution.actor()).run(150)
     returns = np.array([discount ** (each["episode_length"] - 1) * each["episode_return"] for each in played])
@@ -44,7 +45,7 @@ def test_what_it_earns_in_the_real_environment_is_its_value(domain, task):
 
 @pytest.mark.parametrize(("domain", "task"), IDEALS)
 def test_it_believes_what_its_answer_says_and_at_first_no_more_than_the_prior(domain, task):
-    solution = domains.find(domain).ideal(task, {}, domains.find(domain).discount)
+    solution = ideals.of(domain, task)
     environment = suite.load(domain, task, task_kwargs={"random": fresh_seed()})
     recorder = Recorder()
     loop = environment_loop.EnvironmentLoop(environment, solution.actor(), [recorder])
@@ -61,7 +62,7 @@ def test_it_believes_what_its_answer_says_and_at_first_no_more_than_the_prior(do
 @pytest.mark.parametrize("domain", [name for name, domain in domains.DOMAINS.items() if domain.ideal is not None])
 def test_its_options_are_the_task_s_or_its_own_and_its_summary_has_the_figures_of_all(domain):
     ideal = domains.find(domain).ideal
-    summary = ideal(suite.TASKS_BY_DOMAIN[domain][0], {}, domains.find(domain).discount).summary()
+    summary = ideals.of(domain, suite.TASKS_BY_DOMAIN[domain][0]).summary()
     assert {"value", "accuracy", "mean_interactions", "histogram"} <= set(summary)
     assert sum(summary["histogram"].values()) == pytest.approx(1)
     assert ideal.options()

@@ -1,0 +1,47 @@
+"""What the analysis knows of Sealed Box: its ideal and its columns."""
+
+from collections.abc import Mapping
+import dataclasses
+from typing import Any
+
+from physexp.agents.belief import config as belief
+from physexp.analysis.domains import base
+
+_NAME = "sealed_box"
+_DISCOUNT = 0.95
+_MOST_STEPS = 8_000_000  # Control steps that are simulated at most; the hardest of the three difficulties takes 1.8.
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class IdealOptions:
+    """What can be chosen of the ideal experimenter, who knows the physics.
+
+    Attributes:
+      task: the task.
+      difficulty: how finely the place of the box is read, 1 to 3, the larger the easier; by default the task's.
+    """
+
+    task: str = "features"
+    difficulty: float | None = None
+
+
+def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
+    """Returns the ideal experimenter, to whom every difference in what is observed is one."""
+    import numpy as np
+
+    from physexp.analysis.ideal import search, trajectories
+    from physexp.suite.domains import sealed_box
+
+    contents = np.arange(len(sealed_box.ALL_CONTENTS))
+    known = trajectories.Trajectories(_NAME, task, contents, sealed_box.PRIOR, task_kwargs)
+    return search.solve(known, 0.0, discount, max_steps=_MOST_STEPS)
+
+
+DOMAIN = base.Domain(
+    name=_NAME,
+    discount=_DISCOUNT,
+    presets={"features": {}, "pixels": {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}},
+    ideal=base.Ideal(_solve, IdealOptions),
+    columns=(base.Column("content", "int8"),),  # An index in `sealed_box.ALL_CONTENTS`.
+    fill=lambda hidden: {"content": hidden},
+)

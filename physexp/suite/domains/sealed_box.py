@@ -1,0 +1,256 @@
+"""Sealed Box: a box on a rail that is closed, and the question what is in it."""
+
+import dataclasses
+import itertools
+
+from dm_control.utils import containers
+import numpy as np
+
+from physexp.suite.engine import apparatus as apparatus_lib
+from physexp.suite.engine import checks, declarations, rendering, seeding, senses, task
+from physexp.suite.engine import options as options_lib
+from physexp.suite.parts import arena, block, flag
+
+SUITE = containers.TaggedTasks()
+
+PHYSICS_TIMESTEP = 0.02  # s
+
+# A box slides on a rail, against a spring and a damper. In it is a weight on a rail of its own. The hand that pushes
+# the box hides it: only who waits sees where it is, to a mark. With the box in view all the time any shaking would
+# tell.
+PUSHES = {"hard to the left": -4.0, "to the left": -1.0, "to the right": 1.0, "hard to the right": 4.0}  # N
+_STIFFNESS, _DAMPING = 60.0, 2.0  # N/m, N s/m, of the box's rail
+MARKS = {1: 0.010, 2: 0.005, 3: 0.003}  # m, between the marks beside the box, by difficulty
+
+CONTENTS = ("a solid weight", "a loose weight", "a weight on a spring", "a weight in goo")
+MASSES = (0.8, 1.0, 1.2)  # kg, of box and weight together
+SHARES = (0.3, 0.5)  # of that, the weight's
+_ROOM_INSIDE = 0.06  # m, to either side of the weight, but for the loose one's
+_RUB = 0.02  # N s/m, of every weight that moves
+
+
+@dataclasses.dataclass(frozen=True)
+class Content:
+    """What may be in the box.
+
+    Attributes:
+      kind: index in `CONTENTS`.
+      mass: of box and weight together, kg.
+      share: of that, the weight's.
+      gap: how far the weight may move to either side, m.
+      stiffness: of the weight's spring, N/m.
+      damping: of the weight's motion, N s/m.
+    """
+
+    kind: int
+    mass: float
+    share: float
+    gap: float = _ROOM_INSIDE
+    stiffness: float = 0.0
+    damping: float = _RUB
+
+
+def _contents() -> tuple[Content, ...]:
+    """All that there may be, kind by kind."""
+    kinds = (
+        ({"damping": 1e6},),
+        ({"gap": 0.010}, {"gap": 0.025}),
+        ({"stiffness": 20.0}, {"stiffness": 80.0}),
+        ({"damping": _RUB + 1.0}, {"damping": _RUB + 4.0}),
+    )
+    return tuple(
+        Content(kind, mass, share, **settings)
+        for kind, variants in enumerate(kinds)
+        for mass, share, settings in itertools.product(MASSES, SHARES, variants)
+    )
+
+
+ALL_CONTENTS = _contents()
+KINDS = np.array([content.kind for content in ALL_CONTENTS])
+PRIOR = 1 / len(CONTENTS) / np.bincount(KINDS)[KINDS]
+"""The probability of each of `ALL_CONTENTS`: kinds are equally likely, and so are those of one kind."""
+
+
+BOX_HALF_SIZE = 0.13  # m: holds the weight, wherever it moves
+_WEIGHT_RADIUS = 0.03  # m
+_REACH = 0.36  # m: no box gets farther from home, however it is pushed
+
+_SHORTEST_STEP = 0.1  # s
+
+_ROOM = dict(mat_size=[0.5, 0.34], camera_pos=[0, -2.9, 1.1], camera_target=[0, 0, 0.08], fovy=20.0)
+_BOX_RGBA, _CURTAIN_RGBA, _POINTER_RGBA = block.COLORS[5], (0.50, 0.50, 0.55, 1.0), (0.15, 0.15, 0.18, 1.0)
+_CURTAIN_HALF_SIZE = (0.50, 0.005, 0.20)  # m
+_CURTAIN_Y, _CURTAIN_RISE = -0.2, 0.6  # m; at rest it is under the floor
+_POINTER_Y, _POINTER_TRAVEL = -0.3, 0.4  # m
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Options(options_lib.Options):
+    """The `task_kwargs` of this domain.
+
+    Attributes:
+      difficulty: 1, 2 or 3: how finely the place of the box is read, to 10, 5 or 3 mm; the larger, the easier.
+    """
+
+    physics_timestep = PHYSICS_TIMESTEP
+
+    time_limit: float = 2.0  # the longer, the less it costs never to answer
+    difficulty: float = 2.0
+
+    def __post_init__(self):
+        super().__post_init__()
+        if self.difficulty not in MARKS:
+            raise ValueError(f"difficulty is {checks.shown(self.difficulty)}; give 1, 2 or 3")
+        object.__setattr__(self, "difficulty", float(self.difficulty))
+
+
+def draw_contents(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
+    """Returns what is in the box in some episodes: indices of `ALL_CONTENTS`, int64 [N].
+
+    Args:
+      seeds, episodes: environment seeds and episode indices, int64 [N].
+    """
+    draws = seeding.uniforms(seeds, episodes, 1)[:, 0]
+    return np.searchsorted(np.cumsum(PRIOR)[:-1], draws, side="right")
+
+
+def _share(forces: np.ndarray) -> np.ndarray:
+    """Returns the share of the greatest force that was pushed with, positive to the right, from the force, N [N, 1]."""
+    return forces / max(PUSHES.values())
+
+
+def _is_pushed(forces: np.ndarray) -> np.ndarray:
+    """Returns 1 where the box was pushed and 0 elsewhere, from the force, N [N, 1]."""
+    return (forces != 0).astype(float)
+
+
+class SealedBox(task.QuestionTask):
+    """A closed box on a sprung rail, which a hand hides while it pushes."""
+
+    options: Options
+    question = "What is in the box?"
+
+    def __init__(self, options: Options, sense: senses.Sense):
+        """Builds the scene."""
+        self._mark = MARKS[int(options.difficulty)]
+        room = arena.Laboratory(**_ROOM)
+        root = room.mjcf_model
+        root.option.gravity = [0, 0, 0]
+        root.option.flag.contact = "disable"
+        box = block.Block(_BOX_RGBA, mass=1.0, half_size=BOX_HALF_SIZE, name="box")
+        frame = room.attach(box)
+        frame.pos = [0, 0, BOX_HALF_SIZE]
+        rail = frame.add("joint", name="rail", type="slide", axis=[1, 0, 0], stiffness=_STIFFNESS, damping=_DAMPING)
+        weight = box.mjcf_model.worldbody.add("body", name="weight")
+        inner = weight.add("joint", name="inner", type="slide", axis=[1, 0, 0], limited=True, range=[-1, 1])
+        weight.add("geom", name="weight", size=[_WEIGHT_RADIUS], mass=1.0, group=rendering.UNDRAWN_GROUP)
+        self._joints = (rail.full_identifier, inner.full_identifier)
+        self._box = box.geom
+        push = root.actuator.add("motor", name="push", joint=rail)
+        self._position = root.sensor.add("jointpos", name="position", joint=rail)
+        self._force = root.sensor.add("actuatorfrc", name="force", actuator=push)
+        self._curtain = root.worldbody.add(
+            "geom",
+            name="curtain",
+            type="box",
+            size=_CURTAIN_HALF_SIZE,
+            pos=[0, _CURTAIN_Y, _CURTAIN_HALF_SIZE[2] - _CURTAIN_RISE],
+            rgba=_CURTAIN_RGBA,
+            contype=0,
+            conaffinity=0,
+        )
+        pointer = flag.Flag(_POINTER_RGBA, name="pointer")
+        room.attach(pointer).pos = [0, _POINTER_Y, flag.HALF_SIZE[2]]
+        self._pointer = pointer.geom
+        super().__init__(room, options, sense)
+
+    def _place(self, values: np.ndarray) -> np.ndarray:
+        """Returns how many marks the box is from home, and 0 while it is pushed.
+
+        Args:
+          values: its position, m, and the force of the hand, N, [N, 2].
+        """
+        positions, forces = values.T
+        # Adding 0 makes 0 of -0, which would tell the side.
+        return np.where(forces == 0, np.round(positions / self._mark) + 0.0, 0.0)[:, None]
+
+    @property
+    def interactions(self):
+        return [
+            *(
+                declarations.Interaction(f"push {where}", np.array([force]), "box", (force, 0.0, 0.0))
+                for where, force in PUSHES.items()
+            ),
+            declarations.Interaction("wait", np.zeros(1), "box", (0.0, 0.0, 0.0)),
+        ]
+
+    @property
+    def label_names(self):
+        return list(CONTENTS)
+
+    @property
+    def readings(self):
+        farthest = np.ceil(_REACH / self._mark)
+        return {
+            "push": declarations.Reading([self._force], (1,), unit="", bounds=(-1, 1), measure=_share),
+            "covered": declarations.Reading([self._force], (1,), unit="", bounds=(0, 1), measure=_is_pushed),
+            "place": declarations.Reading(
+                [self._position, self._force], (1,), unit="", bounds=(-farthest, farthest), measure=self._place
+            ),
+        }
+
+    @property
+    def indicators(self):
+        return [
+            declarations.Indicator(self._pointer, "push", 0, (_POINTER_TRAVEL, 0, 0)),
+            declarations.Indicator(self._curtain, "covered", 0, (0, 0, _CURTAIN_RISE)),
+            declarations.Indicator(self._box, "place", 0, (self._mark, 0, 0)),
+        ]
+
+    def draw(self, seeds, episodes):
+        """Returns what is in the box: indices of `ALL_CONTENTS`, int64 [N]."""
+        return draw_contents(seeds, episodes)
+
+    def answers(self, hidden):
+        return KINDS[hidden]
+
+    def hidden_fields(self, apparatus, hidden):
+        return _fields(apparatus, self._joints, [ALL_CONTENTS[k] for k in hidden])
+
+    def reveal(self, hidden):
+        content = ALL_CONTENTS[int(hidden)]
+        weight = content.share * content.mass
+        return declarations.Revealed(marks={"box": f"{CONTENTS[content.kind]}, {weight:.2f} of {content.mass:.1f} kg"})
+
+
+def _fields(apparatus: apparatus_lib.Apparatus, joints: tuple[str, str], contents: list[Content]):
+    """Returns the model fields that follow from what is in boxes; of masses, what `mj_setConst` would compute."""
+    dofs, bodies = apparatus.dofs(joints)
+    total, share, gap, stiffness, damping = (
+        np.array([getattr(content, name) for content in contents])
+        for name in ("mass", "share", "gap", "stiffness", "damping")
+    )
+    weight, box = share * total, (1 - share) * total
+    rails = np.full_like(total, _STIFFNESS), np.full_like(total, _DAMPING)
+    joint_ids = np.array([apparatus.model.joint(joint).id for joint in joints])
+    return {
+        "body_mass": (bodies, np.stack([box, weight], axis=1)),
+        "body_subtreemass": (bodies, np.stack([total, weight], axis=1)),
+        "dof_M0": (dofs, np.stack([total, weight], axis=1)),
+        "dof_invweight0": (dofs, np.stack([1 / box, total / (box * weight)], axis=1)),
+        "dof_damping": (dofs, np.stack([rails[1], damping], axis=1)),
+        "jnt_stiffness": (joint_ids, np.stack([rails[0], stiffness], axis=1)),
+        "jnt_range": (joint_ids[1:], np.stack([-gap, gap], axis=1)[:, None]),
+    }
+
+
+@SUITE.add("features")
+def features(options):
+    """Observes `push`, `covered` and `place`, float32 (1,): last push, whether it hid the box, and where that is."""
+    return SealedBox(options, senses.Features())
+
+
+@SUITE.add("pixels")
+def pixels(options):
+    """Observes `pixels`, uint8 (84, 84, 3): the box, or a curtain before it, and a pointer that shows the push."""
+    return SealedBox(options, senses.Pixels())

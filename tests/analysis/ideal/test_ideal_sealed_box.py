@@ -1,0 +1,108 @@
+"""The ideal experimenter of Sealed Box: a search, against a tree of all sequences in other simulations."""
+
+import functools
+
+import ideals
+import mujoco
+import numpy as np
+import pytest
+
+from physexp.suite.domains import sealed_box
+
+FORCES = (*sealed_box.PUSHES.values(), 0.0)
+KINDS = np.array([content.kind for content in sealed_box.ALL_CONTENTS])
+
+
+def films(content):
+    """Returns a function that says where a box with some content is after a sequence of actions, m."""
+    weight = content.share * content.mass
+    spec = mujoco.MjSpec()
+    spec.option.timestep, spec.option.gravity = 0.02, [0, 0, 0]
+    box = spec.worldbody.add_body(mass=content.mass - weight, inertia=[1, 1, 1], explicitinertial=True)
+    slide = mujoco.mjtJoint.mjJNT_SLIDE
+    box.add_joint(name="rail", type=slide, axis=[1, 0, 0], stiffness=[60, 0, 0], damping=[2, 0, 0])
+    inner = box.add_body(mass=weight, inertia=[1, 1, 1], explicitinertial=True)
+    inner.add_joint(
+        type=slide,
+        axis=[1, 0, 0],
+        limited=True,
+        range=[-content.gap, content.gap],
+        stiffness=[content.stiffness, 0, 0],
+        damping=[content.damping, 0, 0],
+    )
+    spec.add_actuator(target="rail", trntype=mujoco.mjtTrn.mjTRN_JOINT).set_to_motor()
+    model = spec.compile()
+    data = mujoco.MjData(model)
+
+    @functools.cache
+    def state(sequence):
+        if not sequence:
+            return (0.0, 0.0), (0.0, 0.0)
+        data.qpos[:], data.qvel[:] = state(sequence[:-1])
+        data.ctrl[:] = FORCES[sequence[-1]]
+        mujoco.mj_step(model, data, nstep=5)
+        return tuple(data.qpos), tuple(data.qvel)
+
+    return lambda sequence: state(sequence)[0][0]
+
+
+def tree(mark, discount, depth):
+    """Lower and upper bound on the best return, by all sequences up to a length; beyond it, one may tell all."""
+    boxes = [films(content) for content in sealed_box.ALL_CONTENTS]
+
+    def value(sequence, group):
+        weights = np.bincount(KINDS[group], sealed_box.PRIOR[group], minlength=4)
+        answer = 2 * weights.max() / weights.sum() - 1
+        if weights.max() == weights.sum():
+            return answer, answer
+        if len(sequence) == depth:
+            return answer, max(answer, discount)
+        low = high = answer
+        for action in range(len(FORCES)):
+            parts = {}
+            for k in group:
+                longer = (*sequence, action)
+                reading = round(boxes[k](longer) / mark) if action == 4 else 0
+                parts.setdefault(reading, []).append(k)
+            found = np.zeros(2)
+            for part in parts.values():
+                found += sealed_box.PRIOR[part].sum() / weights.sum() * np.array(value((*sequence, action), part))
+            low, high = max(low, discount * found[0]), max(high, discount * found[1])
+        return low, high
+
+    return value((), list(range(len(KINDS))))
+
+
+def solve(difficulty):
+    return ideals.of("sealed_box", difficulty=difficulty)
+
+
+@pytest.mark.parametrize("difficulty, mark, depth", [(1, 0.010, 4), (3, 0.003, 4)])
+def test_a_tree_of_all_sequences_in_other_simulations_encloses_its_value(difficulty, mark, depth):
+    solution = solve(difficulty)
+    assert solution.bound == pytest.approx(solution.value)
+    low, high = tree(mark, 0.95, depth)
+    assert low - 1e-9 <= solution.value <= high + 1e-9
+    assert high - low < 0.3
+
+
+def test_there_is_something_to_find_out_in_the_box_and_finer_marks_make_it_easier():
+    summaries = [solve(difficulty).summary() for difficulty in (1, 2, 3)]
+    for summary in summaries:
+        assert summary["mean_interactions"] >= 2
+        assert summary["at_once"] <= 0.3 * summary["value"]
+        assert summary["random_bound"] <= 0.8 * summary["value"]
+        assert summary["accuracy"] == pytest.approx(1)
+    assert (np.diff([summary["value"] for summary in summaries]) > 0).all()
+    assert (np.diff([summary["mean_interactions"] for summary in summaries]) < 0).all()
+
+
+def test_it_pushes_first_and_waits_in_every_episode():
+    solution = solve(3)
+    assert solution.policy.action != 4
+    for hypothesis in range(len(KINDS)):
+        node, actions = solution.policy, []
+        while node.action is not None:
+            actions.append(node.action)
+            node = node.children[hypothesis]
+        assert 4 in actions

@@ -1,0 +1,141 @@
+"""Sealed Box: what is in it moves it as physics says, and only who waits sees where it is, to a mark."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from physexp import suite
+from physexp.suite.domains import sealed_box
+
+TASKS = [("sealed_box", "features"), ("sealed_box", "pixels")]
+ALL = np.arange(len(sealed_box.ALL_CONTENTS))
+FORCES = np.array([*sealed_box.PUSHES.values(), 0.0])
+WAIT = 4
+
+
+def _places(batch) -> np.ndarray:
+    """Where boxes and weights are, m [N, 2]."""
+    return np.array([batch.view("qpos", row) for row in range(len(batch.correct_answers))])
+
+
+def _compiled(content: sealed_box.Content) -> mujoco.MjModel:
+    """A model with all that is in the box compiled into it."""
+    weight = content.share * content.mass
+    return mujoco.MjModel.from_xml_string(f"""
+        <mujoco>
+          <option timestep="0.02" gravity="0 0 0"/>
+          <worldbody>
+            <body>
+              <joint name="rail" type="slide" axis="1 0 0" stiffness="60" damping="2"/>
+              <geom type="box" size="0.13 0.13 0.13" mass="{content.mass - weight}" contype="0" conaffinity="0"/>
+              <body>
+                <joint type="slide" axis="1 0 0" limited="true" range="{-content.gap} {content.gap}"
+                  stiffness="{content.stiffness}" damping="{content.damping}"/>
+                <geom size="0.03" mass="{weight}" contype="0" conaffinity="0"/>
+              </body>
+            </body>
+          </worldbody>
+          <actuator><motor joint="rail"/></actuator>
+        </mujoco>""")
+
+
+def test_boxes_move_as_if_their_content_were_compiled_into_them(seed):
+    rng = np.random.default_rng(seed)
+    batch = suite.load_batch("sealed_box", "features", len(ALL), {"random": seed})
+    batch.reset(hidden=ALL)
+    models = [_compiled(content) for content in sealed_box.ALL_CONTENTS]
+    data = [mujoco.MjData(model) for model in models]
+    for _ in range(batch.task.rules.step_limit - 1):
+        actions = rng.integers(len(FORCES), size=len(ALL))
+        batch.step(actions)
+        for model, state, action in zip(models, data, actions, strict=True):
+            state.ctrl[:] = FORCES[action]
+            mujoco.mj_step(model, state, nstep=5)
+        np.testing.assert_allclose(_places(batch), [state.qpos for state in data], atol=1e-9)
+
+
+@pytest.mark.parametrize("difficulty, mark", [(1, 0.010), (2, 0.005), (3, 0.003)])
+def test_only_who_waits_sees_the_box_and_to_a_mark(seed, difficulty, mark):
+    rng = np.random.default_rng(seed)
+    contents = np.tile(ALL, 4)
+    kwargs = {"random": seed, "difficulty": difficulty}
+    batch = suite.load_batch("sealed_box", "features", len(contents), kwargs)
+    batch.reset(hidden=contents)
+    for _ in range(batch.task.rules.step_limit - 1):
+        actions = rng.integers(len(FORCES), size=len(contents))
+        seen = {name: value[:, 0] for name, value in batch.step(actions).observation.items()}
+        np.testing.assert_array_equal(seen["push"], FORCES[actions] / 4)
+        np.testing.assert_array_equal(seen["covered"], actions != WAIT)
+        marks = np.round(_places(batch)[:, 0] / mark)
+        np.testing.assert_array_equal(seen["place"], np.where(actions == WAIT, marks, 0))
+        assert not np.signbit(seen["place"][seen["place"] == 0]).any()  # -0 would tell the side.
+
+
+@pytest.mark.parametrize("domain_name, task_name", TASKS)
+def test_observations_tell_nothing_but_the_push_and_the_place(seed, domain_name, task_name):
+    """Whatever is in the box and whatever happened before, what is seen follows from these two."""
+    rng = np.random.default_rng(seed)
+    contents = np.tile(ALL, 4)
+    batch = suite.load_batch(domain_name, task_name, len(contents), {"random": seed, "difficulty": 1})
+    batch.reset(hidden=contents)
+    shown = {}
+    for _ in range(batch.task.rules.step_limit - 1):
+        actions = rng.integers(len(FORCES), size=len(contents))
+        observation = batch.step(actions).observation
+        marks = np.where(actions == WAIT, np.round(_places(batch)[:, 0] / 0.010), 0)
+        for i, key in enumerate(zip(actions, marks, strict=True)):
+            seen = b"".join(value[i].tobytes() for value in observation.values())
+            assert shown.setdefault(key, seen) == seen
+    # Four pushes, and a place for each mark that was reached.
+    assert len([key for key in shown if key[0] != WAIT]) == 4 and len(shown) > 20
+
+
+def test_who_only_waits_sees_a_box_that_stands_still_whatever_is_in_it(seed):
+    batch = suite.load_batch("sealed_box", "features", len(ALL), {"random": seed})
+    batch.reset(hidden=ALL)
+    for _ in range(batch.task.rules.step_limit - 1):
+        observation = batch.step(np.full(len(ALL), WAIT)).observation
+        assert not any(value.any() for value in observation.values())
+        assert not _places(batch).any()
+
+
+def test_nobody_pushes_a_box_or_its_weight_out_of_the_room_there_is(seed):
+    """Who pushes along with the box's velocity, or back and forth in any rhythm, brings it farthest."""
+    rng = np.random.default_rng(seed)
+    contents = np.tile(ALL, 8)
+    batch = suite.load_batch("sealed_box", "features", len(contents), {"random": seed, "difficulty": 1})
+    bound = batch.observation_spec()["place"].maximum * 0.010
+    batch.reset(hidden=contents)
+    periods = rng.integers(1, 8, size=len(contents))
+    for step in range(batch.task.rules.step_limit - 1):
+        velocities = np.array([batch.view("qvel", row)[0] for row in range(len(contents))])
+        forwards = np.where(periods == 7, velocities >= 0, step // periods % 2 == 0)
+        batch.step(np.where(forwards, 3, 0))
+        box, weight = np.abs(_places(batch)).max(axis=0)
+        assert box < bound and weight < sealed_box.BOX_HALF_SIZE - 0.03
+
+
+def test_kinds_are_equally_likely_and_so_are_the_contents_of_one_kind(seed):
+    """Each content's share of 100 000 episodes is within five standard errors of its probability."""
+    count = 100_000
+    drawn = sealed_box.draw_contents(np.full(count, seed), np.arange(count))
+    kinds = [content.kind for content in sealed_box.ALL_CONTENTS]
+    expected = np.array([1 / 4 / kinds.count(kind) for kind in kinds])
+    assert [kinds.count(kind) for kind in range(4)] == [6, 12, 12, 12]
+    shares = np.bincount(drawn, minlength=len(ALL)) / count
+    assert (np.abs(shares - expected) <= 5 * np.sqrt(expected * (1 - expected) / count)).all()
+    assert suite.load_task("sealed_box", "features").answers(ALL).tolist() == kinds
+
+
+@pytest.mark.parametrize(
+    "kwargs, words",
+    [
+        ({"difficulty": 0}, "difficulty is 0; give 1, 2 or 3"),
+        ({"difficulty": 2.5}, "difficulty is 2.5"),
+        ({"control_timestep": 0.05}, "control_timestep is 0.05 s; give a multiple"),
+        ({"noise": 0.001}, "noise is 0.001; give 0"),
+    ],
+)
+def test_options_that_make_no_question_are_refused(kwargs, words):
+    with pytest.raises(ValueError, match=words):
+        suite.load("sealed_box", "features", kwargs)
