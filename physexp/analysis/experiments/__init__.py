@@ -26,6 +26,8 @@ NAMES = (
     "ablations",
     "generalization",
     "weighing",
+    "clamping",
+    "shaking",
 )
 """The experiments in the paper's order; each is the `EXPERIMENT` of the module of its name."""
 

@@ -38,6 +38,8 @@ _BELIEF_FRAMES = {
     "D-P": 80_000,
     "F-P": 100_000,
     "balance features": 150_000,
+    "strings features": 150_000,
+    "sealed_box features": 200_000,
 }
 _VARIED_FRAMES = {"D-F": 150_000, "F-F": 150_000, "D-P": 200_000, "F-P": 250_000}  # The same, with variation.
 
@@ -71,7 +73,10 @@ PATIENT = tuple(heavier(beta, "features", _PATIENT_FRAMES[beta], discount=PATIEN
 TOWERS = tuple(towers(actuator, kind) for actuator in ACTUATORS for kind in OBSERVATIONS)
 
 
-BALANCE = config_lib.TrainConfig(domain="balance", task="features", agent=config_lib.preset("balance", "features"))
+BALANCE, STRINGS, SEALED_BOX = (
+    config_lib.TrainConfig(domain=domain, task="features", agent=config_lib.preset(domain, "features"))
+    for domain in ("balance", "strings", "sealed_box")
+)
 
 
 def with_ppo(config: config_lib.TrainConfig) -> config_lib.TrainConfig:

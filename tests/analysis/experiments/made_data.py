@@ -16,11 +16,13 @@ from scipy import special
 from physexp.analysis.evaluation import records
 from physexp.analysis.experiments import (
     ablations,
+    clamping,
     conditions,
     data_efficiency,
     generalization,
     learners,
     population,
+    shaking,
     waiting,
     weighing,
 )
@@ -420,10 +422,58 @@ def weighings(num_agents, generator, alone=1.0, share=0.98):
         agents.append(
             pandas.DataFrame(
                 {
-                    "condition": label(weighing.CONDITION),
+                    "condition": label(weighing.STRATEGY.condition),
                     "training_seed": seed,
                     "first": np.where(is_alone, 1, 2),
                     "interactions": np.where(is_alone, 5, 7),
+                    "share": share + generator.normal(0, 0.01, _EPISODES),
+                }
+            )
+        )
+    return pandas.concat(agents, ignore_index=True)
+
+
+# Episodes of Strings and of Sealed Box.
+
+
+def clampings(num_agents, generator, needed=1.0, in_vain=0.0, share=0.98):
+    """Whether the clamp is moved, where it is needed and where it is in vain, in these shares; and what is earned."""
+    agents = []
+    for seed in range(num_agents):
+        graphs = np.arange(_EPISODES) % 8
+        together = np.isin(graphs, (3, 5, 6, 7))
+        clamps = generator.random(_EPISODES) < np.where(together, needed, in_vain) - 0.002 * generator.random()
+        agents.append(
+            pandas.DataFrame(
+                {
+                    "condition": label(clamping.STRATEGY.condition),
+                    "training_seed": seed,
+                    "answer": graphs,
+                    "clamps": clamps,
+                    "together": together,
+                    "interactions": np.where(clamps, 5, 2),
+                    "share": share + generator.normal(0, 0.01, _EPISODES),
+                }
+            )
+        )
+    return pandas.concat(agents, ignore_index=True)
+
+
+def shakings(num_agents, generator, like_the_ideal=1.0, share=0.98):
+    """Interactions that depend on the ideal's so much, or not at all; and what is earned."""
+    best = np.resize([2, 3, 4, 3, 5], 42)
+    agents = []
+    for seed in range(num_agents):
+        contents = np.arange(_EPISODES) % len(best)
+        own = like_the_ideal * best + (1 - like_the_ideal) * generator.permutation(best)
+        agents.append(
+            pandas.DataFrame(
+                {
+                    "condition": label(shaking.STRATEGY.condition),
+                    "training_seed": seed,
+                    "content": contents,
+                    "ideal": best[contents],
+                    "interactions": np.maximum(1, own[contents] + generator.integers(0, 2, _EPISODES)).astype(int),
                     "share": share + generator.normal(0, 0.01, _EPISODES),
                 }
             )
@@ -567,6 +617,17 @@ WORLDS: dict[str, dict[str, _World]] = {
         "paper": weighings,
         "as with coins": functools.partial(weighings, alone=0.5),
         "clumsy agents": functools.partial(weighings, share=0.9),
+    },
+    "clamping": {
+        "paper": clampings,
+        "always": functools.partial(clampings, in_vain=0.5),
+        "never": functools.partial(clampings, needed=0.1),
+        "clumsy agents": functools.partial(clampings, share=0.9),
+    },
+    "shaking": {
+        "paper": shakings,
+        "always the same": functools.partial(shakings, like_the_ideal=0.0),
+        "clumsy agents": functools.partial(shakings, share=0.9),
     },
     "ideal_gap": {
         "paper": ideal_gap,

@@ -4,6 +4,7 @@ import dataclasses
 import functools
 import math
 
+import ideals
 import made_data
 import numpy as np
 import pandas
@@ -12,8 +13,18 @@ from scipy import stats
 from trainers import fresh_seed
 
 from physexp.analysis.data import estimates
-from physexp.analysis.experiments import EXPERIMENTS, claims, individual, learning, randomized, weighing
+from physexp.analysis.experiments import (
+    EXPERIMENTS,
+    claims,
+    clamping,
+    individual,
+    learning,
+    randomized,
+    shaking,
+    weighing,
+)
 from physexp.analysis.experiments import ideal_gap as ideal_gap_lib
+from physexp.suite.domains import sealed_box
 
 HOLDS, FAILS, UNDECIDED = claims.HOLDS, claims.FAILS, claims.UNDECIDED
 
@@ -105,6 +116,14 @@ FALSE_IN = {
     "weighing": {
         "Where each placing costs a step, one block is weighed against one first": {"as with coins"},
         "Agents who are told the answers come near the optimum of Balance": {"clumsy agents"},
+    },
+    "clamping": {
+        "A puck is clamped when, and only when, pulls leave several graphs": {"always", "never"},
+        "Agents come near the optimum of Strings from the reward alone": {"clumsy agents"},
+    },
+    "shaking": {
+        "The harder a content is to tell, the longer the box is experimented with": {"always the same"},
+        "Agents who are told the answers come near the optimum of Sealed Box": {"clumsy agents"},
     },
     "ideal_gap": {
         "Feature agents reach 95% of the ideal experimenter's return": {"clumsy agents"},
@@ -398,6 +417,17 @@ def test_the_first_weighing_is_the_first_time_that_pans_are_equally_full():
     assert weighing.first_weighing([1, 4, 8, 11, 18]) == 2
     assert weighing.first_weighing([1, 5, 8, 10]) == 1
     assert weighing.first_weighing([1, 4, 18]) == weighing.first_weighing([0, 3, 18]) == 0
+
+
+def test_a_clamp_counts_wherever_it_is_put_and_is_needed_where_two_bands_or_three_are():
+    assert [clamping.clamps(actions) for actions in ([0, 1, 6], [0, 3, 1, 9], [5, 7], [2])] == [0, 1, 1, 0]
+    assert clamping.hangs_together(np.arange(8)).tolist() == [0, 0, 0, 1, 0, 1, 1, 1]
+
+
+def test_what_the_ideal_takes_with_each_content_adds_up_to_its_mean():
+    best = shaking.ideal_interactions()
+    summary = ideals.of("sealed_box").summary()
+    assert best @ sealed_box.PRIOR == pytest.approx(summary["mean_interactions"])
 
 
 def test_the_better_half_is_the_larger_one_where_the_number_is_odd():

@@ -1,0 +1,63 @@
+"""How long the box is shaken in Sealed Box: the longer, the harder it is to tell what is in it. Ours."""
+
+import numpy as np
+from scipy import stats
+
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import claims, conditions, strategy
+from physexp.suite.domains import sealed_box
+
+CONDITION = conditions.with_belief(conditions.SEALED_BOX, answers_revealed=True)
+
+
+def ideal_interactions() -> np.ndarray:
+    """Returns how many interactions the ideal experimenter takes with each content, int64 [H]."""
+    return conditions.ideal(CONDITION).outcomes()[:, 0]
+
+
+def _mean_interactions(frame):
+    """What an agent takes with each content, [agents, contents]."""
+    return frame.groupby(["training_seed", "content"]).interactions.mean().unstack()
+
+
+def _claim(frame) -> claims.Claim:
+    taken, best = _mean_interactions(frame), frame.groupby("content").ideal.first()
+    ranks = [stats.spearmanr(row, best[taken.columns]).statistic for row in taken.to_numpy()]
+    return claims.Claim(
+        text="The harder a content is to tell, the longer the box is experimented with",
+        condition="sealed_box features",
+        statistic="rank correlation over contents of an agent's interactions with the ideal's, median of agents",
+        estimate=estimates.median(ranks),
+        above=0.5,
+    )
+
+
+def _draw(axes, frame) -> None:
+    best = frame.groupby("content").ideal.first()
+    taken = _mean_interactions(frame).mean()
+    for kind, name in enumerate(sealed_box.CONTENTS):
+        those = [content for content in taken.index if sealed_box.KINDS[content] == kind]
+        shift = 0.12 * (kind - 1.5)
+        axes.plot(best[those] + shift, taken[those], "o", markersize=3, color=figures.COLORS[kind], label=name)
+    ends = [0, max(best.max(), taken.max()) + 0.5]
+    axes.plot(ends, ends, color=figures.GREY, linewidth=0.8)
+    axes.set(xlabel="interactions of the ideal", ylabel="interactions of agents", xlim=ends, ylim=ends)
+    axes.legend(fontsize=6)
+
+
+STRATEGY = strategy.Strategy(
+    condition=CONDITION,
+    columns=("content",),
+    seen=lambda frame: frame.assign(ideal=ideal_interactions()[frame.content]),
+    claim=_claim,
+    optimum="Agents who are told the answers come near the optimum of Sealed Box",
+    draw=_draw,
+)
+
+EXPERIMENT = STRATEGY.experiment(
+    name="shaking",
+    title="The harder to tell, the longer",
+    caption="How long the belief learner experiments in Sealed Box, answers revealed, features: right, a point for "
+    "each content",
+)
