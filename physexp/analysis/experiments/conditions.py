@@ -39,7 +39,7 @@ _BELIEF_FRAMES = {
     "F-P": 100_000,
     "balance features": 150_000,
     "strings features": 150_000,
-    "sealed_box features": 200_000,
+    "sealed_box features": 100_000,
 }
 _VARIED_FRAMES = {"D-F": 150_000, "F-F": 150_000, "D-P": 200_000, "F-P": 250_000}  # The same, with variation.
 

@@ -8,7 +8,7 @@ from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import claims, conditions, strategy
 from physexp.suite.domains import sealed_box
 
-CONDITION = conditions.with_belief(conditions.SEALED_BOX, answers_revealed=True)
+CONDITION = conditions.with_belief(conditions.SEALED_BOX)
 
 
 def ideal_interactions() -> np.ndarray:
@@ -51,13 +51,13 @@ STRATEGY = strategy.Strategy(
     columns=("content",),
     seen=lambda frame: frame.assign(ideal=ideal_interactions()[frame.content]),
     claim=_claim,
-    optimum="Agents who are told the answers come near the optimum of Sealed Box",
+    optimum="Agents come near the optimum of Sealed Box from the reward alone",
     draw=_draw,
 )
 
 EXPERIMENT = STRATEGY.experiment(
     name="shaking",
     title="The harder to tell, the longer",
-    caption="How long the belief learner experiments in Sealed Box, answers revealed, features: right, a point for "
-    "each content",
+    caption="How long the belief learner experiments in Sealed Box, from the reward alone, features: right, a point "
+    "for each content",
 )

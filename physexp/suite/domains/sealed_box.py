@@ -68,7 +68,7 @@ def _contents() -> tuple[Content, ...]:
 ALL_CONTENTS = _contents()
 KINDS = np.array([content.kind for content in ALL_CONTENTS])
 PRIOR = 1 / len(CONTENTS) / np.bincount(KINDS)[KINDS]
-"""The probability of each of `ALL_CONTENTS`: kinds are equally likely, and so are those of one kind."""
+"""The probability of each of `ALL_CONTENTS`, where kinds are equally likely, and so are those of one kind."""
 
 
 BOX_HALF_SIZE = 0.13  # m: holds the weight, wherever it moves

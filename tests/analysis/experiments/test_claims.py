@@ -123,7 +123,7 @@ FALSE_IN = {
     },
     "shaking": {
         "The harder a content is to tell, the longer the box is experimented with": {"always the same"},
-        "Agents who are told the answers come near the optimum of Sealed Box": {"clumsy agents"},
+        "Agents come near the optimum of Sealed Box from the reward alone": {"clumsy agents"},
     },
     "ideal_gap": {
         "Feature agents reach 95% of the ideal experimenter's return": {"clumsy agents"},
