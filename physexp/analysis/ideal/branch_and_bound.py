@@ -10,6 +10,7 @@ import functools
 import math
 
 import numpy as np
+from scipy.sparse import csgraph
 
 PRECISION = 1e-9
 _WIDTH = 4  # Actions looked into at a time.
@@ -58,17 +59,10 @@ def split(group: Group, apart: np.ndarray, resolution: float, prior: np.ndarray)
     Returns:
       Probabilities, given the group, and groups.
     """
-    linked, left, parts = apart <= resolution, list(group), []
-    while left:
-        part, frontier = {left[0]}, [left[0]]
-        while frontier:
-            near = [other for other in left if linked[frontier[-1], other] and other not in part]
-            frontier.pop()
-            part.update(near)
-            frontier += near
-        parts.append(tuple(sorted(part)))
-        left = [hypothesis for hypothesis in left if hypothesis not in part]
-    total = prior[list(group)].sum()
+    members = np.array(group)
+    count, numbers = csgraph.connected_components(apart[np.ix_(members, members)] <= resolution, directed=False)
+    parts = [tuple(members[numbers == number].tolist()) for number in range(count)]
+    total = prior[members].sum()
     return [(float(prior[list(part)].sum() / total), part) for part in parts]
 
 

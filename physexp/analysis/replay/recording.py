@@ -72,7 +72,8 @@ class Episode:
       beliefs: its probabilities of the labels before each action, float64 [T, L]; of no length where it has none.
       shapes: what is in the scene.
       times: when they were where, s, float64 [F].
-      positions, rotations: their true poses at every physics step, float64 [F, K, 3] and [F, K, 3, 3].
+      positions, rotations: their true poses at every physics step, and while the answer is played out where a task
+        does that, float64 [F, K, 3] and [F, K, 3, 3].
       controls: what was sent to the actuators in the physics steps that led there, float64 [F, nu].
     """
 
@@ -223,6 +224,9 @@ class _Rebuilder:
         self._poses: list[tuple] = []
         self._note_poses(self._environment.physics)
         seen = [timestep.observation, *(self._environment.step(action).observation for action in actions)]
+        if task.answered:
+            for _ in task.play_out(self._environment.physics, actions[-1] - task.num_interactions):
+                self._note_poses(self._environment.physics)
         times, positions, rotations, controls = (np.array(values) for values in zip(*self._poses, strict=True))
         return {name: np.stack([each[name] for each in seen]) for name in seen[0]}, {
             "declared": task,

@@ -1,7 +1,7 @@
 """The base of every task: a question about something that cannot be seen (paper, Section 3)."""
 
 import abc
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 import dataclasses
 import functools
 import math
@@ -158,6 +158,10 @@ class QuestionTask(composer.Task):
           ctrl: what was sent in the step before, float64 [N, nu]; zero in the first.
         """
         return self.controls[actions]
+
+    def play_out(self, physics: Any, label: int) -> Iterator[None]:
+        """Steps a simulation on to what an answer leads to, for replays: yields after each physics step."""
+        yield from ()
 
     def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
         """Returns what a replay shows of one hidden property, [...]."""

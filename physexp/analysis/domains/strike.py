@@ -1,0 +1,48 @@
+"""What the analysis knows of Strike: its ideal and its columns."""
+
+from collections.abc import Mapping
+import dataclasses
+from typing import Any
+
+from physexp.agents.belief import config as belief
+from physexp.analysis.domains import base
+
+_NAME = "strike"
+_DISCOUNT = 0.95
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class IdealOptions:
+    """What can be chosen of the ideal experimenter, who knows the physics.
+
+    Attributes:
+      task: the task.
+      difficulty: how finely pokes are read, 1 to 3, the larger the easier; by default the task's.
+      goal_distance: from the puck to the middle of the goal, m; by default the task's.
+    """
+
+    task: str = "features"
+    difficulty: float | None = None
+    goal_distance: float | None = None
+
+
+def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
+    """Returns the ideal experimenter, to whom every difference in what is observed is one."""
+    import numpy as np
+
+    from physexp.analysis.ideal import search, trajectories
+    from physexp.suite.domains import strike
+
+    pucks = np.arange(len(strike.PUCKS))
+    prior = np.full(len(pucks), 1 / len(pucks))
+    return search.solve(trajectories.Trajectories(_NAME, task, pucks, prior, task_kwargs), 0.0, discount)
+
+
+DOMAIN = base.Domain(
+    name=_NAME,
+    discount=_DISCOUNT,
+    presets={"features": {}, "pixels": {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}},
+    ideal=base.Ideal(_solve, IdealOptions),
+    columns=(base.Column("puck", "int16"),),  # An index in `strike.PUCKS`.
+    fill=lambda hidden: {"puck": hidden},
+)

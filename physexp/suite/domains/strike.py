@@ -1,0 +1,213 @@
+"""Strike: a puck that may be poked in a bay, and the question with which strike it stops in the goal."""
+
+import dataclasses
+import itertools
+
+from dm_control.utils import containers
+import numpy as np
+
+from physexp.suite.engine import apparatus as apparatus_lib
+from physexp.suite.engine import checks, declarations, seeding, senses, task
+from physexp.suite.engine import options as options_lib
+from physexp.suite.parts import arena, block, flag, puck
+
+SUITE = containers.TaggedTasks()
+
+PHYSICS_TIMESTEP = 0.01  # s
+
+# A puck with dry friction lies at the end of a covered bay, behind a barrier. Pokes last one control step, and only the
+# last light gate that the puck has passed can be read: read to a millimetre, a single poke would tell nearly all.
+STRIKE_SECONDS = 0.1  # How long a strike pushes.
+POKES = (1.0, 3.0, 9.0)  # N
+RATIO = 1.5  # Between the forces of neighbouring strikes, and from the goal's middle to either of its ends.
+STRIKES = tuple(8.0 * RATIO ** (k - 3) for k in range(7))  # N
+BAY = 0.3  # m, from the puck to the barrier
+GATES = {1: 5, 2: 10, 3: 15}  # By difficulty.
+
+_GRAVITY = 9.81  # m/s^2
+_FRICTIONS = np.geomspace(0.1, 0.4, 5)  # Coefficients.
+_PLACES = np.geomspace(RATIO**-0.75, RATIO**0.75, 4)  # Where the right strike takes the puck, in goal distances.
+PUCKS = tuple(itertools.product(range(len(STRIKES)), _FRICTIONS, _PLACES))
+"""All pucks that there may be, equally likely: the right strike, the friction, and where that strike takes it."""
+
+# As in Threshold: MuJoCo's friction is soft, and a puck would creep under a poke that is too weak to move it.
+_FRICTION = dict(solimpfriction=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreffriction=[2 * PHYSICS_TIMESTEP, 1.0])
+_BARRIER = dict(solimplimit=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreflimit=[2 * PHYSICS_TIMESTEP, 1.0])
+
+_START = -0.55  # m, where the puck lies along x
+_LANE = 1.2  # m, from there to the end of the lane
+_ROOM = dict(mat_size=[0.72, 0.32], camera_pos=[0, -2.8, 1.7], camera_target=[0, 0, 0.1], fovy=25.0)
+# m, the middle and half the size. Those that are poked hardest pass the barrier by 0.054 m before it stops them.
+_COVER = (_START + 0.175, 0.0, 0.04), (0.225, 0.06, 0.04)
+_GOAL_RGBA = (0.60, 0.78, 0.62, 1.0)
+_POKE_Y, _POKE_TRAVEL = -0.22, 0.8  # m, of the board that shows how strong the last poke was
+_GATE_Y, _GATE_TRAVEL = 0.3, 1.0  # m, of the board that shows the last gate
+_PLAYED_OUT = 2.5  # s, in which every strike comes to its end
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Options(options_lib.Options):
+    """The `task_kwargs` of this domain.
+
+    Attributes:
+      difficulty: 1, 2 or 3: how finely pokes are read, by 5, 10 or 15 light gates; the larger, the easier.
+      goal_distance: from the puck to the middle of the goal, 0.6 to 0.75 m.
+    """
+
+    physics_timestep = PHYSICS_TIMESTEP
+
+    time_limit: float = 0.7  # the longer, the less it costs never to answer
+    difficulty: float = 2.0
+    goal_distance: float = 0.7  # m
+
+    def __post_init__(self):
+        super().__post_init__()
+        if self.difficulty not in GATES:
+            raise ValueError(f"difficulty is {checks.shown(self.difficulty)}; give 1, 2 or 3")
+        object.__setattr__(self, "difficulty", float(self.difficulty))
+        object.__setattr__(self, "goal_distance", checks.between("goal_distance", self.goal_distance, 0.6, 0.75, "m"))
+
+
+def draw_pucks(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
+    """Returns the pucks of some episodes: indices of `PUCKS`, int64 [N].
+
+    Args:
+      seeds, episodes: environment seeds and episode indices, int64 [N].
+    """
+    return (len(PUCKS) * seeding.uniforms(seeds, episodes, 1)[:, 0]).astype(np.int64)
+
+
+def properties(pucks: np.ndarray, goal_distance: float) -> tuple[np.ndarray, np.ndarray]:
+    """Returns masses, kg, and forces of friction, N, float64 [N] each.
+
+    A force F that pushes for a time T takes a puck of mass m by `s = mu g T^2 p (p - 1) / 2`, with p = F / (m mu g). So
+    the mass follows from where a strike is to take the puck.
+
+    Args:
+      pucks: indices of `PUCKS`, int [N].
+      goal_distance: from the puck to the middle of the goal, m.
+    """
+    strikes, frictions, places = np.array(PUCKS)[pucks].T
+    forces = np.array(STRIKES)[strikes.astype(int)]
+    decelerations = frictions * _GRAVITY
+    ratios = (1 + np.sqrt(1 + 8 * places * goal_distance / (decelerations * STRIKE_SECONDS**2))) / 2
+    return forces / (ratios * decelerations), forces / ratios
+
+
+def _strength(forces: np.ndarray) -> np.ndarray:
+    """Returns the share of the greatest force that was poked with, from the force of the actuator, N [N, 1]."""
+    return forces / max(POKES)
+
+
+class Strike(task.QuestionTask):
+    """A covered puck on a lane, a barrier, light gates before it, and a goal behind it."""
+
+    options: Options
+    question = "With which strike does the puck stop in the goal?"
+
+    def __init__(self, options: Options, sense: senses.Sense):
+        """Builds the scene."""
+        self._num_gates = GATES[int(options.difficulty)]
+        room = arena.Laboratory(**_ROOM)
+        root = room.mjcf_model
+        root.option.gravity = [0, 0, 0]
+        root.option.flag.contact = "disable"
+        near, far = options.goal_distance / RATIO, options.goal_distance * RATIO
+        for name, (pos, size, rgba) in {
+            "cover": (*_COVER, arena.COVER_RGBA),
+            "goal": ((_START + (near + far) / 2, 0, 0.002), ((far - near) / 2, 0.1, 0.001), _GOAL_RGBA),
+        }.items():
+            root.worldbody.add("geom", name=name, type="box", size=size, pos=pos, rgba=rgba, contype=0, conaffinity=0)
+        struck = puck.Puck(block.COLORS[0], mass=1.0)
+        frame = room.attach(struck)
+        frame.pos = [_START, 0, 0.01 + puck.HALF_HEIGHT]
+        rail = frame.add(
+            "joint", name="rail", type="slide", axis=[1, 0, 0], limited=True, range=[0, BAY], **_FRICTION, **_BARRIER
+        )
+        self._rails = (rail.full_identifier,)
+        poke = root.actuator.add("motor", name="poke", joint=rail)
+        self._position = root.sensor.add("jointpos", name="position", joint=rail)
+        self._force = root.sensor.add("actuatorfrc", name="force", actuator=poke)
+        boards = [flag.Flag(block.COLORS[color], name=name) for color, name in ((2, "strength"), (3, "gate"))]
+        for board, y in zip(boards, (_POKE_Y, _GATE_Y), strict=True):
+            room.attach(board).pos = [_START, y, flag.HALF_SIZE[2]]
+        self._boards = [board.geom for board in boards]
+        super().__init__(room, options, sense)
+
+    def _gate(self, positions: np.ndarray) -> np.ndarray:
+        """Returns the last light gate that the puck has passed, from its position, m [N, 1]; 0 for none."""
+        return np.clip(np.floor(positions / (BAY / self._num_gates)), 0, self._num_gates)
+
+    @property
+    def interactions(self):
+        return [
+            declarations.Interaction(f"poke with {force:g} N", np.array([force]), "puck", (force, 0.0, 0.0))
+            for force in POKES
+        ]
+
+    @property
+    def label_names(self):
+        return [f"{force:.1f} N" for force in STRIKES]
+
+    @property
+    def readings(self):
+        return {
+            "strength": declarations.Reading([self._force], (1,), unit="", bounds=(0, 1), measure=_strength),
+            "gate": declarations.Reading(
+                [self._position], (1,), unit="", bounds=(0, self._num_gates), measure=self._gate
+            ),
+        }
+
+    @property
+    def indicators(self):
+        travels = (_POKE_TRAVEL, _GATE_TRAVEL / self._num_gates)
+        return [
+            declarations.Indicator(board, reading, 0, (travel, 0, 0))
+            for board, reading, travel in zip(self._boards, self.readings, travels, strict=True)
+        ]
+
+    def draw(self, seeds, episodes):
+        """Returns the pucks: indices of `PUCKS`, int64 [N]."""
+        return draw_pucks(seeds, episodes)
+
+    def answers(self, hidden):
+        return np.array([strike for strike, *_ in PUCKS])[hidden]
+
+    def hidden_fields(self, apparatus, hidden):
+        masses, frictions = (values[:, None] for values in properties(hidden, self.options.goal_distance))
+        return {
+            **apparatus_lib.slide_masses(apparatus, self._rails, masses),
+            **apparatus_lib.frictions(apparatus, self._rails, frictions),
+        }
+
+    def reveal(self, hidden):
+        ((mass,), (friction,)) = properties(np.array([hidden]), self.options.goal_distance)
+        return declarations.Revealed(marks={"puck": f"{mass:.2f} kg, friction {friction:.1f} N"})
+
+    def play_out(self, physics, label):
+        """Puts the puck back, opens the barrier, and strikes; the end of the lane catches the puck."""
+        joint = physics.model.name2id(self._rails[0], "joint")
+        barrier = physics.model.jnt_range[joint].copy()
+        try:
+            physics.model.jnt_range[joint] = 0, np.inf
+            physics.data.qpos[:], physics.data.qvel[:] = 0, 0
+            for step in range(round(_PLAYED_OUT / PHYSICS_TIMESTEP)):
+                physics.data.ctrl[:] = STRIKES[label] if step < round(STRIKE_SECONDS / PHYSICS_TIMESTEP) else 0
+                physics.step()
+                yield
+                if physics.data.qpos[0] >= _LANE:
+                    return
+        finally:
+            physics.model.jnt_range[joint] = barrier
+
+
+@SUITE.add("features")
+def features(options):
+    """Observes `strength`, float32 (1,): the last poke's share of the greatest; `gate`, float32 (1,): the last gate."""
+    return Strike(options, senses.Features())
+
+
+@SUITE.add("pixels")
+def pixels(options):
+    """Observes `pixels`, uint8 (84, 84, 3): a covered bay, a goal, and boards that show the poke and the last gate."""
+    return Strike(options, senses.Pixels())
