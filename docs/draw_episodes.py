@@ -19,6 +19,7 @@ EPISODES = {
     "threshold": ("ppo/threshold-features", 5, 8),
     "balance": ("balance/features", 5, 1),
     "strings": ("strings/features", 5, 2),
+    "sealed_box": ("sealed_box/features", 5, 7),
 }
 """For each picture whose agent plays, and the seed and the index of the episode."""
 
@@ -26,6 +27,7 @@ SCALE = 2  # For dense screens.
 SIZE = (880 * SCALE, 400 * SCALE)  # pixels
 SCENE = 340 * SCALE  # pixels
 FRAMES_PER_STEP = 4
+STRIDE = 10  # Physics steps between frames of what an answer leads to.
 MANY_LABELS = 8  # More are written smaller.
 THINKING, MOVING, ENDING = 700, 100, 3000  # ms, of a decision, of a frame that moves, of the verdict
 COLORS = 96
@@ -66,7 +68,9 @@ def frames(episode: recording.Episode) -> list[Frame]:
         said, start = f"step {step + 1}: {task.action_names[action]}", step * substeps
         if action >= task.num_interactions:
             verdict = "Right!" if episode.rewards[-1] > 0 else f"Wrong: it is {task.label_names[episode.answer]}."
-            found.append(Frame(start, said, belief[step], verdict, ENDING))
+            end = len(episode.times) - 1  # Later than the start where the answer is played out.
+            found += [Frame(substep, said, belief[step], "", MOVING) for substep in range(start, end, STRIDE)]
+            found.append(Frame(end, said, belief[step], verdict, ENDING))
             continue
         for number in range(FRAMES_PER_STEP):
             duration = MOVING if number else THINKING
@@ -112,7 +116,7 @@ def drawn(episode: recording.Episode, frame: Frame, scene: np.ndarray) -> Image.
     )
     left = (40 * SCALE + SCENE) / width
     picture.text(left, 0.82, frame.action, fontsize=13, va="center")
-    indent = 0.17 if are_many else 0.11
+    indent = max(0.17 if are_many else 0.11, 0.015 + 0.0085 * max(map(len, names)))
     axes = picture.add_axes((left + indent, 0.2 if are_many else 0.27, 0.92 - indent - left, 0.5 if are_many else 0.38))
     axes.barh(names, frame.belief, color=colors, height=0.7)
     axes.invert_yaxis()

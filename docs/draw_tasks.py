@@ -22,6 +22,7 @@ EPISODES = (
     ("balance", "pixels", 1, [1, 5, 7, 11, 3, 13, 6]),
     ("strings", "pixels", 3, [0, 3, 1, 4, 0, 5, 2]),
     ("sealed_box", "pixels", 2, [3, 4, 4, 0, 4, 2, 4]),
+    ("strike", "pixels", 0, [1, 0, 2, 1, 0, 1, 2]),
 )
 """Domain, task, index of the episode and actions of each row."""
 

@@ -28,6 +28,7 @@ NAMES = (
     "weighing",
     "clamping",
     "shaking",
+    "aiming",
 )
 """The experiments in the paper's order; each is the `EXPERIMENT` of the module of its name."""
 

@@ -1,6 +1,7 @@
 """The conditions that agents are trained in: all of the paper's, each for as long as it takes to level off."""
 
 import dataclasses
+import functools
 import re
 from typing import Any
 
@@ -39,7 +40,8 @@ _BELIEF_FRAMES = {
     "F-P": 100_000,
     "balance features": 150_000,
     "strings features": 150_000,
-    "sealed_box features": 100_000,
+    "sealed_box features": 200_000,
+    "strike features": 150_000,
 }
 _VARIED_FRAMES = {"D-F": 150_000, "F-F": 150_000, "D-P": 200_000, "F-P": 250_000}  # The same, with variation.
 
@@ -73,9 +75,9 @@ PATIENT = tuple(heavier(beta, "features", _PATIENT_FRAMES[beta], discount=PATIEN
 TOWERS = tuple(towers(actuator, kind) for actuator in ACTUATORS for kind in OBSERVATIONS)
 
 
-BALANCE, STRINGS, SEALED_BOX = (
+BALANCE, STRINGS, SEALED_BOX, STRIKE = (
     config_lib.TrainConfig(domain=domain, task="features", agent=config_lib.preset(domain, "features"))
-    for domain in ("balance", "strings", "sealed_box")
+    for domain in ("balance", "strings", "sealed_box", "strike")
 )
 
 
@@ -104,6 +106,7 @@ def observations(config: config_lib.TrainConfig) -> str:
     return kind
 
 
+@functools.lru_cache(maxsize=64)  # Some take seconds.
 def ideal(config: config_lib.TrainConfig):
     """Returns the ideal experimenter of a condition: the `Solution` that no agent trained so can beat.
 

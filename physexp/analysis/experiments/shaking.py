@@ -21,16 +21,18 @@ def _mean_interactions(frame):
     return frame.groupby(["training_seed", "content"]).interactions.mean().unstack()
 
 
-def _claim(frame) -> claims.Claim:
+def _claims(frame) -> list[claims.Claim]:
     taken, best = _mean_interactions(frame), frame.groupby("content").ideal.first()
     ranks = [stats.spearmanr(row, best[taken.columns]).statistic for row in taken.to_numpy()]
-    return claims.Claim(
-        text="The harder a content is to tell, the longer the box is experimented with",
-        condition="sealed_box features",
-        statistic="rank correlation over contents of an agent's interactions with the ideal's, median of agents",
-        estimate=estimates.median(ranks),
-        above=0.5,
-    )
+    return [
+        claims.Claim(
+            text="The harder a content is to tell, the longer the box is experimented with",
+            condition="sealed_box features",
+            statistic="rank correlation over contents of an agent's interactions with the ideal's, median of agents",
+            estimate=estimates.median(ranks),
+            above=0.5,
+        ),
+    ]
 
 
 def _draw(axes, frame) -> None:
@@ -50,7 +52,7 @@ STRATEGY = strategy.Strategy(
     condition=CONDITION,
     columns=("content",),
     seen=lambda frame: frame.assign(ideal=ideal_interactions()[frame.content]),
-    claim=_claim,
+    claims=_claims,
     optimum="Agents come near the optimum of Sealed Box from the reward alone",
     draw=_draw,
 )

@@ -9,7 +9,8 @@ import pandas
 
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures, records
-from physexp.analysis.experiments import base, claims, conditions
+from physexp.analysis.experiments import base, conditions
+from physexp.analysis.experiments import claims as claims_lib
 from physexp.analysis.training import config as config_lib
 
 LEAST_SHARE = 0.95  # Of the ideal's return, that agents are to earn.
@@ -24,7 +25,7 @@ class Strategy:
       condition: what they are trained on.
       columns: of episodes, that are needed to see what is done.
       seen: adds to episodes what is done in them.
-      claim: returns the claim about it.
+      claims: returns the claims about it.
       optimum: the claim that agents come near the optimum, in words.
       draw: draws what is done.
     """
@@ -32,7 +33,7 @@ class Strategy:
     condition: config_lib.TrainConfig
     columns: tuple[str, ...]
     seen: Callable[[pandas.DataFrame], pandas.DataFrame]
-    claim: Callable[[pandas.DataFrame], claims.Claim]
+    claims: Callable[[pandas.DataFrame], list[claims_lib.Claim]]
     optimum: str
     draw: Callable[[axes_lib.Axes, pandas.DataFrame], None]
 
@@ -42,11 +43,11 @@ class Strategy:
         share = records.discounted_return(frame) / conditions.ideal(self.condition).value
         return self.seen(frame.assign(share=share))
 
-    def find_claims(self, frame: pandas.DataFrame) -> list[claims.Claim]:
+    def find_claims(self, frame: pandas.DataFrame) -> list[claims_lib.Claim]:
         """Agents do what the ideal does, and come near its return."""
         return [
-            self.claim(frame),
-            claims.Claim(
+            *self.claims(frame),
+            claims_lib.Claim(
                 text=self.optimum,
                 condition=self.condition.label,
                 statistic="share of the ideal's return, median of agents",
@@ -75,7 +76,7 @@ class Strategy:
         return base.Experiment(
             name=name,
             title=title,
-            section=claims.OURS,
+            section=claims_lib.OURS,
             caption=f"{caption}, gamma {self.condition.agent.discount:g}; greedy play. Left: interactions before the "
             "answer; outlined: the ideal experimenter.",
             conditions=(self.condition,),

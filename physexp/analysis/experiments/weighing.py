@@ -23,17 +23,19 @@ def first_weighing(actions) -> int:
     return 0
 
 
-def _claim(frame) -> claims.Claim:
+def _claims(frame) -> list[claims.Claim]:
     first = frame.groupby("training_seed")["first"]
-    return claims.Claim(
-        text="Where each placing costs a step, one block is weighed against one first",
-        condition="balance features",
-        statistic="share of first weighings that are one against one, mean of agents",
-        estimate=estimates.mean_share(first.agg(lambda first: (first == 1).mean())),
-        above=0.95,
-        reason="A third against a third, as in the puzzle of the twelve coins, saves a third of a weighing, and "
-        "costs two placings.",
-    )
+    return [
+        claims.Claim(
+            text="Where each placing costs a step, one block is weighed against one first",
+            condition="balance features",
+            statistic="share of first weighings that are one against one, mean of agents",
+            estimate=estimates.mean_share(first.agg(lambda first: (first == 1).mean())),
+            above=0.95,
+            reason="A third against a third, as in the puzzle of the twelve coins, saves a third of a weighing, and "
+            "costs two placings.",
+        ),
+    ]
 
 
 def _draw(axes, frame) -> None:
@@ -47,7 +49,7 @@ STRATEGY = strategy.Strategy(
     condition=conditions.with_belief(conditions.BALANCE, answers_revealed=True),
     columns=("actions",),
     seen=lambda frame: frame.assign(first=[first_weighing(actions) for actions in frame.actions]),
-    claim=_claim,
+    claims=_claims,
     optimum="Agents who are told the answers come near the optimum of Balance",
     draw=_draw,
 )

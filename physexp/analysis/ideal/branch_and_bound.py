@@ -10,7 +10,6 @@ import functools
 import math
 
 import numpy as np
-from scipy.sparse import csgraph
 
 PRECISION = 1e-9
 _WIDTH = 4  # Actions looked into at a time.
@@ -60,8 +59,13 @@ def split(group: Group, apart: np.ndarray, resolution: float, prior: np.ndarray)
       Probabilities, given the group, and groups.
     """
     members = np.array(group)
-    count, numbers = csgraph.connected_components(apart[np.ix_(members, members)] <= resolution, directed=False)
-    parts = [tuple(members[numbers == number].tolist()) for number in range(count)]
+    linked, left, parts = apart[np.ix_(members, members)] <= resolution, np.ones(len(members), bool), []
+    while left.any():
+        part = linked[left.argmax()]
+        while not np.array_equal(part, grown := linked[part].any(axis=0)):
+            part = grown
+        parts.append(tuple(members[part].tolist()))
+        left &= ~part
     total = prior[members].sum()
     return [(float(prior[list(part)].sum() / total), part) for part in parts]
 

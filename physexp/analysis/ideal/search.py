@@ -88,18 +88,22 @@ class Solution:
         is_it = (known.hidden == episode.hidden).reshape(len(known.hidden), -1).all(axis=1)
         if not is_it.any():
             raise ValueError(f"hidden is {checks.shown(episode.hidden)}, which is none of the hypotheses")
-        taken = tuple(int(action) for action in episode.actions if action < known.task.num_interactions)
-        groups = [tuple(range(len(known.hidden)))]
-        for apart in known.follow(taken):
-            parts = branch_and_bound.split(groups[-1], apart, self.resolution, known.prior)
-            groups += [part for _, part in parts if is_it[list(part)].any()]
-        groups += [groups[-1]] * (len(episode.actions) - len(taken))  # An answer tells nothing.
         return np.array(
             [
                 branch_and_bound.label_chances(group, known.prior, known.answers, known.task.num_labels)
-                for group in groups
+                for group in self.left(int(is_it.argmax()), episode.actions)
             ]
         )
+
+    def left(self, hypothesis: int, actions: Sequence[int] | np.ndarray) -> list[branch_and_bound.Group]:
+        """Returns the hypotheses that cannot be told from the true one at the start and after each action, T + 1."""
+        known = self.trajectories
+        taken = tuple(int(action) for action in actions if action < known.task.num_interactions)
+        groups = [tuple(range(len(known.hidden)))]
+        for apart in known.follow(taken):
+            parts = branch_and_bound.split(groups[-1], apart, self.resolution, known.prior)
+            groups += [part for _, part in parts if hypothesis in part]
+        return groups + [groups[-1]] * (len(actions) - len(taken))  # An answer tells nothing.
 
     def outcomes(self) -> np.ndarray:
         """Returns for each hypothesis the interactions before the answer and whether it is right, int64 [H, 2]."""

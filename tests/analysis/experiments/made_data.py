@@ -16,6 +16,7 @@ from scipy import special
 from physexp.analysis.evaluation import records
 from physexp.analysis.experiments import (
     ablations,
+    aiming,
     clamping,
     conditions,
     data_efficiency,
@@ -481,6 +482,27 @@ def shakings(num_agents, generator, like_the_ideal=1.0, share=0.98):
     return pandas.concat(agents, ignore_index=True)
 
 
+def aimings(num_agents, generator, asked=0.01, friction=0.8, share=0.98):
+    """Shares of the prior's variance that are left, and what is earned."""
+    agents = []
+    for seed in range(num_agents):
+        noise = generator.uniform(0.9, 1.1, (3, _EPISODES))
+        agents.append(
+            pandas.DataFrame(
+                {
+                    "condition": label(aiming.STRATEGY.condition),
+                    "training_seed": seed,
+                    "asked": asked * noise[0],
+                    "mass": 0.06 * noise[1],
+                    "friction": friction * noise[2],
+                    "interactions": generator.integers(2, 7, _EPISODES),
+                    "share": share + generator.normal(0, 0.01, _EPISODES),
+                }
+            )
+        )
+    return pandas.concat(agents, ignore_index=True)
+
+
 # Agents against the ideal experimenter.
 
 
@@ -628,6 +650,12 @@ WORLDS: dict[str, dict[str, _World]] = {
         "paper": shakings,
         "always the same": functools.partial(shakings, like_the_ideal=0.0),
         "clumsy agents": functools.partial(shakings, share=0.9),
+    },
+    "aiming": {
+        "paper": aimings,
+        "nothing is known": functools.partial(aimings, asked=0.5),
+        "all is known": functools.partial(aimings, friction=0.1),
+        "clumsy agents": functools.partial(aimings, share=0.9),
     },
     "ideal_gap": {
         "paper": ideal_gap,

@@ -15,6 +15,7 @@ from trainers import fresh_seed
 from physexp.analysis.data import estimates
 from physexp.analysis.experiments import (
     EXPERIMENTS,
+    aiming,
     claims,
     clamping,
     individual,
@@ -24,7 +25,7 @@ from physexp.analysis.experiments import (
     weighing,
 )
 from physexp.analysis.experiments import ideal_gap as ideal_gap_lib
-from physexp.suite.domains import sealed_box
+from physexp.suite.domains import sealed_box, strike
 
 HOLDS, FAILS, UNDECIDED = claims.HOLDS, claims.FAILS, claims.UNDECIDED
 
@@ -124,6 +125,11 @@ FALSE_IN = {
     "shaking": {
         "The harder a content is to tell, the longer the box is experimented with": {"always the same"},
         "Agents come near the optimum of Sealed Box from the reward alone": {"clumsy agents"},
+    },
+    "aiming": {
+        "What the goal asks for is known at the answer": {"nothing is known"},
+        "What the goal does not ask for is hardly found out": {"all is known"},
+        "Agents come near the optimum of Strike from the reward alone": {"clumsy agents"},
     },
     "ideal_gap": {
         "Feature agents reach 95% of the ideal experimenter's return": {"clumsy agents"},
@@ -428,6 +434,14 @@ def test_what_the_ideal_takes_with_each_content_adds_up_to_its_mean():
     best = shaking.ideal_interactions()
     summary = ideals.of("sealed_box").summary()
     assert best @ sealed_box.PRIOR == pytest.approx(summary["mean_interactions"])
+
+
+def test_who_answers_at_once_knows_nothing_and_who_pokes_learns_of_what_is_asked_first():
+    pucks = np.arange(len(strike.PUCKS))
+    at_once = aiming.shares_left(pucks, [[3]] * len(pucks))
+    assert all(share == pytest.approx(1) for name in at_once for share in at_once[name])
+    poked = {name: shares.mean() for name, shares in aiming.shares_left(pucks, [[1, 2, 1, 3]] * len(pucks)).items()}
+    assert poked["asked"] < poked["mass"] < poked["friction"] < 1
 
 
 def test_the_better_half_is_the_larger_one_where_the_number_is_odd():

@@ -1,0 +1,88 @@
+"""The ideal experimenter of Strike: a search, against a tree of all sequences in other simulations."""
+
+import functools
+
+import ideals
+import mujoco
+import numpy as np
+import pytest
+
+from physexp.suite.domains import strike
+
+ANSWERS = np.array([answer for answer, *_ in strike.PUCKS])
+
+
+def films(mass, friction):
+    """Returns a function that says where a puck is after a sequence of pokes, m."""
+    spec = mujoco.MjSpec()
+    spec.option.timestep, spec.option.gravity = 0.01, [0, 0, 0]
+    body = spec.worldbody.add_body(mass=mass, inertia=[1, 1, 1], explicitinertial=True)
+    body.add_joint(
+        name="rail",
+        type=mujoco.mjtJoint.mjJNT_SLIDE,
+        axis=[1, 0, 0],
+        frictionloss=friction,
+        limited=True,
+        range=[0, 0.3],
+        solimp_friction=[0.9999, 0.9999, 0.001, 0.5, 2],
+        solref_friction=[0.02, 1],
+        solimp_limit=[0.9999, 0.9999, 0.001, 0.5, 2],
+        solref_limit=[0.02, 1],
+    )
+    spec.add_actuator(target="rail", trntype=mujoco.mjtTrn.mjTRN_JOINT).set_to_motor()
+    model = spec.compile()
+    data = mujoco.MjData(model)
+
+    @functools.cache
+    def state(sequence):
+        if not sequence:
+            return 0.0, 0.0
+        data.qpos[0], data.qvel[0] = state(sequence[:-1])
+        data.qacc_warmstart[:] = 0
+        data.ctrl[0] = strike.POKES[sequence[-1]]
+        mujoco.mj_step(model, data, nstep=10)
+        return float(data.qpos[0]), float(data.qvel[0])
+
+    return lambda sequence: state(sequence)[0]
+
+
+def tree(gates, discount, step_limit):
+    """The best return, by all sequences of pokes until the last action, which is an answer."""
+    pucks = [films(*values) for values in zip(*strike.properties(np.arange(len(ANSWERS)), 0.7), strict=True)]
+
+    def value(sequence, group):
+        shares = np.bincount(ANSWERS[group], minlength=7) / len(group)
+        answer = 2 * shares.max() - 1
+        if shares.max() == 1 or len(sequence) == step_limit - 1:
+            return answer
+        values = [answer]
+        for poke in range(len(strike.POKES)):
+            parts = {}
+            for k in group:
+                gate = min(gates, max(0, int(np.floor(pucks[k]((*sequence, poke)) / (0.3 / gates)))))
+                parts.setdefault(gate, []).append(k)
+            following = sum(len(part) * value((*sequence, poke), part) for part in parts.values())
+            values.append(discount * following / len(group))
+        return max(values)
+
+    return value((), list(range(len(ANSWERS))))
+
+
+@pytest.mark.parametrize("difficulty, gates", [(1, 5), (3, 15)])
+def test_a_tree_of_all_sequences_in_other_simulations_finds_the_same_value(difficulty, gates):
+    solution = ideals.of("strike", difficulty=difficulty, time_limit=0.5)
+    assert solution.bound == pytest.approx(solution.value)
+    assert solution.value == pytest.approx(tree(gates, 0.95, 5), abs=1e-9)
+
+
+def test_there_is_something_to_find_out_in_strike():
+    summary = ideals.of("strike").summary()
+    assert summary["mean_interactions"] >= 2
+    assert summary["at_once"] <= 0.3 * summary["value"]
+    assert summary["random_bound"] <= 0.8 * summary["value"]
+    assert summary["accuracy"] >= 0.9
+
+
+def test_finer_gates_make_it_easier():
+    solutions = [ideals.of("strike", difficulty=difficulty, time_limit=0.5) for difficulty in (1, 2, 3)]
+    assert (np.diff([solution.value for solution in solutions]) > 0).all()
