@@ -94,6 +94,16 @@ class Solution:
         """Returns the upper bound, which is the value, since that is exact."""
         return self.value
 
+    @property
+    def at_once(self) -> float:
+        """Expected return of an answer without any touch."""
+        return 2 / self.prior.num_things - 1
+
+    @property
+    def random_value(self) -> float:
+        """Expected return of touches drawn uniformly, with the best answers at the best moment."""
+        return _go_back(self.prior, self.discount, at_random=True)[0]
+
     def values(self, known: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Returns what the best answer and what one more touch are worth.
 
@@ -162,11 +172,13 @@ class Solution:
         return posterior(known, self.prior)
 
     def summary(self) -> dict[str, Any]:
-        """Returns `value`, `accuracy`, `mean_interactions` and `histogram` (share of episodes by number of touches)."""
+        """Returns `value`, `at_once`, `random_value`, `accuracy`, `mean_interactions` and `histogram`."""
         touches, right = _evenly_drawn_episodes(self)
         shares = np.bincount(touches, minlength=self.prior.num_things + 1) / len(touches)
         return {
             "value": self.value,
+            "at_once": self.at_once,
+            "random_value": self.random_value,
             "accuracy": float(right.mean()),
             "mean_interactions": float(touches.mean()),
             "histogram": {number: float(share) for number, share in enumerate(shares)},
@@ -219,10 +231,12 @@ def solve(prior: priors.OddOneOut, discount: float, find_read: Callable[[], Read
 
 
 @functools.lru_cache(maxsize=64)
-def _go_back(prior, discount) -> tuple[float, tuple[Callable, ...]]:
-    """Returns the value, and for each number of touches done, 1 to K - 1, what one more is worth.
+def _go_back(prior, discount, at_random=False) -> tuple[float, tuple[Callable, ...]]:
+    """Returns the value, and for each number of touches done, 1 to K - 1, what going on is worth.
 
-    The latter are functions of points [N, 2] of (largest value found, t).
+    The latter are functions of points [N, 2] of (largest value found, t). Who draws touches may touch what is known,
+    which tells nothing and takes as long: with k of K known, until a new one is touched,
+    `g (K - k) / K * sum over i of (g k / K)^i`.
     """
     num_things = prior.num_things
     levels = np.linspace(0, 1, _LARGEST_NODES // 2 + 2)[1:-1]
@@ -233,7 +247,9 @@ def _go_back(prior, discount) -> tuple[float, tuple[Callable, ...]]:
     for known in reversed(range(1, num_things)):
         ratios = np.linspace(1, known, _RATIO_NODES) if known > 1 else np.array([1.0, 2.0])
         largest, ratio = (grid.ravel() for grid in np.meshgrid(nodes, ratios, indexing="ij"))
-        values = discount * _expected(known, largest, ratio, prior, after)
+        again = discount * known / num_things if at_random else 0.0
+        delay = discount * (1 - known / num_things) / (1 - again) if at_random else discount
+        values = delay * _expected(known, largest, ratio, prior, after)
         after = interpolate.RegularGridInterpolator(
             (nodes, ratios), values.reshape(len(nodes), -1), bounds_error=False, fill_value=None
         )

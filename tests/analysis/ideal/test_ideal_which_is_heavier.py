@@ -258,3 +258,29 @@ def test_what_can_be_believed_of_a_recorded_episode_is_the_posterior_of_what_was
     nobody, first, second = np.full((3, 4), np.nan)
     first[0], second[:2] = 0.3, [0.3, 0.8]
     np.testing.assert_array_equal(found, posterior(np.array([nobody, first, first, second, second]), 3.0))
+
+
+@pytest.mark.parametrize("difficulty, discount", [(3.0, 0.95), (2.0, 0.6)])
+def test_random_touches_of_two_things_earn_what_an_integral_says(difficulty, discount):
+    """One of two things is known after the first touch; each other touch is of the other one, or in vain."""
+    solution = solve(difficulty, discount, 2)
+    going_on = discount / 2 / (1 - discount / 2)  # g / 2 + (g / 2)^2 + ...
+
+    def worth(value):
+        chances = posterior(np.array([[value, np.nan]]), difficulty)[0]
+        density = (
+            difficulty * value ** (difficulty - 1) + difficulty * (1 - value) ** (difficulty - 1)
+        ) / 2  # Odd and common are equally likely.
+        return density * max(2 * chances.max() - 1, going_on)
+
+    expected = integrate.quad(worth, 0, 1, limit=200)[0]
+    assert solution.random_value == pytest.approx(max(0, discount * expected), abs=1e-4)
+    assert solution.at_once == 0
+
+
+def test_there_is_something_to_find_out_in_which_is_heavier_and_choosing_pays_in_four_things():
+    for difficulty in (3, 5, 10):
+        summary = domains.find("which_is_heavier").ideal("features", {"difficulty": float(difficulty)}, 0.95).summary()
+        assert summary["mean_interactions"] >= 2
+        assert summary["at_once"] <= 0.3 * summary["value"]
+        assert summary["at_once"] < summary["random_value"] < summary["value"]

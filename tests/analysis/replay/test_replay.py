@@ -376,6 +376,23 @@ def test_bands_are_hidden_lines_that_follow_what_they_tie(tmp_path):
     assert np.ptp(strips[:, :, 1], axis=0).min() > 0.02  # A pull at one of them moves both.
 
 
+def test_a_strike_is_played_out_after_the_answer_and_ends_in_the_goal_if_that_was_right(tmp_path):
+    environment = suite.load("strike", "features", task_kwargs={"random": fresh_seed()})
+    recorder = replay.EpisodeRecorder(environment, "strike", "features")
+    near, far = (environment.task.options.goal_distance * 1.5**power for power in (-1, 1))
+    for mistake in (0, 1):
+        recorder.observe_first(environment, environment.reset())
+        right = environment.task.correct_answer
+        for action in (1, 3 + (right + mistake) % 7):
+            recorder.observe(environment, environment.step(action), action)
+        episode = recorder.episode
+        places = episode.positions[:, episode.shapes.names.index("puck"), 0]
+        assert len(places) == len(episode.times) and episode.times[-1] > 0.2  # A poke takes 0.1 s.
+        assert (near < places[-1] - places[0] < far) == (mistake == 0)
+    path = writing.write(tmp_path / "one.rrd", [lambda: [episode]])
+    assert "mark_puck" in entities(path, "/world/hidden/")
+
+
 def test_any_kind_of_shape_is_drawn_and_several_of_one_thing_have_names_of_their_own(tmp_path):
     bolted = example("bolted")
 
