@@ -24,7 +24,7 @@ class MadeWorld:
         self.steps, self._tells, self._expanded = 0, tells, {()}
         self._num_actions = num_actions
 
-    def is_expanded(self, sequence):
+    def is_expanded(self, sequence, members):
         return (*sequence, 0) in self._expanded
 
     def expand(self, sequences):
@@ -47,5 +47,5 @@ class MadeWorld:
         for end in range(1, len(sequence) + 1):
             yield self._told_apart(sequence[:end])
 
-    def observe(self, sequences):
-        return [{"positions": np.zeros((PATTERNS, 5, 3), np.float32)} for _ in sequences]
+    def observe(self, sequence):
+        return {"positions": np.zeros((PATTERNS, 5, 3), np.float32)}

@@ -56,6 +56,7 @@ def test_a_step_before_the_first_reset_says_that_a_reset_is_needed():
         vector.step(np.zeros(2, int))
 
 
+@pytest.mark.long
 def test_recurrent_ppo_of_sb3_contrib_learns_to_beat_chance(tmp_path, monkeypatch):
     monkeypatch.setenv("SB3_LOGDIR", str(tmp_path))  # It would leave a folder among the system's temporary files.
     batch = stable_baselines.VecEnv("which_is_heavier", "features", 64, random=0, difficulty=20.0)

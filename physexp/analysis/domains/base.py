@@ -37,7 +37,7 @@ class Column:
 
 @dataclasses.dataclass(frozen=True)
 class Ideal:
-    """How to find the ideal experimenter of a domain's tasks. Calling it solves.
+    """How to find the ideal experimenter of a domain's tasks. Calling it solves, once for each question.
 
     Attributes:
       solve: returns the `Solution` of a task, its `task_kwargs` and a discount, with further options by name; raises
@@ -48,9 +48,14 @@ class Ideal:
 
     solve: "Callable[..., ideal.Solution]"
     options: type
+    _found: "dict[str, ideal.Solution]" = dataclasses.field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __call__(self, task: str, task_kwargs: Mapping[str, Any], discount: float, **options: Any) -> "ideal.Solution":
-        return self.solve(task, task_kwargs, discount, **options)
+        asked = {name: value for name, value in task_kwargs.items() if name != "random"}
+        question = repr((task, sorted(asked.items()), discount, sorted(options.items())))
+        if question not in self._found:
+            self._found[question] = self.solve(task, asked, discount, **options)
+        return self._found[question]
 
 
 def nothing(hidden: "np.ndarray") -> "Mapping[str, np.ndarray]":

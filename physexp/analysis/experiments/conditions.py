@@ -1,7 +1,6 @@
 """The conditions that agents are trained in: all of the paper's, each for as long as it takes to level off."""
 
 import dataclasses
-import functools
 import re
 from typing import Any
 
@@ -41,7 +40,7 @@ _BELIEF_FRAMES = {
     "balance features": 150_000,
     "strings features": 150_000,
     "sealed_box features": 200_000,
-    "strike features": 150_000,
+    "strike features": 300_000,
 }
 _VARIED_FRAMES = {"D-F": 150_000, "F-F": 150_000, "D-P": 200_000, "F-P": 250_000}  # The same, with variation.
 
@@ -106,7 +105,6 @@ def observations(config: config_lib.TrainConfig) -> str:
     return kind
 
 
-@functools.lru_cache(maxsize=64)  # Some take seconds.
 def ideal(config: config_lib.TrainConfig):
     """Returns the ideal experimenter of a condition: the `Solution` that no agent trained so can beat.
 

@@ -125,11 +125,11 @@ class Search:
         """Searches until the bounds meet or so many steps have been simulated; returns the bounds."""
         while True:
             low, high = self._bounds((), self._everything)
-            leaves: dict[tuple[int, ...], None] = {}
+            leaves: dict[tuple[int, ...], set[int]] = {}
             self._collect((), self._everything, leaves)
             if high - low < PRECISION or not leaves or self._trajectories.steps >= max_steps:
                 return low, high
-            self._trajectories.expand(list(leaves))
+            self._trajectories.expand(leaves)
             self._bounds.cache_clear()
 
     def policy(self) -> Node:
@@ -158,7 +158,7 @@ class Search:
             return answer, answer
         if len(sequence) >= self._trajectories.task.rules.step_limit - 1:
             return answer, answer  # The last action in time is the answer.
-        if not self._trajectories.is_expanded(sequence):
+        if not self._trajectories.is_expanded(sequence, group):
             return answer, max(answer, hope)
         values = [self._action_bounds(sequence, group, action) for action in self._actions]
         return max(answer, *(low for low, _ in values)), max(answer, *(high for _, high in values))
@@ -171,13 +171,13 @@ class Search:
         return self._objective.act(low), self._objective.act(high)
 
     def _collect(self, sequence, group, leaves) -> None:
-        """Finds the sequences to look beyond: those of the most promising actions."""
+        """Finds the sequences to look beyond, those of the most promising actions, and the hypotheses to do it with."""
         low, high = self._bounds(sequence, group)
         if high - low < PRECISION:
             return
-        if not self._trajectories.is_expanded(sequence):
+        if not self._trajectories.is_expanded(sequence, group):
             if len(sequence) < self._max_depth:
-                leaves[sequence] = None
+                leaves.setdefault(sequence, set()).update(group)
             return
         highs = [self._action_bounds(sequence, group, action)[1] for action in self._actions]
         for action in np.argsort([-value for value in highs], kind="stable")[:_WIDTH]:
@@ -188,7 +188,7 @@ class Search:
     def _decide(self, sequence, group) -> Node:
         label, answer = int(self._chances(group).argmax()), self._answer(group)
         ends = len(sequence) >= self._trajectories.task.rules.step_limit - 1
-        if ends or answer == self._objective.known or not self._trajectories.is_expanded(sequence):
+        if ends or answer == self._objective.known or not self._trajectories.is_expanded(sequence, group):
             return Node(group, None, label)
         lows = [self._action_bounds(sequence, group, action)[0] for action in self._actions]
         action = int(np.argmax(lows))
@@ -197,5 +197,5 @@ class Search:
         children: dict[int, Node] = {}
         for _, part in self._after(sequence, group, action):
             children |= dict.fromkeys(part, self._decide((*sequence, action), part))
-        (seen,) = self._trajectories.observe([(*sequence, action)])
+        seen = self._trajectories.observe((*sequence, action))
         return Node(group, action, label, seen, children)

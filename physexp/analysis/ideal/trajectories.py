@@ -1,7 +1,8 @@
 """The observations of finitely many hypotheses after sequences of actions, simulated when needed and kept."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 import functools
+import itertools
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from physexp.suite.engine import declarations
 _SEQUENCES = 32  # Simulated side by side.
 
 Actions = tuple[int, ...]  # A sequence of interaction actions.
+Play = tuple[Actions, Sequence[int]]  # A sequence, and the hypotheses that it is played with.
 
 
 class Trajectories:
@@ -54,39 +56,46 @@ class Trajectories:
         self.steps = 0
         self._nuisances, self._num_threads = nuisances, num_threads
         self._apart: dict[Actions, np.ndarray] = {(): np.zeros((len(self.hidden), len(self.hidden)))}
+        self._simulated: dict[Actions, set[int]] = {}
 
-    def is_expanded(self, sequence: Actions) -> bool:
-        """Returns whether what follows a sequence has been simulated."""
-        return (*sequence, 0) in self._apart
+    def is_expanded(self, sequence: Actions, members: Collection[int]) -> bool:
+        """Returns whether what follows a sequence has been simulated for some hypotheses."""
+        return self._simulated.get(sequence, set()).issuperset(members)
 
     def apart(self, sequence: Actions) -> np.ndarray:
-        """Returns the largest distances between the hypotheses' observations along a simulated sequence, [H, H]."""
+        """Returns the largest distances between observations along a sequence, [H, H], of what was simulated."""
         return self._apart[sequence]
 
-    def expand(self, sequences: Sequence[Actions]) -> None:
-        """Simulates every action after each of some sequences."""
+    def expand(self, sequences: Mapping[Actions, Collection[int]]) -> None:
+        """Simulates every action after each of some sequences, for the hypotheses that are given with it."""
         actions = range(self.task.num_interactions)
-        longer = [(*sequence, action) for sequence in sequences for action in actions]
-        for sequence, observation in zip(longer, self.observe(longer), strict=True):
-            self._apart[sequence] = np.maximum(self._apart[sequence[:-1]], self.distances(observation))
+        plays = [
+            ((*sequence, action), sorted(members)) for sequence, members in sequences.items() for action in actions
+        ]
+        for (sequence, members), observation in zip(plays, self._last(plays), strict=True):
+            before, block = self._apart[sequence[:-1]], np.ix_(members, members)
+            apart = self._apart.setdefault(sequence, before.copy())
+            apart[block] = np.maximum(before[block], self.distances(observation))
+        for sequence in sequences:
+            self._simulated.setdefault(sequence, set()).update(sequences[sequence])
 
-    def observe(self, sequences: Sequence[Actions]) -> list[dict[str, np.ndarray]]:
-        """Returns the observations at the end of each sequence: arrays with a leading axis [H]."""
-        found: dict[Actions, dict[str, np.ndarray]] = {}
-        for length in {len(sequence) for sequence in sequences}:
-            alike = [sequence for sequence in sequences if len(sequence) == length]
-            for start in range(0, len(alike), _SEQUENCES):
-                chosen = alike[start : start + _SEQUENCES]
-                *_, last = self._play(chosen)
-                for number, sequence in enumerate(chosen):
-                    its = slice(len(self.hidden) * number, len(self.hidden) * (number + 1))
-                    found[sequence] = {name: value[its].copy() for name, value in last.items()}
-        return [found[sequence] for sequence in sequences]
+    def observe(self, sequence: Actions) -> dict[str, np.ndarray]:
+        """Returns the observations at the end of a sequence: arrays with a leading axis [H]."""
+        (found,) = self._last([(sequence, range(len(self.hidden)))])
+        return found
+
+    def _last(self, plays: Sequence[Play]) -> Iterator[dict[str, np.ndarray]]:
+        """Returns the observations at the end of each play: arrays with a leading axis, the number of its members."""
+        for together in _side_by_side(plays, self._batch_size):
+            *_, last = self._play(together)
+            ends = np.cumsum([0, *(len(members) for _, members in together)])
+            for start, end in itertools.pairwise(ends):
+                yield {name: value[start:end].copy() for name, value in last.items()}
 
     def follow(self, sequence: Actions) -> Iterator[np.ndarray]:
         """Returns the largest distances so far after each action of a sequence, [H, H] each."""
         apart = self._apart[()]
-        for observation in self._play([sequence]) if sequence else ():
+        for observation in self._play([(sequence, range(len(self.hidden)))]) if sequence else ():
             apart = np.maximum(apart, self.distances(observation))
             yield apart
 
@@ -94,22 +103,40 @@ class Trajectories:
         """Returns how far apart observations of the task are, as `distances`."""
         return distances(observation, self.task.readings)
 
+    @property
+    def _batch_size(self) -> int:
+        return len(self.hidden) * _SEQUENCES
+
     @functools.cached_property
     def _batch(self) -> suite.BatchEnvironment:
-        return suite.BatchEnvironment(self.task, len(self.hidden) * _SEQUENCES, self._num_threads)
+        return suite.BatchEnvironment(self.task, self._batch_size, self._num_threads)
 
-    def _play(self, sequences: Sequence[Actions]) -> Iterator[Mapping[str, np.ndarray]]:
-        """Plays sequences of one length side by side, each for all hypotheses; returns what is seen after each step."""
-        size = len(self.hidden)
-        rows = np.arange(size * len(sequences))
+    def _play(self, plays: Sequence[Play]) -> Iterator[Mapping[str, np.ndarray]]:
+        """Plays sequences of one length side by side; returns what is seen after each step, play by play."""
+        members = np.concatenate([members for _, members in plays])
+        rows = np.arange(len(members))
         nuisances = None if self._nuisances is None else np.repeat(self._nuisances[None], len(rows), axis=0)
-        self._batch.reset(rows, hidden=self.hidden[rows % size], nuisances=nuisances)
-        for actions in np.array(sequences).T:
-            timestep = self._batch.step(np.repeat(actions, size), rows)
+        self._batch.reset(rows, hidden=self.hidden[members], nuisances=nuisances)
+        counts = [len(members) for _, members in plays]
+        for actions in np.array([sequence for sequence, _ in plays]).T:
+            timestep = self._batch.step(np.repeat(actions, counts), rows)
             self.steps += len(rows)
             if self._batch.num_divergences:
                 raise RuntimeError("the simulation diverged; nothing can be said about what can be told apart")
             yield timestep.observation
+
+
+def _side_by_side(plays: Sequence[Play], size: int) -> Iterator[list[Play]]:
+    """Returns plays in their order, in parts of equal length that have as many members as a batch's size at most."""
+    together: list[Play] = []
+    for sequence, members in plays:
+        count = sum(len(others) for _, others in together) + len(members)
+        if together and (count > size or len(together[0][0]) != len(sequence)):
+            yield together
+            together = []
+        together.append((sequence, members))
+    if together:
+        yield together
 
 
 def distances(observation: Mapping[str, np.ndarray], readings: Mapping[str, declarations.Reading]) -> np.ndarray:

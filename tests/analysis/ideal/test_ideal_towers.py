@@ -135,7 +135,7 @@ def test_in_the_real_environment_it_is_always_right_and_takes_as_long_as_predict
 
 def test_the_towers_look_alike_until_they_are_touched():
     cache = towers.trajectories("fist_features")
-    cache.expand([(), (1,)])  # Action 1 moves the fist away.
+    cache.expand(dict.fromkeys([(), (1,)], range(PATTERNS)))  # Action 1 moves the fist away.
     assert not cache.apart((1, 1)).any()
     # Four sequences of one action and four of two, replayed from the start, for 16 patterns each.
     assert cache.steps == (4 * 1 + 4 * 2) * PATTERNS

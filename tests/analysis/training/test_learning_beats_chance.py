@@ -15,7 +15,8 @@ SHORT = {
 }
 
 
-@pytest.mark.parametrize("algorithm", [pytest.param("a3c", marks=pytest.mark.long), "belief", "ppo"])
+@pytest.mark.long
+@pytest.mark.parametrize("algorithm", ["a3c", "belief", "ppo"])
 def test_a_short_run_finds_the_heaviest_block_far_more_often_than_chance(algorithm, tmp_path):
     run = trainers.create(
         tmp_path / "run",
