@@ -41,6 +41,7 @@ DOMAIN = base.Domain(
     name=_NAME,
     discount=_DISCOUNT,
     presets={"features": {}, "pixels": {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}},
+    targets={"sealed_box-features": ("mean_return", 0.78)},
     ideal=base.Ideal(_solve, IdealOptions),
     columns=(base.Column("content", "int8"),),  # An index in `sealed_box.ALL_CONTENTS`.
     fill=lambda hidden: {"content": hidden},
