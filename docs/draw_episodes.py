@@ -20,6 +20,7 @@ EPISODES = {
     "balance": ("balance/features", 5, 1),
     "strings": ("strings/features", 5, 2),
     "sealed_box": ("sealed_box/features", 5, 7),
+    "strike": ("strike/features", 5, 0),
 }
 """For each picture whose agent plays, and the seed and the index of the episode."""
 

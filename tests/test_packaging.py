@@ -30,7 +30,7 @@ print(physexp.__file__)
 
 from physexp import agents, suite
 
-UNTRAINED = ["balance/pixels", "strings/pixels"]  # No agents of these have been trained yet.
+UNTRAINED = ["balance/pixels", "strings/pixels", "sealed_box/pixels", "strike/pixels"]  # No agents yet.
 
 for domain, task in suite.ALL_TASKS:
     environment = suite.load(domain, task, task_kwargs={"random": 0})

@@ -30,7 +30,7 @@ def card_of(path):
     return json.loads(path.read_text())
 
 
-UNTRAINED = {("balance", "pixels"), ("strings", "pixels")}
+UNTRAINED = {(domain, "pixels") for domain in ("balance", "strings", "sealed_box", "strike")}
 """Tasks of which no agent has been trained yet."""
 
 

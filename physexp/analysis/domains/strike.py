@@ -42,6 +42,7 @@ DOMAIN = base.Domain(
     name=_NAME,
     discount=_DISCOUNT,
     presets={"features": {}, "pixels": {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}},
+    targets={"strike-features": ("mean_return", 0.66)},
     ideal=base.Ideal(_solve, IdealOptions),
     columns=(base.Column("puck", "int16"),),  # An index in `strike.PUCKS`.
     fill=lambda hidden: {"puck": hidden},
