@@ -34,12 +34,12 @@ def test_the_first_observation_is_the_same_whatever_is_hidden(seed, name):
 
 @every_task
 def test_an_interaction_tells_something_of_what_is_hidden(seed, name):
-    """Otherwise it would be no experiment: eight steps of one or two in turn do not look alike in all environments."""
+    """Otherwise it would be no experiment: eight steps of one or two in turn, or all there are, do not look alike."""
     batch = load_batch(name, 32, random=seed)
     most = 0
     for pair in itertools.product(range(batch.task.num_interactions), repeat=2):
         batch.reset()
-        for action in 4 * pair:
+        for action in (4 * pair)[: batch.task.rules.step_limit - 1]:
             observation = batch.step(np.full(32, action)).observation
         most = max(most, len({tuple(value[i].tobytes() for value in observation.values()) for i in range(32)}))
         if most > 1:

@@ -9,7 +9,7 @@ import numpy as np
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import checks, declarations, rendering, seeding, senses, task
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block, flag
+from physexp.suite.parts import arena, block, flag, puck
 
 SUITE = containers.TaggedTasks()
 
@@ -72,7 +72,6 @@ PRIOR = 1 / len(CONTENTS) / np.bincount(KINDS)[KINDS]
 
 
 BOX_HALF_SIZE = 0.13  # m: holds the weight, wherever it moves
-_WEIGHT_RADIUS = 0.03  # m
 _REACH = 0.36  # m: no box gets farther from home, however it is pushed
 
 _SHORTEST_STEP = 0.1  # s
@@ -141,9 +140,9 @@ class SealedBox(task.QuestionTask):
         frame = room.attach(box)
         frame.pos = [0, 0, BOX_HALF_SIZE]
         rail = frame.add("joint", name="rail", type="slide", axis=[1, 0, 0], stiffness=_STIFFNESS, damping=_DAMPING)
-        weight = box.mjcf_model.worldbody.add("body", name="weight")
-        inner = weight.add("joint", name="inner", type="slide", axis=[1, 0, 0], limited=True, range=[-1, 1])
-        weight.add("geom", name="weight", size=[_WEIGHT_RADIUS], mass=1.0, group=rendering.UNDRAWN_GROUP)
+        weight = puck.Puck(_POINTER_RGBA, mass=1.0, name="weight")
+        weight.geom.group = rendering.UNDRAWN_GROUP
+        inner = box.attach(weight).add("joint", name="inner", type="slide", axis=[1, 0, 0], limited=True, range=[-1, 1])
         self._joints = (rail.full_identifier, inner.full_identifier)
         self._box = box.geom
         push = root.actuator.add("motor", name="push", joint=rail)

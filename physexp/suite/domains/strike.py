@@ -28,7 +28,7 @@ _GRAVITY = 9.81  # m/s^2
 _FRICTIONS = np.geomspace(0.1, 0.4, 5)  # Coefficients.
 _PLACES = np.geomspace(RATIO**-0.75, RATIO**0.75, 4)  # Where the right strike takes the puck, in goal distances.
 PUCKS = tuple(itertools.product(range(len(STRIKES)), _FRICTIONS, _PLACES))
-"""All pucks that there may be, equally likely: the right strike, the friction, and where that strike takes it."""
+"""All pucks that there may be, equally likely, by the right strike, the friction, and where that strike takes it."""
 
 # As in Threshold: MuJoCo's friction is soft, and a puck would creep under a poke that is too weak to move it.
 _FRICTION = dict(solimpfriction=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreffriction=[2 * PHYSICS_TIMESTEP, 1.0])

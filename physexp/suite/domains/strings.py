@@ -128,8 +128,8 @@ class Strings(task.QuestionTask):
             root.sensor.add("jointpos", name=f"position_{k}", joint=rail) for k, rail in enumerate(rails)
         ]
         # In the order of `drive`. What presses the clamp on a puck does not push it along its rail.
-        self._pulls = _add_actuators(root, "pull", rails, "motor")
-        self._presses = _add_actuators(root, "press", rails, "motor", gear=[0.0])
+        self._pulls = _add_actuators(root, "handle", rails, "motor")
+        self._presses = _add_actuators(root, "clamp", rails, "motor", gear=[0.0])
         _add_actuators(root, "brake", rails, "damper", kv=_BRAKE, ctrlrange=[0, 1])
         self._boards = [
             [_add_board(room, f"{kind}_{k}", rgba or block.COLORS[k], (_x(k), y)) for k in range(NUM_PUCKS)]
