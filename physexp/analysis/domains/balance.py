@@ -25,17 +25,13 @@ class IdealOptions:
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
     """Returns the ideal experimenter; it plays from features."""
-    from physexp import suite
     from physexp.analysis.ideal import counterfeit, resting
     from physexp.suite.domains import balance
 
-    played = suite.load_task(_NAME, task, dict(task_kwargs))
-    scale = counterfeit.Scale(balance.NUM_BLOCKS, balance.num_suspects(played.options.difficulty))
-    return dataclasses.replace(
-        resting.solve(scale, discount, played.rules.step_limit),
-        read=_tilt if "features" in suite.tags(_NAME, task) else None,
-        label=lambda hidden: int(played.answers(hidden[None])[0]),
-    )
+    def apparatus(options):
+        return counterfeit.Scale(balance.NUM_BLOCKS, balance.num_suspects(options.difficulty))
+
+    return resting.of_task(_NAME, task, task_kwargs, discount, apparatus, _tilt)
 
 
 def _tilt(observation) -> int:

@@ -9,7 +9,6 @@ from physexp.analysis.domains import base
 
 _NAME = "sealed_box"
 _DISCOUNT = 0.95
-_MOST_STEPS = 8_000_000  # Control steps that are simulated at most; the hardest of the three difficulties takes 1.8.
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -34,7 +33,7 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
 
     contents = np.arange(len(sealed_box.ALL_CONTENTS))
     known = trajectories.Trajectories(_NAME, task, contents, sealed_box.PRIOR, task_kwargs)
-    return search.solve(known, 0.0, discount, max_steps=_MOST_STEPS)
+    return search.solve(known, 0.0, discount)
 
 
 DOMAIN = base.Domain(

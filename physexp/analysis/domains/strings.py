@@ -24,17 +24,13 @@ class IdealOptions:
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
     """Returns the ideal experimenter; it plays from features."""
-    from physexp import suite
     from physexp.analysis.ideal import bands, resting
     from physexp.suite.domains import strings
 
-    played = suite.load_task(_NAME, task, dict(task_kwargs))
-    pucks = bands.Clamped(strings.NUM_PUCKS, strings.prior(played.options.difficulty))
-    return dataclasses.replace(
-        resting.solve(pucks, discount, played.rules.step_limit),
-        read=_away if "features" in suite.tags(_NAME, task) else None,
-        label=lambda hidden: int(played.answers(hidden[None])[0]),
-    )
+    def apparatus(options):
+        return bands.Clamped(strings.NUM_PUCKS, strings.prior(options.difficulty))
+
+    return resting.of_task(_NAME, task, task_kwargs, discount, apparatus, _away)
 
 
 def _away(observation) -> int:

@@ -39,17 +39,13 @@ class IdealOptions:
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
     """Returns the ideal experimenter; it plays from features."""
-    from physexp import suite
     from physexp.analysis.ideal import intervals, resting
     from physexp.suite.domains import threshold
 
-    played = suite.load_task("threshold", task, dict(task_kwargs))
-    tests = intervals.Thresholds(threshold.prior(played.options.difficulty))
-    return dataclasses.replace(
-        resting.solve(tests, discount, played.rules.step_limit),
-        read=_slid if "features" in suite.tags("threshold", task) else None,
-        label=lambda hidden: int(played.answers(hidden[None])[0]),
-    )
+    def apparatus(options):
+        return intervals.Thresholds(threshold.prior(options.difficulty))
+
+    return resting.of_task("threshold", task, task_kwargs, discount, apparatus, _slid)
 
 
 def _slid(observation) -> int:

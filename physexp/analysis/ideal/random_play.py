@@ -47,7 +47,9 @@ class _Group:
     def prophet(self, discount: float) -> float:
         """Returns what is earned at best, times the chance, by one who knows the interactions to come."""
         answer = self.chance * (2 * self.likeliest - 1)
-        return max([answer] + [discount * sum(part.prophet(discount) for part in self.parts)] * bool(self.parts))
+        if not self.parts:
+            return answer
+        return max(answer, discount * sum(part.prophet(discount) for part in self.parts))
 
     def cautious(self, discount: float, enough: float) -> float:
         """Returns what is earned, times the chance, by one who answers when the likeliest label is likely enough."""
@@ -87,26 +89,24 @@ def _grown(trajectories: trajectories_lib.Trajectories, resolution: float, seque
     """Returns the group of all hypotheses, and all that is left of it along a sequence, until every label is known."""
     prior, answers = trajectories.prior, trajectories.answers
 
-    def split(members: branch_and_bound.Group, apart: np.ndarray) -> list[branch_and_bound.Group]:
-        return [part for _, part in branch_and_bound.split(members, apart, resolution, prior)]
-
     def is_known(members: branch_and_bound.Group) -> bool:
         return len(set(answers[list(members)])) == 1
 
     def group_of(members: branch_and_bound.Group, step: int) -> _Group:
-        parts = [] if is_known(members) or step == len(steps) else split(members, steps[step])
         labels = branch_and_bound.label_chances(members, prior, answers, trajectories.task.num_labels)
         return _Group(
             chance=float(prior[list(members)].sum()),
             likeliest=float(labels.max()),
-            parts=tuple(group_of(part, step + 1) for part in parts),
+            parts=tuple(group_of(part, step + 1) for part in parts.get((step, members), ())),
         )
 
     everything = tuple(range(len(prior)))
-    groups, steps = [everything], []
-    for apart in trajectories.follow(sequence):
-        steps.append(apart)
-        groups = [part for group in groups for part in split(group, apart)]
-        if all(map(is_known, groups)):
+    parts: dict[tuple[int, branch_and_bound.Group], list[branch_and_bound.Group]] = {}
+    unknown = [everything]
+    for step, apart in enumerate(trajectories.follow(sequence)):
+        for members in unknown:
+            parts[step, members] = [part for _, part in branch_and_bound.split(members, apart, resolution, prior)]
+        unknown = [part for members in unknown for part in parts[step, members] if not is_known(part)]
+        if not unknown:
             break
     return group_of(everything, 0)

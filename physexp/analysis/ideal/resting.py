@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from physexp import suite
 from physexp.agents import core
 from physexp.analysis.ideal import base
 from physexp.suite.engine import checks, rules
@@ -281,3 +282,30 @@ def solve(apparatus: Apparatus, discount: float, step_limit: int) -> Solution:
         if all(np.array_equal(*pair) for pair in zip(before, (best, at_random, length), strict=True)):
             break  # Nor does it change with more steps.
     return Solution(apparatus, discount, steps, float(best[0]), float(at_random[0]), states, policy)
+
+
+def of_task(
+    domain: str,
+    task: str,
+    task_kwargs: Mapping[str, Any],
+    discount: float,
+    apparatus: Callable[[Any], Apparatus],
+    read: Callable[[Mapping[str, np.ndarray]], int],
+) -> Solution:
+    """Returns the best policy of a task; it plays from features.
+
+    Args:
+      domain, task, task_kwargs: as for `suite.load`.
+      discount: the agent's gamma, in (0, 1].
+      apparatus: returns what is experimented with, of the task's options.
+      read: returns the reading of an observation of features.
+
+    Raises:
+      ValueError: for a value that makes no sense.
+    """
+    played = suite.load_task(domain, task, dict(task_kwargs))
+    return dataclasses.replace(
+        solve(apparatus(played.options), discount, played.rules.step_limit),
+        read=read if "features" in suite.tags(domain, task) else None,
+        label=lambda hidden: int(played.answers(hidden[None])[0]),
+    )

@@ -146,8 +146,7 @@ class Balance(task.QuestionTask):
             self._blocks.append(cube)
             loads.append(room.mjcf_model.actuator.add("motor", name=cube.mjcf_model.model, joint=hinge))
         self._loads = tuple(load.full_identifier for load in loads)
-        self._pointer = flag.Flag(rgba=(0.15, 0.15, 0.18, 1.0), name="pointer")
-        room.attach(self._pointer).pos = [0, _POINTER_Y, flag.HALF_SIZE[2]]
+        self._pointer = flag.stand(room, "pointer", (0.15, 0.15, 0.18, 1.0), 0, _POINTER_Y)
         sensors = room.mjcf_model.sensor
         self._torques = [
             sensors.add("actuatorfrc", name=cube.mjcf_model.model, actuator=load)
@@ -181,7 +180,7 @@ class Balance(task.QuestionTask):
     def indicators(self):
         return [
             *(declarations.Indicator(cube.geom, "places", k, (_REACH, 0, 0)) for k, cube in enumerate(self._blocks)),
-            declarations.Indicator(self._pointer.geom, "tilt", 0, (_POINTER_TRAVEL, 0, 0)),
+            declarations.Indicator(self._pointer, "tilt", 0, (_POINTER_TRAVEL, 0, 0)),
         ]
 
     def draw(self, seeds, episodes):

@@ -158,9 +158,7 @@ class SealedBox(task.QuestionTask):
             contype=0,
             conaffinity=0,
         )
-        pointer = flag.Flag(_POINTER_RGBA, name="pointer")
-        room.attach(pointer).pos = [0, _POINTER_Y, flag.HALF_SIZE[2]]
-        self._pointer = pointer.geom
+        self._pointer = flag.stand(room, "pointer", _POINTER_RGBA, 0, _POINTER_Y)
         super().__init__(room, options, sense)
 
     def _place(self, values: np.ndarray) -> np.ndarray:
@@ -230,16 +228,15 @@ def _fields(apparatus: apparatus_lib.Apparatus, joints: tuple[str, str], content
         for name in ("mass", "share", "gap", "stiffness", "damping")
     )
     weight, box = share * total, (1 - share) * total
-    rails = np.full_like(total, _STIFFNESS), np.full_like(total, _DAMPING)
-    joint_ids = np.array([apparatus.model.joint(joint).id for joint in joints])
+    inner = np.array([apparatus.model.joint(joints[1]).id])
     return {
         "body_mass": (bodies, np.stack([box, weight], axis=1)),
         "body_subtreemass": (bodies, np.stack([total, weight], axis=1)),
         "dof_M0": (dofs, np.stack([total, weight], axis=1)),
         "dof_invweight0": (dofs, np.stack([1 / box, total / (box * weight)], axis=1)),
-        "dof_damping": (dofs, np.stack([rails[1], damping], axis=1)),
-        "jnt_stiffness": (joint_ids, np.stack([rails[0], stiffness], axis=1)),
-        "jnt_range": (joint_ids[1:], np.stack([-gap, gap], axis=1)[:, None]),
+        "dof_damping": (dofs[1:], damping[:, None]),
+        "jnt_stiffness": (inner, stiffness[:, None]),
+        "jnt_range": (inner, np.stack([-gap, gap], axis=1)[:, None]),
     }
 
 

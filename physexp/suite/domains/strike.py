@@ -37,8 +37,8 @@ _BARRIER = dict(solimplimit=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreflimit=[2 * 
 _START = -0.55  # m, where the puck lies along x
 _LANE = 1.2  # m, from there to the end of the lane
 _ROOM = dict(mat_size=[0.72, 0.32], camera_pos=[0, -2.8, 1.7], camera_target=[0, 0, 0.1], fovy=25.0)
-# m, the middle and half the size. Those that are poked hardest pass the barrier by 0.054 m before it stops them.
-_COVER = (_START + 0.175, 0.0, 0.04), (0.225, 0.06, 0.04)
+# m. Those that are poked hardest pass the barrier by 0.054 m before it stops them.
+_COVER_X, _COVER_HALF_SIZE = _START + 0.175, (0.225, 0.06, 0.04)
 _GOAL_RGBA = (0.60, 0.78, 0.62, 1.0)
 _POKE_Y, _POKE_TRAVEL = -0.22, 0.8  # m, of the board that shows how strong the last poke was
 _GATE_Y, _GATE_TRAVEL = 0.3, 1.0  # m, of the board that shows the last gate
@@ -113,11 +113,17 @@ class Strike(task.QuestionTask):
         root.option.gravity = [0, 0, 0]
         root.option.flag.contact = "disable"
         near, far = options.goal_distance / RATIO, options.goal_distance * RATIO
-        for name, (pos, size, rgba) in {
-            "cover": (*_COVER, arena.COVER_RGBA),
-            "goal": ((_START + (near + far) / 2, 0, 0.002), ((far - near) / 2, 0.1, 0.001), _GOAL_RGBA),
-        }.items():
-            root.worldbody.add("geom", name=name, type="box", size=size, pos=pos, rgba=rgba, contype=0, conaffinity=0)
+        room.add_cover(_COVER_HALF_SIZE, _COVER_X)
+        root.worldbody.add(
+            "geom",
+            name="goal",
+            type="box",
+            size=[(far - near) / 2, 0.1, 0.001],
+            pos=[_START + (near + far) / 2, 0, 0.002],
+            rgba=_GOAL_RGBA,
+            contype=0,
+            conaffinity=0,
+        )
         struck = puck.Puck(block.COLORS[0], mass=1.0)
         frame = room.attach(struck)
         frame.pos = [_START, 0, 0.01 + puck.HALF_HEIGHT]
@@ -128,10 +134,10 @@ class Strike(task.QuestionTask):
         poke = root.actuator.add("motor", name="poke", joint=rail)
         self._position = root.sensor.add("jointpos", name="position", joint=rail)
         self._force = root.sensor.add("actuatorfrc", name="force", actuator=poke)
-        boards = [flag.Flag(block.COLORS[color], name=name) for color, name in ((2, "strength"), (3, "gate"))]
-        for board, y in zip(boards, (_POKE_Y, _GATE_Y), strict=True):
-            room.attach(board).pos = [_START, y, flag.HALF_SIZE[2]]
-        self._boards = [board.geom for board in boards]
+        self._boards = [
+            flag.stand(room, "strength", block.COLORS[2], _START, _POKE_Y),
+            flag.stand(room, "gate", block.COLORS[3], _START, _GATE_Y),
+        ]
         super().__init__(room, options, sense)
 
     def _gate(self, positions: np.ndarray) -> np.ndarray:

@@ -132,7 +132,7 @@ class Strings(task.QuestionTask):
         self._presses = _add_actuators(root, "clamp", rails, "motor", gear=[0.0])
         _add_actuators(root, "brake", rails, "damper", kv=_BRAKE, ctrlrange=[0, 1])
         self._boards = [
-            [_add_board(room, f"{kind}_{k}", rgba or block.COLORS[k], (_x(k), y)) for k in range(NUM_PUCKS)]
+            [flag.stand(room, f"{kind}_{k}", rgba or block.COLORS[k], _x(k), y) for k in range(NUM_PUCKS)]
             for kind, rgba, y in (
                 ("handle", None, _HANDLE_Y),
                 ("clamp", _CLAMP_RGBA, _CLAMP_Y),
@@ -235,13 +235,6 @@ def _add_actuators(
     """Adds an actuator for each rail and returns the sensors of their forces."""
     actuators = [root.actuator.add(kind, name=f"{name}_{k}", joint=rail, **settings) for k, rail in enumerate(rails)]
     return [root.sensor.add("actuatorfrc", name=each.name, actuator=each) for each in actuators]
-
-
-def _add_board(room: arena.Laboratory, name: str, rgba, place) -> mjcf.Element:
-    """Adds a board that shows a reading and returns its geom."""
-    board = flag.Flag(rgba=rgba, name=name)
-    room.attach(board).pos = (*place, flag.HALF_SIZE[2])
-    return board.geom
 
 
 def _name(graph: int) -> str:

@@ -137,10 +137,8 @@ class Threshold(task.QuestionTask):
         sensors = room.mjcf_model.sensor
         self._position = sensors.add("jointpos", name="position", joint=rail)
         self._force = sensors.add("actuatorfrc", name="force", actuator=push)
-        self._flag = flag.Flag(rgba=block.COLORS[1], name="flag")
-        self._pointer = flag.Flag(rgba=block.COLORS[2], name="pointer")
-        room.attach(self._flag).pos = [_FLAG_X, 0, flag.HALF_SIZE[2]]
-        room.attach(self._pointer).pos = [_POINTER_X, 0, flag.HALF_SIZE[2]]
+        self._flag = flag.stand(room, "flag", block.COLORS[1], _FLAG_X, 0)
+        self._pointer = flag.stand(room, "pointer", block.COLORS[2], _POINTER_X, 0)
         super().__init__(room, options, sense)
 
     @property
@@ -165,8 +163,8 @@ class Threshold(task.QuestionTask):
     @property
     def indicators(self):
         return [
-            declarations.Indicator(self._flag.geom, "slid", 0, (0, 0, _RISE)),
-            declarations.Indicator(self._pointer.geom, "strength", 0, (0, 0, _RISE)),
+            declarations.Indicator(self._flag, "slid", 0, (0, 0, _RISE)),
+            declarations.Indicator(self._pointer, "strength", 0, (0, 0, _RISE)),
         ]
 
     def draw(self, seeds, episodes):

@@ -81,14 +81,14 @@ class Laboratory(composer.Arena):
             "camera", name="observer", pos=camera_pos, fovy=fovy, xyaxes=_looking_at(camera_pos, camera_target)
         )
 
-    def add_cover(self, half_size) -> None:
-        """Adds a box in the middle of the floor, m (3,), that hides what is in it."""
+    def add_cover(self, half_size, x: float = 0.0) -> None:
+        """Adds a box, m (3,), whose middle is at `x` of the floor, and which hides what is in it."""
         self.mjcf_model.worldbody.add(
             "geom",
             name="cover",
             type="box",
             size=half_size,
-            pos=[0, 0, half_size[2]],
+            pos=[x, 0, half_size[2]],
             rgba=COVER_RGBA,
             contype=0,
             conaffinity=0,

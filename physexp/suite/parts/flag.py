@@ -18,3 +18,10 @@ class Flag(composer.Entity):
     @property
     def mjcf_model(self):
         return self._root
+
+
+def stand(room: composer.Arena, name: str, rgba, x: float, y: float) -> mjcf.Element:
+    """Stands a board on the floor, m, and returns its geom."""
+    board = Flag(rgba, name=name)
+    room.attach(board).pos = [x, y, HALF_SIZE[2]]
+    return board.geom
