@@ -212,3 +212,43 @@ def test_every_pattern_of_glue_is_played_alike_in_a_batch_and_alone(seed):
         assert batch.hidden == [pattern]
         for action in (4, 14):
             _assert_same(batch.step(np.array([action])), [single.step(action)])
+
+
+@every_feature_task
+def test_saved_episodes_go_on_from_there_in_several_ways(seed, name):
+    """What follows is, to the bit, what follows in environments that have played the same actions in one go."""
+    rng = np.random.default_rng(seed)
+    batch, singles = _load_both(name, seed, 3)
+    batch.reset()
+    begun = rng.integers(batch.task.num_interactions, size=(2, 3))
+    for actions in begun:
+        batch.step(actions)
+    chosen = np.array([0, 2])
+    moment = batch.save(chosen)
+    for _ in range(3):
+        batch.restore(moment)
+        for i in chosen:
+            singles[i].task.next_episode = 0
+            singles[i].reset()
+            for actions in begun:
+                singles[i].step(actions[i])
+        for _ in range(2):
+            actions = random_actions(rng, batch.task, 2)
+            expected = [singles[i].step(a) for i, a in zip(chosen, actions, strict=True)]
+            _assert_same(batch.step(actions, environments=chosen), expected)
+            if any(step.last() for step in expected):
+                break
+
+
+def test_what_cannot_be_saved_or_restored_is_refused():
+    batch = load_batch("which_is_heavier/features", 2, random=0)
+    with pytest.raises(RuntimeError, match="an episode is over"):
+        batch.save()
+    batch.reset()
+    moment = batch.save()
+    batch.step(np.array([4, 0]))
+    with pytest.raises(RuntimeError, match="an episode is over"):
+        batch.save()
+    batch.reset()
+    with pytest.raises(ValueError, match="other episodes"):
+        batch.restore(moment)

@@ -68,29 +68,22 @@ class Trajectories:
 
     def expand(self, sequences: Mapping[Actions, Collection[int]]) -> None:
         """Simulates every action after each of some sequences, for the hypotheses that are given with it."""
-        actions = range(self.task.num_interactions)
-        plays = [
-            ((*sequence, action), sorted(members)) for sequence, members in sequences.items() for action in actions
-        ]
-        for (sequence, members), observation in zip(plays, self._last(plays), strict=True):
-            before, block = self._apart[sequence[:-1]], np.ix_(members, members)
-            apart = self._apart.setdefault(sequence, before.copy())
-            apart[block] = np.maximum(before[block], self.distances(observation))
-        for sequence in sequences:
-            self._simulated.setdefault(sequence, set()).update(sequences[sequence])
+        plays = [(sequence, sorted(members)) for sequence, members in sequences.items()]
+        for together in _side_by_side(plays, self._batch_size):
+            for action, observation in self._branch(together):
+                ends = np.cumsum([0, *(len(members) for _, members in together)])
+                for (sequence, members), (start, end) in zip(together, itertools.pairwise(ends), strict=True):
+                    seen = {name: value[start:end] for name, value in observation.items()}
+                    before, block = self._apart[sequence], np.ix_(members, members)
+                    apart = self._apart.setdefault((*sequence, action), before.copy())
+                    apart[block] = np.maximum(before[block], self.distances(seen))
+        for sequence, members in plays:
+            self._simulated.setdefault(sequence, set()).update(members)
 
     def observe(self, sequence: Actions) -> dict[str, np.ndarray]:
-        """Returns the observations at the end of a sequence: arrays with a leading axis [H]."""
-        (found,) = self._last([(sequence, range(len(self.hidden)))])
-        return found
-
-    def _last(self, plays: Sequence[Play]) -> Iterator[dict[str, np.ndarray]]:
-        """Returns the observations at the end of each play: arrays with a leading axis, the number of its members."""
-        for together in _side_by_side(plays, self._batch_size):
-            *_, last = self._play(together)
-            ends = np.cumsum([0, *(len(members) for _, members in together)])
-            for start, end in itertools.pairwise(ends):
-                yield {name: value[start:end].copy() for name, value in last.items()}
+        """Returns the observations at the end of a sequence of at least one action: arrays with a leading axis [H]."""
+        *_, last = self._play([(sequence, range(len(self.hidden)))])
+        return {name: value.copy() for name, value in last.items()}
 
     def follow(self, sequence: Actions) -> Iterator[np.ndarray]:
         """Returns the largest distances so far after each action of a sequence, [H, H] each."""
@@ -118,12 +111,26 @@ class Trajectories:
         nuisances = None if self._nuisances is None else np.repeat(self._nuisances[None], len(rows), axis=0)
         self._batch.reset(rows, hidden=self.hidden[members], nuisances=nuisances)
         counts = [len(members) for _, members in plays]
-        for actions in np.array([sequence for sequence, _ in plays]).T:
-            timestep = self._batch.step(np.repeat(actions, counts), rows)
-            self.steps += len(rows)
-            if self._batch.num_divergences:
-                raise RuntimeError("the simulation diverged; nothing can be said about what can be told apart")
-            yield timestep.observation
+        for actions in np.array([sequence for sequence, _ in plays], np.int64).T:
+            yield self._step(np.repeat(actions, counts))
+
+    def _branch(self, plays: Sequence[Play]) -> Iterator[tuple[int, Mapping[str, np.ndarray]]]:
+        """Plays sequences as `_play` does, and then every action from there; returns what is seen after each."""
+        for _ in self._play(plays):
+            pass
+        count = sum(len(members) for _, members in plays)
+        moment = self._batch.save(np.arange(count))
+        for action in range(self.task.num_interactions):
+            self._batch.restore(moment)
+            yield action, self._step(np.full(count, action))
+
+    def _step(self, actions: np.ndarray) -> Mapping[str, np.ndarray]:
+        """Takes an action in each of the first environments; returns what is seen."""
+        timestep = self._batch.step(actions, np.arange(len(actions)))
+        self.steps += len(actions)
+        if self._batch.num_divergences:
+            raise RuntimeError("the simulation diverged; nothing can be said about what can be told apart")
+        return timestep.observation
 
 
 def _side_by_side(plays: Sequence[Play], size: int) -> Iterator[list[Play]]:

@@ -56,7 +56,7 @@ class Options(options_lib.Options):
 
     physics_timestep = PHYSICS_TIMESTEP
 
-    time_limit: float = 0.7  # the longer, the less it costs never to answer
+    time_limit: float = 0.9  # the longer, the less it costs never to answer
     difficulty: float = 2.0
     goal_distance: float = 0.7  # m
 

@@ -1,5 +1,6 @@
 """Many environments of one task that step together in C++ threads."""
 
+import dataclasses
 import functools
 import logging
 
@@ -15,6 +16,25 @@ _LOG = logging.getLogger(__name__)
 MOST_ENVIRONMENTS = 65_536
 
 _FIRST, _MID, _LAST = (int(kind) for kind in dm_env.StepType)
+
+
+@dataclasses.dataclass(frozen=True)
+class Moment:
+    """Where the episodes of N environments stand, as `BatchEnvironment.save` returns it.
+
+    Attributes:
+      environments: which they are, int64 [N].
+      episodes: indices of the episodes, int64 [N].
+      steps: control steps taken, int64 [N].
+      touched: whether each held entity has moved, bool [N, number of held entities].
+      states: of the simulations, those of each structure together, float64 [number of its environments, ...].
+    """
+
+    environments: np.ndarray
+    episodes: np.ndarray
+    steps: np.ndarray
+    touched: np.ndarray
+    states: tuple[np.ndarray, ...]
 
 
 class BatchEnvironment:
@@ -172,6 +192,44 @@ class BatchEnvironment:
         all_rewards = np.zeros(len(chosen))
         all_rewards[~starting] = rewards
         return self._time_step(chosen, step_types, all_rewards, np.where(step_types == _LAST, 0.0, 1.0))
+
+    def save(self, environments: np.ndarray | None = None) -> Moment:
+        """Returns where the episodes of some environments stand, so that they can go on from there in several ways.
+
+        Args:
+          environments: which environments, sorted indices int [N]; all of them by default.
+
+        Raises:
+          ValueError: for indices out of range.
+          RuntimeError: if an episode is over or none has begun, the batch is closed, or another thread is using it.
+        """
+        with self._guard:
+            chosen = self._choose(environments)
+            if self._ledger.over[chosen].any():
+                raise RuntimeError("an episode is over; save where episodes are under way")
+            return Moment(
+                environments=chosen.copy(),
+                episodes=self.episodes[chosen],
+                steps=self._ledger.steps[chosen],
+                touched=self._ledger.touched[chosen],
+                states=tuple(group.save(chosen[members]) for group, members in self._by_structure(chosen)),
+            )
+
+    def restore(self, moment: Moment) -> None:
+        """Takes episodes back to where they stood; the next step goes on from there.
+
+        Raises:
+          ValueError: if one of the environments has begun another episode since.
+          RuntimeError: if the batch is closed, or another thread is using it.
+        """
+        with self._guard:
+            chosen = self._choose(moment.environments)
+            if not np.array_equal(self.episodes[chosen], moment.episodes):
+                raise ValueError("environments have begun other episodes since this was saved; restore before that")
+            ledger = self._ledger
+            ledger.steps[chosen], ledger.touched[chosen], ledger.over[chosen] = moment.steps, moment.touched, False
+            for (group, members), states in zip(self._by_structure(chosen), moment.states, strict=True):
+                group.restore(chosen[members], states)
 
     def view(self, field: str, environment: int) -> np.ndarray:
         """Returns a field of `MjData` in one environment, as it is after a step; it may be written to.
@@ -342,6 +400,15 @@ class _Group:
         if not self._are_alike:
             self._qpos[rows] = starts.qpos
             self._starts.put(rows, starts)
+
+    def save(self, rows) -> np.ndarray:
+        """Returns the states of rows, float64 [number of rows, ...]."""
+        return self._batch.state[rows]
+
+    def restore(self, rows, states) -> None:
+        """Takes up what `save` returned."""
+        self._batch.state[rows] = states
+        self._is_at_rest[rows] = False
 
     def step(self, rows, actions) -> np.ndarray:
         """Simulates a control step; returns the rows that diverged."""

@@ -137,8 +137,8 @@ def test_the_towers_look_alike_until_they_are_touched():
     cache = towers.trajectories("fist_features")
     cache.expand(dict.fromkeys([(), (1,)], range(PATTERNS)))  # Action 1 moves the fist away.
     assert not cache.apart((1, 1)).any()
-    # Four sequences of one action and four of two, replayed from the start, for 16 patterns each.
-    assert cache.steps == (4 * 1 + 4 * 2) * PATTERNS
+    # Four actions after the start, and four after one more action, for 16 patterns each.
+    assert cache.steps == (4 + 1 + 4) * PATTERNS
 
 
 def test_distances_are_the_largest_of_positions_or_the_number_of_pixels():
