@@ -76,6 +76,8 @@ class Domain:
       targets: by the names of the agents that come with the package, what each must reach: a figure of its evaluation
         and the least value.
       ideal: how to find the ideal experimenter; None where none is known.
+      observer: by task, further options of the ideal experimenter that agents are compared with: what it can tell
+        apart.
       baselines: by task, experimenters that nobody trained, by name, as functions that make their actors.
       columns: the domain's own columns of stored episodes.
       fill: returns these columns by name, [N] or [N, K] for lists, of hidden properties, [N, ...].
@@ -87,13 +89,18 @@ class Domain:
     labels: Mapping[str, str] = dataclasses.field(default_factory=dict)
     targets: Mapping[str, tuple[str, float]] = dataclasses.field(default_factory=dict)
     ideal: Ideal | None = None
+    observer: Mapping[str, Mapping[str, Any]] = dataclasses.field(default_factory=dict)
     baselines: "Mapping[str, Mapping[str, Callable[[], core.Actor]]]" = dataclasses.field(default_factory=dict)
     columns: tuple[Column, ...] = ()
     fill: "Callable[[np.ndarray], Mapping[str, np.ndarray]]" = nothing
 
     def ideal_with(self, task_kwargs: Mapping[str, Any]) -> Ideal | None:
-        """Returns how to find the ideal experimenter of tasks with these options: None with noise or variation."""
-        return None if task_kwargs.get("noise") or task_kwargs.get("variation") else self.ideal
+        """Returns how to find the ideal experimenter of tasks with these options.
+
+        None with noise or variation, unless the answer is revealed.
+        """
+        is_known = task_kwargs.get("reveal") or not (task_kwargs.get("noise") or task_kwargs.get("variation"))
+        return self.ideal if is_known else None
 
     def label(self, task: str, task_kwargs: Mapping[str, Any]) -> str:
         """Returns the short name of a task with these options; domain and task where it has no other."""
@@ -107,3 +114,23 @@ def ppo_like(preset: a3c.A3CConfig, **changes) -> ppo.PPOConfig:
     """Returns a configuration of PPO with the hyperparameters that A3C's has too, and with changes."""
     shared = {field.name: getattr(preset, field.name) for field in dataclasses.fields(agent_config.ActorCriticConfig)}
     return ppo.PPOConfig(**{**shared, **changes})
+
+
+# Where readings are bits, rewards tell of the last of several only, so policies must stay broad until those are used:
+# much entropy at first, and many episodes to an update.
+A3C_OF_BITS = a3c.A3CConfig(
+    discount=0.95,
+    frames=3_000_000,
+    envs_per_worker=128,
+    learning_rate=3e-3,
+    trace=0.95,
+    entropy_cost=0.2,
+    final_entropy_cost=0.002,
+    observation_scale=2.0,
+)
+PPO_OF_BITS = ppo_like(A3C_OF_BITS, frames=1_200_000, num_environments=512)
+
+# Such readings make few different images, and only different ones pass the convolutions: the larger an update, the
+# cheaper.
+A3C_OF_FEW_IMAGES = A3C_OF_BITS.replace(frames=1_500_000, envs_per_worker=64, learning_rate=1e-3, observation_scale=8.0)
+PPO_OF_FEW_IMAGES = ppo_like(A3C_OF_FEW_IMAGES, num_environments=1024)

@@ -9,6 +9,7 @@ from physexp.analysis.domains import base
 
 _NAME = "sealed_box"
 _DISCOUNT = 0.95
+_FRAMES = 4_000_000  # Of A3C and PPO.
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -39,7 +40,17 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
 DOMAIN = base.Domain(
     name=_NAME,
     discount=_DISCOUNT,
-    presets={"features": {}, "pixels": {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}},
+    presets={
+        "features": {
+            "a3c": base.A3C_OF_BITS.replace(frames=_FRAMES),
+            "ppo": base.PPO_OF_BITS.replace(frames=_FRAMES, trace=1.0),
+        },
+        "pixels": {
+            "a3c": base.A3C_OF_FEW_IMAGES,
+            "ppo": base.PPO_OF_FEW_IMAGES,
+            "belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT),
+        },
+    },
     targets={"sealed_box-features": ("mean_return", 0.78)},
     ideal=base.Ideal(_solve, IdealOptions),
     columns=(base.Column("content", "int8"),),  # An index in `sealed_box.ALL_CONTENTS`.

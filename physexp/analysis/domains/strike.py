@@ -41,7 +41,14 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
 DOMAIN = base.Domain(
     name=_NAME,
     discount=_DISCOUNT,
-    presets={"features": {}, "pixels": {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}},
+    presets={
+        "features": {"a3c": base.A3C_OF_BITS, "ppo": base.PPO_OF_BITS},
+        "pixels": {
+            "a3c": base.A3C_OF_FEW_IMAGES,
+            "ppo": base.PPO_OF_FEW_IMAGES,
+            "belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT),
+        },
+    },
     targets={"strike-features": ("mean_return", 0.66)},
     ideal=base.Ideal(_solve, IdealOptions),
     columns=(base.Column("puck", "int16"),),  # An index in `strike.PUCKS`.

@@ -41,7 +41,14 @@ def _away(observation) -> int:
 DOMAIN = base.Domain(
     name=_NAME,
     discount=_DISCOUNT,
-    presets={"features": {}, "pixels": {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}},
+    presets={
+        "features": {"a3c": base.A3C_OF_BITS, "ppo": base.PPO_OF_BITS},
+        "pixels": {
+            "a3c": base.A3C_OF_FEW_IMAGES,
+            "ppo": base.PPO_OF_FEW_IMAGES,
+            "belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT),
+        },
+    },
     targets={"strings-features": ("mean_return", 0.82)},
     ideal=base.Ideal(_solve, IdealOptions),
     columns=(base.Column("slacks", "float32", is_list=True, is_varied=True),),  # m; 0 where there is no band

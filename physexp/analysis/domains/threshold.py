@@ -4,26 +4,11 @@ from collections.abc import Mapping
 import dataclasses
 from typing import Any
 
-from physexp.agents.a3c import config as a3c
 from physexp.agents.belief import config as belief
 from physexp.analysis.domains import base
 
+_NAME = "threshold"
 _DISCOUNT = 0.95
-
-# Rewards tell of the last of three or four bits only, so policies must stay broad until those are used: much entropy at
-# first, and many episodes to an update.
-_FEATURES = a3c.A3CConfig(
-    discount=_DISCOUNT,
-    frames=3_000_000,
-    envs_per_worker=128,
-    learning_rate=3e-3,
-    trace=0.95,
-    entropy_cost=0.2,
-    final_entropy_cost=0.002,
-    observation_scale=2.0,
-)
-# There are 17 different images, and only different ones pass the convolutions: the larger an update, the cheaper.
-_PIXELS = _FEATURES.replace(frames=1_500_000, envs_per_worker=64, learning_rate=1e-3, observation_scale=8.0)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -45,7 +30,7 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
     def apparatus(options):
         return intervals.Thresholds(threshold.prior(options.difficulty))
 
-    return resting.of_task("threshold", task, task_kwargs, discount, apparatus, _slid)
+    return resting.of_task(_NAME, task, task_kwargs, discount, apparatus, _slid)
 
 
 def _slid(observation) -> int:
@@ -53,13 +38,13 @@ def _slid(observation) -> int:
 
 
 DOMAIN = base.Domain(
-    name="threshold",
+    name=_NAME,
     discount=_DISCOUNT,
     presets={
-        "features": {"a3c": _FEATURES, "ppo": base.ppo_like(_FEATURES, frames=1_200_000, num_environments=512)},
+        "features": {"a3c": base.A3C_OF_BITS, "ppo": base.PPO_OF_BITS},
         "pixels": {
-            "a3c": _PIXELS,
-            "ppo": base.ppo_like(_PIXELS, num_environments=1024),
+            "a3c": base.A3C_OF_FEW_IMAGES,
+            "ppo": base.PPO_OF_FEW_IMAGES,
             "belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT),
         },
     },

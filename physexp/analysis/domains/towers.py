@@ -145,6 +145,7 @@ def _drawn_nuisances(task: str, task_kwargs: Mapping[str, Any]):
 
 
 _NUM_NUISANCES = 16
+_FINE = 0.001  # m, the least that agents from features are taken to tell apart.
 _RULES = {
     "direct_features": (4, 14),  # Push cube 1 to +x, and cube 3 to +y.
     "fist_features": (0,),  # Move the fist to +x, where the tower is.
@@ -162,7 +163,7 @@ def _rule(task: str, noise: float = 0.0) -> "core.Actor":
 @functools.cache
 def _seen(task: str):
     """Returns the ideal experimenter of a task without variation, to whom a millimetre is a difference."""
-    return _solve(task, {}, _DISCOUNT, resolution=0.001)
+    return _solve(task, {}, _DISCOUNT, resolution=_FINE)
 
 
 def _lookup(task: str) -> "core.Actor":
@@ -189,6 +190,7 @@ DOMAIN = base.Domain(
         "towers-fist_pixels": ("success_rate", 0.97),
     },
     ideal=base.Ideal(_solve, IdealOptions),
+    observer=dict.fromkeys(_RULES, {"resolution": _FINE}),
     baselines=_BASELINES,
     columns=(base.Column("pattern", "int8", is_everywhere=True),),  # An index in `tower.PATTERNS`.
     fill=lambda hidden: {"pattern": hidden},

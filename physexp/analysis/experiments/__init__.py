@@ -29,6 +29,7 @@ NAMES = (
     "clamping",
     "shaking",
     "aiming",
+    "laboratory",
 )
 """The experiments in the paper's order; each is the `EXPERIMENT` of the module of its name."""
 

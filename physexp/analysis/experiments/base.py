@@ -168,6 +168,7 @@ class Experiment:
       load: from the results to a tidy DataFrame; pure reading.
       claims: from that to what holds.
       draw: from that to a matplotlib figure.
+      table: from that to a header and rows of words, to stand below the figure; None for none.
     """
 
     name: str
@@ -180,6 +181,7 @@ class Experiment:
     load: Callable[[Results], Any]
     claims: Callable[[Any], list[claims_lib.Claim]]
     draw: Callable[[Any], Any]
+    table: Callable[[Any], list[tuple[str, ...]]] | None = None
 
     def figure(self, frame) -> Any:
         """Draws the figure as it is to look."""

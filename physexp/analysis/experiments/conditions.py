@@ -37,6 +37,7 @@ _BELIEF_FRAMES = {
     "10-P": 40_000,
     "D-P": 80_000,
     "F-P": 100_000,
+    "threshold features": 60_000,
     "balance features": 150_000,
     "strings features": 150_000,
     "sealed_box features": 200_000,
@@ -73,10 +74,11 @@ PATIENT = tuple(heavier(beta, "features", _PATIENT_FRAMES[beta], discount=PATIEN
 
 TOWERS = tuple(towers(actuator, kind) for actuator in ACTUATORS for kind in OBSERVATIONS)
 
-
-BALANCE, STRINGS, SEALED_BOX, STRIKE = (
-    config_lib.TrainConfig(domain=domain, task="features", agent=config_lib.preset(domain, "features"))
-    for domain in ("balance", "strings", "sealed_box", "strike")
+THRESHOLD, BALANCE, STRINGS, SEALED_BOX, STRIKE = (
+    config_lib.TrainConfig(
+        domain=domain, task="features", agent=config_lib.preset(domain, "features").replace(num_workers=1)
+    )
+    for domain in ("threshold", "balance", "strings", "sealed_box", "strike")
 )
 
 

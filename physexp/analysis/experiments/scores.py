@@ -1,6 +1,6 @@
 """How well agents play while they learn, in shares of what can be reached."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -32,15 +32,20 @@ def load(results: base.Results, wanted: Sequence[config_lib.TrainConfig]):
     return frame.assign(score=returns.where(~frame.condition.map(sees_pixels), right) / frame.condition.map(units))
 
 
-def final(results: base.Results, wanted: Sequence[config_lib.TrainConfig]):
+def final(results: base.Results, wanted: Sequence[config_lib.TrainConfig], known: Mapping[str, float] | None = None):
     """What trained agents earn: a DataFrame with a row for each agent of these conditions that has been evaluated.
 
     `share` is that of the ideal's return, and `error` the standard error of it, from the agent's episodes.
+
+    Args:
+      results: the results.
+      wanted: the conditions, whatever the seed in them.
+      known: the ideal's return by condition; what is not there is looked up.
     """
     import pandas
 
     rows = []
-    ideals: dict[str, float] = {}
+    ideals = dict(known or {})
     for config in wanted:
         if not results.has_played(base.EVALUATION, config):
             continue  # What is said is about those that have been trained.

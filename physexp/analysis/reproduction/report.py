@@ -38,6 +38,14 @@ class _Tested:
         return f"{self.verdict} (sanity check)" if self.claim.is_sanity_check else self.verdict
 
 
+@dataclasses.dataclass(frozen=True)
+class _Shown:
+    """An experiment whose figure was drawn, and its table: a header and rows of words, or nothing."""
+
+    experiment: base.Experiment
+    table: list[tuple[str, ...]]
+
+
 _VERDICTS = (claims_lib.FAILS, claims_lib.UNDECIDED, claims_lib.HOLDS)
 _TABLES = {
     "Claims of the paper": lambda claim: claim.section != claims_lib.OURS,
@@ -57,7 +65,8 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
     """
     if not results.path.is_dir():
         raise ValueError(f"{results.path} is no folder; `physexp reproduce` makes one with results")
-    shown, found, missing = [], [], []
+    shown: list[_Shown] = []
+    found, missing = [], []
     for experiment in EXPERIMENTS.values():
         try:
             frame = experiment.load(results)
@@ -66,7 +75,7 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
             tell(f"left out {missing[-1]}")
             continue
         figures.save(experiment.figure(frame), results.path / "figures", experiment.name)
-        shown.append(experiment)
+        shown.append(_Shown(experiment, experiment.table(frame) if experiment.table else []))
         found += [(claim, experiment) for claim in experiment.claims(frame)]
         tell(f"drew {experiment.name}")
     verdicts = claims_lib.corrected([claim for claim, _ in found])
@@ -140,13 +149,13 @@ def _markdown(shown, tested, missing, results) -> str:
     lines = ["# Results", "", _INTRODUCTION, "", *_provenance(results), ""]
     for title, rows in _tables(tested).items():
         lines += [f"## {title}", "", f"{_tally(rows)}.", ""]
-        lines += ["| " + " | ".join(_HEADER) + " |", "|" + "---|" * len(_HEADER)]
+        lines += _header(_HEADER)
         lines += [
             " | ".join((f"| **{one.words}**", *_row(one), f"[{one.experiment.name}](#{_anchor(one.experiment)}) |"))
             for one in rows
         ]
         lines += [""] + [text for reason in _reasons(rows) for text in (reason, "")]
-    for experiment in shown:
+    for experiment, table in ((one.experiment, one.table) for one in shown):
         lines += [
             f'<a id="{_anchor(experiment)}"></a>',
             "",
@@ -157,8 +166,15 @@ def _markdown(shown, tested, missing, results) -> str:
             experiment.caption,
             "",
         ]
+        if table:
+            lines += [*_header(table[0]), *("| " + " | ".join(row) + " |" for row in table[1:]), ""]
     lines += [text for line in missing for text in (f"Left out: {line}", "")]
     return "\n".join(lines).rstrip() + "\n"
+
+
+def _header(names) -> list[str]:
+    """Returns the first two lines of a Markdown table."""
+    return ["| " + " | ".join(names) + " |", "|" + "---|" * len(names)]
 
 
 def _page(shown, tested, missing, results) -> str:
@@ -173,7 +189,7 @@ def _page(shown, tested, missing, results) -> str:
         )
         parts.append(f"<h2>{title}</h2><p>{_tally(rows)}.</p><table><tr>{head}</tr>{body}</table>")
         parts += [f"<p>{html.escape(reason)}</p>" for reason in _reasons(rows)]
-    for experiment in shown:
+    for experiment, table in ((one.experiment, one.table) for one in shown):
         image = base64.b64encode((results.path / "figures" / f"{experiment.name}.svg").read_bytes()).decode()
         parts.append(
             f'<h2 id="{_anchor(experiment)}">{html.escape(experiment.title)} '
@@ -181,6 +197,12 @@ def _page(shown, tested, missing, results) -> str:
             f'<img alt="{html.escape(experiment.title)}" src="data:image/svg+xml;base64,{image}">'
             f"<p>{html.escape(experiment.caption)}</p>"
         )
+        if table:
+            cells = [
+                "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in row)
+                for tag, row in zip(["th"] + ["td"] * len(table), table, strict=False)
+            ]
+            parts.append("<table>" + "".join(f"<tr>{row}</tr>" for row in cells) + "</table>")
     parts += [f"<p>Left out: {html.escape(line)}</p>" for line in missing]
     return f"<!doctype html><meta charset=utf-8><title>physexp: results</title><style>{_STYLE}</style>" + (
         "<h1>Results</h1>" + "\n".join(parts) + "\n"

@@ -21,6 +21,7 @@ from physexp.analysis.experiments import (
     conditions,
     data_efficiency,
     generalization,
+    laboratory,
     learners,
     population,
     shaking,
@@ -506,6 +507,27 @@ def aimings(num_agents, generator, asked=0.01, friction=0.8, share=0.98):
 # Agents against the ideal experimenter.
 
 
+def shares(num_agents, generator, **of_learners):
+    """Shares of the ideal's return in all domains, by the learner's title."""
+    rows = [
+        {
+            "condition": label(config),
+            "algorithm": config.agent.title,
+            "training_seed": seed,
+            "share": of_learners.get(config.agent.title, 0.98) + generator.normal(0, 0.002),
+            "error": 0.002,
+            "frames": config.agent.frames,
+            "minutes": 5.0,
+        }
+        for config in laboratory.CONDITIONS
+        for seed in range(num_agents)
+    ]
+    frame = pandas.DataFrame(rows)
+    untrained = {"value": 0.8, "at_once": -0.5, "random_value": 0.4}
+    frame.attrs["untrained"] = {task.label: untrained for task in laboratory.TASKS}
+    return frame
+
+
 def ideal_gap(num_agents, generator, share=0.985):
     """A row for each agent; `share` of the ideal's return is what it has."""
     rows = []
@@ -656,6 +678,13 @@ WORLDS: dict[str, dict[str, _World]] = {
         "nothing is known": functools.partial(aimings, asked=0.5),
         "all is known": functools.partial(aimings, friction=0.1),
         "clumsy agents": functools.partial(aimings, share=0.9),
+    },
+    "laboratory": {
+        "paper": shares,
+        "A3C is silent": functools.partial(shares, a3c=-0.1),
+        "PPO is clumsy": functools.partial(shares, ppo=0.9),
+        "rewards tell too little": functools.partial(shares, belief=0.5),
+        "nothing helps": functools.partial(shares, belief_revealed=0.9),
     },
     "ideal_gap": {
         "paper": ideal_gap,

@@ -131,6 +131,12 @@ FALSE_IN = {
         "What the goal does not ask for is hardly found out": {"all is known"},
         "Agents come near the optimum of Strike from the reward alone": {"clumsy agents"},
     },
+    "laboratory": {
+        "A3C learns every domain from the reward alone": {"A3C is silent"},
+        "PPO learns every domain from the reward alone": {"PPO is clumsy"},
+        "The belief learner learns every domain from the reward alone": {"rewards tell too little"},
+        "The belief learner learns every domain where answers are revealed": {"nothing helps"},
+    },
     "ideal_gap": {
         "Feature agents reach 95% of the ideal experimenter's return": {"clumsy agents"},
         "Feature agents reach 97% of the ideal experimenter's return": {"clumsy agents"},

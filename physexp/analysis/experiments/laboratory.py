@@ -1,0 +1,191 @@
+"""The laboratory: what each learner earns of the ideal's return in every domain. Ours."""
+
+from collections.abc import Callable
+import json
+from typing import Any
+
+import numpy as np
+
+from physexp.agents import files
+from physexp.analysis import domains
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures
+from physexp.analysis.experiments import base, claims, conditions, scores
+
+TASKS = (
+    *(task for task in scores.TASKS if task.label in ("5-F", "D-F", "F-F")),
+    conditions.THRESHOLD,
+    conditions.BALANCE,
+    conditions.STRINGS,
+    conditions.SEALED_BOX,
+    conditions.STRIKE,
+)
+LEARNERS = {
+    "a3c": "A3C",
+    "ppo": "PPO",
+    "belief": "belief",
+    "belief_revealed": "belief,\nrevealed",
+}
+"""Learners by title; `belief_revealed` is told the right answer after each episode, the others their reward alone."""
+
+CONDITIONS = tuple(
+    config
+    for task in TASKS
+    for config in (
+        task,
+        conditions.with_ppo(task),
+        conditions.with_belief(task),
+        conditions.with_belief(task, answers_revealed=True),
+    )
+)
+LEAST_SHARE = 0.95  # Of the ideal's return, that an agent who has learned a domain earns.
+FLOOR = -0.1  # Of the figure; what is less is drawn there.
+_CLAIMS = {
+    "a3c": "A3C learns every domain from the reward alone",
+    "ppo": "PPO learns every domain from the reward alone",
+    "belief": "The belief learner learns every domain from the reward alone",
+    "belief_revealed": "The belief learner learns every domain where answers are revealed",
+}
+_UNTRAINED = ("value", "at_once", "random_value")
+
+
+def prepare(results: base.Results, report: Callable[[str], None]) -> None:
+    """Computes what is earned without learning in each domain, if that is not there yet; `report` is told which."""
+    path = _path(results)
+    if path.exists():
+        return
+    found = {}
+    for task in TASKS:
+        report(f"searching for the ideal experimenter of {task.task_name}")
+        known = domains.find(task.domain)
+        assert known.ideal is not None
+        observer = known.observer.get(task.task, {})
+        summary = known.ideal(task.task, task.task_kwargs, task.agent.discount, **observer).summary()
+        found[task.label] = {name: summary[name] for name in _UNTRAINED}
+    path.parent.mkdir(parents=True, exist_ok=True)
+    files.write_atomically(path, (json.dumps(found, indent=1) + "\n").encode())
+
+
+def _path(results: base.Results):
+    return results.path / "ideal" / "laboratory.json"
+
+
+def _are_returns(found: Any) -> bool:
+    return isinstance(found, dict) and all(
+        isinstance(row, dict) and all(type(row.get(name)) is float for name in _UNTRAINED) for row in found.values()
+    )
+
+
+def load(results: base.Results):
+    """Returns a DataFrame with a row for each agent that has been trained and evaluated.
+
+    Columns beside those of `scores.final`: the `frames` it was trained for, and the `minutes` that took. The attribute
+    `untrained` has, by condition, the returns of the ideal, of an answer at once and of random interactions.
+    """
+    untrained = base.read_made(_path(results), "laboratory", _are_returns)
+    frame = scores.final(results, CONDITIONS, {label: row["value"] for label, row in untrained.items()})
+    curves = results.curves(CONDITIONS)
+    ends = curves.groupby(["condition", "algorithm", "training_seed"])[["frames", "seconds"]].max().reset_index()
+    frame = frame.merge(ends.assign(minutes=ends.seconds / 60).drop(columns="seconds"))
+    frame.attrs["untrained"] = untrained
+    return frame
+
+
+def find_claims(frame) -> list[claims.Claim]:
+    """Each learner comes near the optimum in each domain."""
+    return [
+        claims.Claim(
+            text=text,
+            condition=task.label,
+            statistic="share of the ideal's return, median of agents",
+            estimate=estimates.median(agents.share),
+            above=LEAST_SHARE,
+        )
+        for learner, text in _CLAIMS.items()
+        for task in TASKS
+        if len(agents := _agents(frame, task.label, learner))
+    ]
+
+
+def table(frame) -> list[tuple[str, ...]]:
+    """Returns a header and a row for each domain: what each learner earned, from how much."""
+    header = ("task", "ideal's return", "answer at once", "random interactions", *LEARNERS.values())
+    rows = [tuple(name.replace("\n", " ") for name in header)]
+    for task in TASKS:
+        cells = [_cell(_agents(frame, task.label, learner)) for learner in LEARNERS]
+        if any(cells):
+            row = frame.attrs["untrained"][task.label]
+            ideal = row["value"]
+            shares = (f"{row[name] / ideal:.2f}" for name in ("at_once", "random_value"))
+            rows.append((_title(task), f"{ideal:.4f}", *shares, *cells))
+    return rows
+
+
+def _cell(agents) -> str:
+    """Returns the median share, and the medians of frames and minutes, in words; nothing without agents."""
+    if not len(agents):
+        return ""
+    count = len(agents)
+    return (
+        f"{agents.share.median():.3f} ({count} agent{'s' if count > 1 else ''}, {agents.frames.median() / 1000:,.0f} K "
+        f"steps, {agents.minutes.median():.1f} min)"
+    )
+
+
+def _agents(frame, label: str, learner: str):
+    return frame[(frame.condition == label) & (frame.algorithm == learner)]
+
+
+def draw(frame):
+    """A panel for each domain: every agent's share of the ideal's return, beside what random interactions earn."""
+    shown = [task for task in TASKS if (frame.condition == task.label).any()]
+    num_columns = min(4, len(shown))
+    num_rows = -(-len(shown) // num_columns)
+    figure, panels = figures.new(
+        columns=num_columns, rows=num_rows, width=1.9, height=2.0, sharex=True, sharey=True, squeeze=False
+    )
+    for axes in panels.flat[len(shown) :]:
+        axes.set_axis_off()
+    for axes, task in zip(panels.flat, shown, strict=False):
+        row = frame.attrs["untrained"][task.label]
+        figures.reference(axes, 1.0, "ideal")
+        figures.reference(axes, max(FLOOR, row["random_value"] / row["value"]), "random interactions")
+        for number, learner in enumerate(LEARNERS):
+            shares = _agents(frame, task.label, learner).share.clip(lower=FLOOR)
+            spread = np.linspace(-0.15, 0.15, len(shares)) if len(shares) > 1 else np.zeros(len(shares))
+            color, marker = figures.COLORS[number], figures.MARKERS[number]
+            axes.plot(number + spread, shares, marker, color=color, markersize=3, alpha=0.7)
+            if len(shares):
+                axes.plot([number - 0.3, number + 0.3], [shares.median()] * 2, color=color, linewidth=1.6)
+        axes.set(title=_title(task), ylim=(FLOOR - 0.03, 1.08), xlim=(-0.5, len(LEARNERS) - 0.5))
+        axes.set_xticks(range(len(LEARNERS)), list(LEARNERS.values()), rotation=90)
+    for axes in panels[:, 0]:
+        axes.set_ylabel("share of the ideal's return")
+    for axes in panels[-1]:
+        axes.set_xlabel("learner")
+    return figure
+
+
+def _title(task) -> str:
+    """Returns a task's name in words, without what is the same for all: `towers direct`."""
+    return task.task_name.replace("/", "_").removesuffix("_features").replace("_", " ")
+
+
+EXPERIMENT = base.Experiment(
+    name="laboratory",
+    title="The laboratory",
+    section="ours",
+    caption="What agents earn in every domain, features, as a share of the ideal experimenter's return, actions "
+    "drawn. Dots: agents; lines: their median; dotted: the ideal, and random interactions with the best answers at the "
+    f"best moment. What is less than {FLOOR:g} is drawn there. The belief learner has one configuration for all "
+    "domains; the other two have one that was chosen for each, and in Towers a hint of how to begin. Below: the median "
+    "share of the ideal's return, with how many agents, environment steps and minutes (two agents side by side on two "
+    "cores).",
+    conditions=CONDITIONS,
+    trials=(base.EVALUATION,),
+    prepare=prepare,
+    load=load,
+    claims=find_claims,
+    draw=draw,
+    table=table,
+)
