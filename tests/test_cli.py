@@ -133,15 +133,16 @@ def test_help_says_that_a_larger_difficulty_is_easier(run, arguments):
 
 @pytest.mark.parametrize("domain", suite.TASKS_BY_DOMAIN)
 def test_help_lists_a_domain_s_options_with_its_own_words_and_defaults_where_the_domain_is_named(run, domain):
-    options = suite.options(domain)
-    offered = {field.name for field in dataclasses.fields(options)} - {"random", "visualize_reward"}
+    kind = suite.options(domain)
+    offered = {field.name for field in dataclasses.fields(kind)} - {"random", "visualize_reward"}
     assert "control_timestep" in offered
     for arguments in (["train", domain], ["play", domain, "features"], ["train", "--agent", "ppo", domain]):
         text = run(*arguments, "--help").stdout
         for name in offered:
-            assert f"--{name.replace('_', '-')} FLOAT" in text
+            value = "" if name in options.SWITCHES else " FLOAT"
+            assert f"--{name.replace('_', '-')}{value}" in text
         assert "--random" not in text and "--visualize-reward" not in text
-        limit = f"{options().time_limit:g}"
+        limit = f"{kind().time_limit:g}"
         assert f"rounded up to whole control steps s. (default: {limit})" in words_of(text)
 
 
@@ -167,6 +168,16 @@ def test_options_of_the_domain_stand_before_or_after_its_name(arguments):
     assert (train.domain, train.task) == ("which_is_heavier", "features")
     assert options.chosen(train.options) == {"difficulty": 3.0}
     assert train.config.trace == 0.98, "and the preset is the task's"
+
+
+def test_options_without_a_value_are_known_before_the_domain_is_and_hold_where_they_are_given():
+    kinds = [suite.options(domain) for domain in suite.TASKS_BY_DOMAIN]
+    switches = {field.name for kind in kinds for field in dataclasses.fields(kind) if isinstance(field.default, bool)}
+    assert switches - {"visualize_reward"} == {*options.SWITCHES}
+    for arguments in (["--reveal", "strings", "features", "--noise", "0"], ["strings", "features", "--noise=0"]):
+        train = parsing.parse(["train", *arguments])
+        assert (train.domain, train.task) == ("strings", "features")
+        assert options.chosen(train.options) == {"noise": 0.0} | ({"reveal": True} if "--reveal" in arguments else {})
 
 
 @pytest.mark.parametrize("algorithm", config_lib.ALGORITHMS)

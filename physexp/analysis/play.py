@@ -123,7 +123,7 @@ def _rules(environment: suite.Environment) -> str:
         [
             task.question,
             "",
-            terminal.legend(environment.observation_spec(), task.readings),
+            terminal.legend(environment.observation_spec(), task.all_readings),
             "",
             "Every interaction costs time; the answer ends the episode. Type a number:",
             "",
@@ -141,7 +141,7 @@ def _play_episode(environment: suite.Environment, rules: str, observers, read, s
     for observer in observers:
         observer.observe_first(environment, timestep)
     while not timestep.last():
-        show(terminal.drawing(timestep.observation, environment.task.readings, *shutil.get_terminal_size()))
+        show(terminal.drawing(timestep.observation, environment.task.all_readings, *shutil.get_terminal_size()))
         action = _ask(environment, rules, read, show)
         if action is None:
             return None

@@ -12,8 +12,12 @@ from typing import Annotated, Any, TypeVar, get_args, get_type_hints
 import tyro
 
 from physexp.analysis.training import config as config_lib
+from physexp.cli import arguments
 
 _NOT_OFFERED = ("random", "visualize_reward")  # The seed is an option of commands; a terminal shows no floor.
+SWITCHES = ("reveal",)
+"""The options that have no value; the command line is read by them before a domain, which would say so, is known."""
+
 _METAVARS = {float: "FLOAT", int: "INT", str: "TEXT"}
 
 
@@ -74,7 +78,7 @@ def offered(domain_names: Sequence[str], options_of: Callable[[str], type] = of_
 
 
 def make(domain_names: Sequence[str], default: str | None = None, options_of: Callable[[str], type] = of_task) -> type:
-    """Returns a dataclass of the options of some domains, each None until it is chosen.
+    """Returns a dataclass of the options of some domains, each None until it is chosen, or False.
 
     Args:
       domain_names: the domains.
@@ -93,7 +97,7 @@ def make(domain_names: Sequence[str], default: str | None = None, options_of: Ca
         options = options_of(domain_name)
         kinds |= get_type_hints(options)
         texts |= _descriptions(options)
-    fields = []
+    fields: list[tuple[str, Any, Any]] = []
     for name, field in names.items():
         shown = config_lib.shown(field.default) if default is None else default
         (kind,) = set(get_args(kinds[name]) or (kinds[name],)) - {type(None)}
@@ -102,13 +106,17 @@ def make(domain_names: Sequence[str], default: str | None = None, options_of: Ca
             help=texts.get(name, ""),
             help_behavior_hint="" if default is None and field.default is None else f"(default: {shown})",
         )
-        fields.append((name, Annotated[kind | None, argument], dataclasses.field(default=None)))
+        if name in SWITCHES:
+            fields.append((name, Annotated[arguments.Switch, argument], dataclasses.field(default=False)))
+        else:
+            fields.append((name, Annotated[kind | None, argument], dataclasses.field(default=None)))
     return dataclasses.make_dataclass("DomainOptions", fields)
 
 
 def chosen(options: Any) -> dict[str, Any]:
     """Returns the `task_kwargs` that were chosen on the command line."""
-    return {name: value for name, value in dataclasses.asdict(options).items() if value is not None}
+    values = dataclasses.asdict(options)
+    return {name: value for name, value in values.items() if value is not None and value is not False}
 
 
 def _descriptions(kind: type) -> dict[str, str]:

@@ -167,6 +167,7 @@ class _Command:
             for field in dataclasses.fields(kind)
             if isinstance(field.default, bool)
         ]
+        names += options_lib.SWITCHES
         return {*_HELP, *(f"--{prefix}{name}" for name in names for prefix in ("", "no-"))}
 
 

@@ -50,7 +50,7 @@ DOMAIN = base.Domain(
         },
     },
     targets={"balance-features": ("mean_return", 0.72)},
-    ideal=base.Ideal(_solve, IdealOptions),
+    ideal=base.Ideal(_NAME, _solve, IdealOptions),
     columns=(base.Column("weights", "float32", is_list=True, is_varied=True),),  # kg
     fill=lambda hidden: {"weights": hidden},
 )

@@ -39,13 +39,17 @@ class Column:
 class Ideal:
     """How to find the ideal experimenter of a domain's tasks. Calling it solves, once for each question.
 
+    A task that reveals the answer has the same ideal experimenter in every domain, who gives it at once.
+
     Attributes:
+      domain: the domain's name.
       solve: returns the `Solution` of a task, its `task_kwargs` and a discount, with further options by name; raises
         ValueError for a value that makes no sense.
       options: a dataclass of what the command line lets choose, with its defaults: `task`, options of the domain, and
         further options of `solve`.
     """
 
+    domain: str
     solve: "Callable[..., ideal.Solution]"
     options: type
     _found: "dict[str, ideal.Solution]" = dataclasses.field(default_factory=dict, init=False, repr=False, compare=False)
@@ -54,8 +58,15 @@ class Ideal:
         asked = {name: value for name, value in task_kwargs.items() if name != "random"}
         question = repr((task, sorted(asked.items()), discount, sorted(options.items())))
         if question not in self._found:
-            self._found[question] = self.solve(task, asked, discount, **options)
+            self._found[question] = self._solve(task, asked, discount, options)
         return self._found[question]
+
+    def _solve(self, task, task_kwargs, discount, options) -> "ideal.Solution":
+        if not task_kwargs.get("reveal"):
+            return self.solve(task, task_kwargs, discount, **options)
+        from physexp.analysis.ideal import revealed
+
+        return revealed.Solution(self.domain, task, task_kwargs, discount)
 
 
 def nothing(hidden: "np.ndarray") -> "Mapping[str, np.ndarray]":

@@ -52,7 +52,7 @@ DOMAIN = base.Domain(
         },
     },
     targets={"sealed_box-features": ("mean_return", 0.78)},
-    ideal=base.Ideal(_solve, IdealOptions),
+    ideal=base.Ideal(_NAME, _solve, IdealOptions),
     columns=(base.Column("content", "int8"),),  # An index in `sealed_box.ALL_CONTENTS`.
     fill=lambda hidden: {"content": hidden},
 )

@@ -50,7 +50,7 @@ DOMAIN = base.Domain(
         },
     },
     targets={"strike-features": ("mean_return", 0.66)},
-    ideal=base.Ideal(_solve, IdealOptions),
+    ideal=base.Ideal(_NAME, _solve, IdealOptions),
     columns=(base.Column("puck", "int16"),),  # An index in `strike.PUCKS`.
     fill=lambda hidden: {"puck": hidden},
 )

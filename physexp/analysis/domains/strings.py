@@ -50,7 +50,7 @@ DOMAIN = base.Domain(
         },
     },
     targets={"strings-features": ("mean_return", 0.82)},
-    ideal=base.Ideal(_solve, IdealOptions),
+    ideal=base.Ideal(_NAME, _solve, IdealOptions),
     columns=(base.Column("slacks", "float32", is_list=True, is_varied=True),),  # m; 0 where there is no band
     fill=lambda hidden: {"slacks": hidden},
 )

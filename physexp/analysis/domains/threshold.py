@@ -49,7 +49,7 @@ DOMAIN = base.Domain(
         },
     },
     targets={"threshold-features": ("mean_return", 0.84), "threshold-pixels": ("mean_return", 0.76)},
-    ideal=base.Ideal(_solve, IdealOptions),
+    ideal=base.Ideal(_NAME, _solve, IdealOptions),
     columns=(base.Column("friction", "float32", is_varied=True),),  # N
     fill=lambda hidden: {"friction": hidden},
 )

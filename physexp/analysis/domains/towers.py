@@ -189,7 +189,7 @@ DOMAIN = base.Domain(
         "towers-direct_pixels": ("success_rate", 0.93),
         "towers-fist_pixels": ("success_rate", 0.97),
     },
-    ideal=base.Ideal(_solve, IdealOptions),
+    ideal=base.Ideal(_NAME, _solve, IdealOptions),
     observer=dict.fromkeys(_RULES, {"resolution": _FINE}),
     baselines=_BASELINES,
     columns=(base.Column("pattern", "int8", is_everywhere=True),),  # An index in `tower.PATTERNS`.

@@ -54,12 +54,13 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks
             )
         usual = _solve(task, bounds.made_certain(task_kwargs), discount)
         return bounds.Solution(_NAME, task, task_kwargs, discount, usual.actor, [usual.value])
-    prior = which_is_heavier.prior(which_is_heavier.Options(**task_kwargs).difficulty)
+    played = suite.load_task(_NAME, task, dict(task_kwargs))
+    prior = which_is_heavier.prior(played.options.difficulty)
     if blocks is not None:
         prior = dataclasses.replace(prior, num_things=checks.integer("blocks", blocks, 2, odd_one_out.MOST_THINGS))
     can_read = "features" in suite.tags(_NAME, task) and blocks is None
     find_read = functools.partial(calibration.calibrate, _NAME, task, "heights", dict(task_kwargs))
-    return odd_one_out.solve(prior, discount, find_read if can_read else None)
+    return odd_one_out.solve(prior, discount, played.rules.step_limit, find_read if can_read else None)
 
 
 def _fill(hidden):
@@ -89,7 +90,7 @@ DOMAIN = base.Domain(
         "which_is_heavier-pixels-difficulty5": ("success_rate", 0.94),
         "which_is_heavier-pixels-difficulty10": ("success_rate", 0.97),
     },
-    ideal=base.Ideal(_solve, IdealOptions),
+    ideal=base.Ideal(_NAME, _solve, IdealOptions),
     columns=(
         base.Column("masses", "float32", is_list=True, is_varied=True, is_everywhere=True),
         base.Column("mass_gap", "float32", is_varied=True, is_everywhere=True),

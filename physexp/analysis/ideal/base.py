@@ -1,12 +1,13 @@
 """The interface of all ideal experimenters."""
 
 from collections.abc import Mapping
+import dataclasses
 from typing import Any, Protocol
 
 import numpy as np
 
 from physexp.agents import core
-from physexp.suite.engine import checks
+from physexp.suite.engine import checks, rules
 
 
 class Episode(Protocol):
@@ -26,6 +27,22 @@ class Episode(Protocol):
 
     @property
     def observations(self) -> Mapping[str, np.ndarray]: ...
+
+
+@dataclasses.dataclass(frozen=True)
+class Judgement:
+    """What could be known in an episode of T actions, and what its actions were worth.
+
+    Attributes:
+      beliefs: of each of L labels, at the start and after each action, float64 [T + 1, L].
+      values: what each action was worth, interactions first, before each action, float64 [T, A]: an answer, 2 b - 1; an
+        interaction, what the ideal expects to earn after it, times the discount, or -1 at the last step in time.
+      tells: whether the action taken could change what is known of the label, bool [T]; False for answers.
+    """
+
+    beliefs: np.ndarray
+    values: np.ndarray
+    tells: np.ndarray
 
 
 class Solution(Protocol):
@@ -52,11 +69,23 @@ class Solution(Protocol):
     def beliefs(self, episode: Episode) -> np.ndarray:
         """Returns what could be believed at the start and after each action: of each label, float64 [T + 1, L]."""
 
+    def judge(self, episode: Episode) -> Judgement:
+        """Returns what could be known in an episode, and what its actions were worth; uses no observations.
+
+        Raises:
+          ValueError: if it cannot be known.
+        """
+
     def summary(self) -> dict[str, Any]:
         """Returns figures by name: `value`, `accuracy`, `mean_interactions`, `histogram`, and the family's own.
 
         The histogram is the share of episodes for each number of interactions.
         """
+
+
+def worth_of_answers(beliefs: np.ndarray) -> np.ndarray:
+    """Returns what answers are worth that are right with these probabilities, an array of any shape."""
+    return rules.WRONG + (rules.RIGHT - rules.WRONG) * beliefs
 
 
 def check_discount(discount) -> float:

@@ -85,6 +85,10 @@ class Solution:
         """Raises ValueError: of what the policy does not see it believes nothing."""
         raise ValueError("beliefs are known where there is neither noise nor variation")
 
+    def judge(self, episode: base.Episode) -> base.Judgement:
+        """Raises ValueError, as `beliefs` does."""
+        raise ValueError("what actions are worth is known where there is neither noise nor variation")
+
     def summary(self) -> dict[str, Any]:
         """Returns `value`, `bound`, the standard errors of both, `accuracy`, `mean_interactions` and `histogram`."""
         rewards, lengths = self._episodes

@@ -5,9 +5,10 @@ t, the sum of the likelihood ratios r(m) (odd one's density over a common one's)
 states are worth is found by going back from the last touch, on a grid.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 import dataclasses
 import functools
+import math
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from scipy.stats import qmc
 
 from physexp.agents import core
 from physexp.analysis.ideal import base
-from physexp.suite.engine import checks, priors
+from physexp.suite.engine import checks, priors, rules
 
 _LARGEST_NODES, _RATIO_NODES = 400, 33
 _QUADRATURE_NODES = 48  # Per half of each density; many more where there is only one state to integrate from.
@@ -77,11 +78,13 @@ class Solution:
 
     Attributes:
       prior, discount: of what it is the best.
+      step_limit: steps in an unanswered episode, which are taken for more than all touches and an answer need.
       find_read: finds out how values are read from what a task observes; None where they cannot be.
     """
 
     prior: priors.OddOneOut
     discount: float
+    step_limit: float = math.inf
     find_read: Callable[[], Read] | None = dataclasses.field(default=None, compare=False)
 
     @property
@@ -165,11 +168,39 @@ class Solution:
 
     def beliefs(self, episode: base.Episode) -> np.ndarray:
         """Returns the posterior at the start and after each action of an episode, float64 [T + 1, K]."""
-        known = np.full((len(episode.actions) + 1, self.prior.num_things), np.nan)
-        for step, action in enumerate(episode.actions):
-            if action < self.prior.num_things:
-                known[step + 1 :, action] = episode.hidden[action]
-        return posterior(known, self.prior)
+        return self.judge(episode).beliefs
+
+    def judge(self, episode: base.Episode) -> base.Judgement:
+        """Returns what could be known in an episode, and what its actions were worth."""
+        return self.judge_all(np.asarray(episode.hidden)[None], [episode.actions])[0]
+
+    def judge_all(self, values: np.ndarray, actions: Sequence[np.ndarray]) -> list[base.Judgement]:
+        """Returns the same of N episodes, much faster than one after the other.
+
+        Args:
+          values: of the things, float64 [N, K].
+          actions: of each episode, N arrays int64 [T].
+        """
+        num_things = self.prior.num_things
+        lengths = np.array([len(taken) + 1 for taken in actions])
+        ends = lengths.cumsum()
+        rows = np.repeat(np.arange(len(lengths)), lengths)
+        steps = np.arange(len(rows)) - np.repeat(ends - lengths, lengths)
+        taken = np.concatenate([np.append(row, num_things) for row in actions])  # None after the last one.
+        touched_at = np.full(values.shape, len(rows))
+        moments = np.flatnonzero(taken < num_things)[::-1]  # Of several touches of a thing the first one is kept.
+        touched_at[rows[moments], taken[moments]] = steps[moments]
+        is_known = steps[:, None] > touched_at[rows]
+        known = np.where(is_known, values[rows], np.nan)
+        beliefs = posterior(known, self.prior)
+        answer, touch = self.values(known)
+        again = self.discount * np.maximum(answer, touch)
+        touches = np.where(is_known, again[:, None], touch[:, None])
+        touches[steps >= self.step_limit - 1] = rules.WRONG  # Silence.
+        worth = np.concatenate([touches, base.worth_of_answers(beliefs)], axis=1)
+        tells = np.append(~is_known, np.zeros_like(is_known), axis=1)[np.arange(len(rows)), taken]
+        parts = [slice(start, end) for start, end in zip(ends - lengths, ends, strict=True)]
+        return [base.Judgement(beliefs[part], worth[part][:-1], tells[part][:-1]) for part in parts]
 
     def summary(self) -> dict[str, Any]:
         """Returns `value`, `at_once`, `random_value`, `accuracy`, `mean_interactions` and `histogram`."""
@@ -212,13 +243,18 @@ def _evenly_drawn_episodes(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
     return solution.play(solution.prior.from_uniforms(draws))
 
 
-def solve(prior: priors.OddOneOut, discount: float, find_read: Callable[[], Read] | None = None) -> Solution:
+def solve(
+    prior: priors.OddOneOut,
+    discount: float,
+    step_limit: float = math.inf,
+    find_read: Callable[[], Read] | None = None,
+) -> Solution:
     """Returns the best policy; its value is found to better than 0.0001.
 
     Args:
       prior: of 2 to 20 things, with a difficulty in [1, 1e6].
       discount: the agent's gamma, in (0, 1].
-      find_read: as in `Solution`.
+      step_limit, find_read: as in `Solution`.
 
     Raises:
       ValueError: for a value that makes no sense.
@@ -227,7 +263,7 @@ def solve(prior: priors.OddOneOut, discount: float, find_read: Callable[[], Read
     if not (isinstance(difficulty, (int, float)) and 1 <= difficulty <= _EASIEST):
         raise ValueError(f"difficulty is {difficulty!r}; give a number in [1, {_EASIEST:g}] (the paper's beta)")
     checks.integer("num_things", prior.num_things, 2, MOST_THINGS)
-    return Solution(prior, base.check_discount(discount), find_read)
+    return Solution(prior, base.check_discount(discount), step_limit, find_read)
 
 
 @functools.lru_cache(maxsize=64)

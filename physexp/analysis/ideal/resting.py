@@ -95,7 +95,7 @@ class _States:
     """
 
     def __init__(self, apparatus: Apparatus):
-        self._shape = -1, apparatus.num_interactions
+        self._num_interactions = apparatus.num_interactions
         first, _ = apparatus.alike(apparatus.start)
         self.index, states = {first: 0}, [first]
         outcomes: list[tuple[int, float, int]] = []  # Interaction and state in one number, probability, next state.
@@ -115,12 +115,19 @@ class _States:
                         ((len(chances) - 1) * apparatus.num_interactions + interaction, chance, self.index[after])
                     )
         self._moves, self._chances, self._following = (np.array(column) for column in zip(*outcomes, strict=True))
+        self._first = np.searchsorted(self._moves, np.arange(len(states) + 1) * apparatus.num_interactions)
         self.label = np.argmax(chances, axis=1)
-        self.answer = rules.WRONG + (rules.RIGHT - rules.WRONG) * np.max(chances, axis=1)
+        self.answer = base.worth_of_answers(np.max(chances, axis=1))
 
     def after(self, values: np.ndarray) -> np.ndarray:
         """Returns what is expected after each interaction, [S, A], of values of states, [S]."""
-        return np.bincount(self._moves, self._chances * values[self._following]).reshape(self._shape)
+        return np.bincount(self._moves, self._chances * values[self._following]).reshape(-1, self._num_interactions)
+
+    def after_one(self, number: int, values: np.ndarray) -> np.ndarray:
+        """Returns the same as `after` of a single state, [A]."""
+        outcomes = slice(self._first[number], self._first[number + 1])
+        expected = self._chances[outcomes] * values[self._following[outcomes]]
+        return np.bincount(self._moves[outcomes] - number * self._num_interactions, expected)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -144,6 +151,7 @@ class Solution:
     random_value: float
     _states: _States
     _policy: Sequence[np.ndarray]  # The best action of each state, int [S], by the steps that are left, from 1 on.
+    _best: Sequence[np.ndarray]  # What each state is worth, float64 [S], by the same.
     read: Callable[[Mapping[str, np.ndarray]], int] | None = None
     label: Callable[[np.ndarray], int] | None = None
 
@@ -173,21 +181,55 @@ class Solution:
             raise ValueError("the ideal experimenter reads features, not images; choose a task with features")
         return _Player(self, self.read)
 
+    def values(self, state: State, step: int) -> np.ndarray:
+        """Returns what each action is worth in a state after so many interactions, interactions first, [A + L]."""
+        answers = base.worth_of_answers(self.apparatus.posterior(state))
+        left = min(self.step_limit - step, len(self._best) + 1)
+        if left <= 1:  # Silence.
+            return np.append(np.full(self.apparatus.num_interactions, float(rules.WRONG)), answers)
+        alike, meant = self.apparatus.alike(state)
+        after = self._states.after_one(self._states.index[alike], self._best[left - 2])
+        interactions = np.empty(len(after))
+        interactions[list(meant[: len(after)])] = self.discount * after
+        return np.append(interactions, answers)
+
     def beliefs(self, episode: base.Episode) -> np.ndarray:
         """Returns the posterior at the start and after each action of an episode, float64 [T + 1, L].
 
         Raises:
           ValueError: if it was not told how the right label follows from what is hidden.
         """
+        return np.array([self.apparatus.posterior(state) for state in self._passed(episode)])
+
+    def judge(self, episode: base.Episode) -> base.Judgement:
+        """Returns what could be known in an episode, and what its actions were worth.
+
+        Raises:
+          ValueError: as `beliefs` does.
+        """
+        states = self._passed(episode)
+        return base.Judgement(
+            beliefs=np.array([self.apparatus.posterior(state) for state in states]),
+            values=np.array([self.values(state, step) for step, state in enumerate(states[:-1])]),
+            tells=np.array([self._tells(*taken) for taken in zip(states[:-1], map(int, episode.actions), strict=True)]),
+        )
+
+    def _passed(self, episode: base.Episode) -> list[State]:
+        """What is known at the start and after each action, T + 1."""
         if self.label is None:
             raise ValueError("this ideal experimenter was not told how the label follows from what is hidden")
-        label, state = self.label(episode.hidden), self.apparatus.start
-        found = [self.apparatus.posterior(state)]
+        label, states = self.label(episode.hidden), [self.apparatus.start]
         for action in map(int, episode.actions):
-            if action < self.apparatus.num_interactions:  # An answer tells nothing.
-                state = self._follow(state, action, label)
-            found.append(self.apparatus.posterior(state))
-        return np.array(found)
+            is_answer = action >= self.apparatus.num_interactions  # It tells nothing.
+            states.append(states[-1] if is_answer else self._follow(states[-1], action, label))
+        return states
+
+    def _tells(self, state: State, action: int) -> bool:
+        """Whether an action has several possible readings."""
+        if action >= self.apparatus.num_interactions:
+            return False
+        possible, setting = state
+        return len(split(possible, self.apparatus.readings(setting)[action])) > 1
 
     def _follow(self, state: State, interaction: int, label: int) -> State:
         """What is known after an interaction where a label is right."""
@@ -267,7 +309,7 @@ def solve(apparatus: Apparatus, discount: float, step_limit: int) -> Solution:
     steps = checks.integer("step_limit", step_limit, 1, _MOST_STEPS)
     states = _States(apparatus)
     answers = apparatus.num_interactions + states.label
-    policy = [answers]  # At the last step nothing is worth more than an answer.
+    policy, worth = [answers], [states.answer]  # At the last step nothing is worth more than an answer.
     best, at_random, length = states.answer, states.answer, np.zeros(len(answers))
     for _ in range(steps - 1):
         before = best, at_random, length
@@ -278,10 +320,11 @@ def solve(apparatus: Apparatus, discount: float, step_limit: int) -> Solution:
         policy.append(np.where(going_on, lengths.argmin(axis=1), answers))
         length = np.where(going_on, lengths.min(axis=1), 0.0)
         best = np.maximum(states.answer, most)
+        worth.append(best)
         at_random = np.maximum(states.answer, discount * states.after(at_random).mean(axis=1))
         if all(np.array_equal(*pair) for pair in zip(before, (best, at_random, length), strict=True)):
             break  # Nor does it change with more steps.
-    return Solution(apparatus, discount, steps, float(best[0]), float(at_random[0]), states, policy)
+    return Solution(apparatus, discount, steps, float(best[0]), float(at_random[0]), states, policy, worth)
 
 
 def of_task(

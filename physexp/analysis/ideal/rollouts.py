@@ -1,6 +1,7 @@
 """Plays episodes with actors that are not networks, and thus cannot decide for many environments at once."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+import dataclasses
 from typing import Any
 
 import dm_env
@@ -8,6 +9,49 @@ import numpy as np
 
 from physexp import suite
 from physexp.agents import core
+
+
+@dataclasses.dataclass(frozen=True)
+class Step:
+    """A step of those of the environments whose episodes are not over.
+
+    Attributes:
+      rows: which they are, int64 [M].
+      observation: what was observed before, arrays [M, ...].
+      actions: what was done, int64 [M].
+      after: what followed, a TimeStep of arrays [M, ...].
+    """
+
+    rows: np.ndarray
+    observation: Mapping[str, np.ndarray]
+    actions: np.ndarray
+    after: dm_env.TimeStep
+
+
+def play_round(actors: Sequence[core.Actor], batch: core.Batch, episode: int) -> Iterator[Step]:
+    """Plays an episode with each of N actors side by side; yields its steps.
+
+    Args:
+      actors: N of them.
+      batch: N environments.
+      episode: index of the episode that each starts.
+    """
+    rows, before = np.arange(len(actors)), batch.reset(episode=episode)
+    timesteps = _separate(before)
+    for actor, timestep in zip(actors, timesteps, strict=True):
+        actor.observe_first(timestep)
+    while len(rows):
+        seen = zip(rows.tolist(), timesteps, strict=True)
+        actions = np.array([actors[i].select_action(timestep.observation) for i, timestep in seen], np.int64)
+        after = batch.step(actions, rows)
+        yield Step(rows, before.observation, actions, after)
+        timesteps = _separate(after)
+        for i, action, timestep in zip(rows.tolist(), actions.tolist(), timesteps, strict=True):
+            actors[i].observe(action, timestep)
+            actors[i].update()
+        going = after.step_type != dm_env.StepType.LAST
+        rows, timesteps = rows[going], [timestep for timestep in timesteps if not timestep.last()]
+        before = after._replace(observation={name: value[going] for name, value in after.observation.items()})
 
 
 def play(
@@ -32,19 +76,9 @@ def play(
     batch = suite.load_batch(domain, task, len(actors), {**task_kwargs, "random": seed})
     rewards, lengths = np.zeros((num_episodes, len(actors))), np.zeros((num_episodes, len(actors)), np.int64)
     for episode in range(num_episodes):
-        timesteps = dict(enumerate(_separate(batch.reset(episode=episode))))
-        for i, timestep in timesteps.items():
-            actors[i].observe_first(timestep)
-        while timesteps:
-            actions = {i: actors[i].select_action(timestep.observation) for i, timestep in timesteps.items()}
-            following = batch.step(np.array(list(actions.values())), np.array(list(actions)))
-            timesteps = dict(zip(actions, _separate(following), strict=True))
-            for i, timestep in timesteps.items():
-                actors[i].observe(actions[i], timestep)
-                actors[i].update()
-                rewards[episode, i] = timestep.reward
-                lengths[episode, i] += 1
-            timesteps = {i: timestep for i, timestep in timesteps.items() if not timestep.last()}
+        for step in play_round(actors, batch, episode):
+            rewards[episode, step.rows] = step.after.reward
+            lengths[episode, step.rows] += 1
     batch.close()
     return rewards, lengths
 

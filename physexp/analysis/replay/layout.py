@@ -101,12 +101,12 @@ def _about(root: str) -> rrb.Container:
 
 def _seen(episode: recording.Episode, root: str) -> rrb.View | rrb.Container:
     """Returns the images, and plots of the readings; in tabs, where there are several."""
-    curves, seen = functools.partial(_curves, episode, root), readings.shown(episode.declared.readings)
+    curves, seen = functools.partial(_curves, episode, root), readings.shown(episode.declared.all_readings)
     seen = [reading for reading in seen if reading.name in episode.observations]
     views: list[rrb.View] = [
         rrb.Spatial2DView(origin=f"{root}/seen/{name}", name=titled(root, "seen: the image"))
         for name in episode.observations
-        if name not in episode.declared.readings
+        if name not in episode.declared.all_readings
     ]
     if any(reading.is_position for reading in seen):
         views.append(curves("seen: distance from start, m", ["seen/moved"]))

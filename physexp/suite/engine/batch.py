@@ -316,6 +316,7 @@ class BatchEnvironment:
             group.reset(rows, self._ledger.hidden[rows], self._ledger.nuisances[rows])
             group.look_first(rows, self._observations)
         self._task.add_noise(self._ledger, chosen, self._observations)
+        self._task.reveal_answers(self._ledger, chosen, self._observations)
 
     def _interact(self, chosen: np.ndarray, actions: np.ndarray) -> np.ndarray:
         """Simulates one control step; returns the environments that diverged."""

@@ -19,6 +19,8 @@ class Options:
       time_limit: time after which an unanswered episode ends, rounded up to whole control steps, s.
       variation: how far episodes differ in what is not asked, as where things stand, from 0, where they do not, to 1.
       noise: standard deviation of what is added to every reading in metres, at each control step anew, m.
+      reveal: observe the right answer from the first step on, as `answer`: 1 for the right label and 0 for the others.
+        Who fails even so has not learned to answer.
       visualize_reward: colour the floor by the outcome at the end of an episode.
 
     Raises:
@@ -32,6 +34,7 @@ class Options:
     time_limit: float
     variation: float = 0.0
     noise: float = 0.0
+    reveal: bool = False
     visualize_reward: bool = False
 
     def __post_init__(self):
@@ -43,6 +46,7 @@ class Options:
             object.__setattr__(self, name, seconds)
         object.__setattr__(self, "variation", checks.between("variation", self.variation, 0, 1))
         object.__setattr__(self, "noise", checks.number("noise", self.noise, 0, "m"))
+        object.__setattr__(self, "reveal", checks.flag("reveal", self.reveal))
         if self.substeps < 1 or abs(self.substeps * self.physics_timestep - self.control_timestep) > 1e-9:
             raise ValueError(
                 f"control_timestep is {self.control_timestep} s; "

@@ -18,6 +18,7 @@ from physexp.suite.engine import options as options_lib
 from physexp.suite.engine import senses as senses_lib
 
 CAMERA_VARIATION = 0.02  # m, in each direction
+ANSWER = "answer"  # The name of what is observed of the right label, where it is revealed.
 
 _OK_RGBA, _WRONG_RGBA = (0.45, 0.75, 0.45, 1.0), (0.80, 0.45, 0.40, 1.0)
 _ROW = np.zeros(1, np.intp)  # The only row of a single environment.
@@ -72,6 +73,8 @@ class QuestionTask(composer.Task):
             raise ValueError(f"noise is {options.noise:g}; give 0 where no reading in metres is observed")
         if options.variation and not self.num_nuisances:
             raise ValueError(f"variation is {options.variation:g}; give 0 where episodes differ in nothing else")
+        if options.reveal and sense.needs_gl:
+            raise ValueError("reveal is True; give False where images are observed, or choose a task with features")
         self._ledger = episodes.Ledger(self, 1)
         self._ledger.seeds[:] = options.random
         self._given_hidden: np.ndarray | None = None
@@ -187,6 +190,13 @@ class QuestionTask(composer.Task):
         interactions = (interaction.name for interaction in self.interactions)
         return [*interactions, *(f"answer: {name}" for name in self.label_names)]
 
+    @functools.cached_property
+    def all_readings(self) -> dict[str, declarations.Reading]:
+        """The features, by name, and the right answer where it is revealed."""
+        if not self.options.reveal:
+            return dict(self.readings)
+        return {**self.readings, ANSWER: declarations.Reading((), (self.num_labels,), unit="", bounds=(0.0, 1.0))}
+
     @property
     def hidden(self) -> np.ndarray:
         """Returns the hidden property of the current episode, which is never part of an observation."""
@@ -238,7 +248,7 @@ class QuestionTask(composer.Task):
         described = {}
         for name, blank in self.blank_observations(1).items():
             array = specs.Array(blank.shape[1:], blank.dtype, name)
-            bounds = self.readings[name].bounds if name in self.readings and not self.options.noise else None
+            bounds = self.all_readings[name].bounds if name in self.all_readings and not self.options.noise else None
             if bounds is not None:
                 array = specs.BoundedArray(array.shape, array.dtype, *bounds, name)
             described[name] = array
@@ -273,7 +283,7 @@ class QuestionTask(composer.Task):
 
     def blank_observations(self, size: int) -> dict[str, np.ndarray]:
         """Returns arrays for the observations of `size` environments."""
-        return self.sense.blank({name: reading.shape for name, reading in self.readings.items()}, size)
+        return self.sense.blank({name: reading.shape for name, reading in self.all_readings.items()}, size)
 
     def look(self, apparatus: apparatus_lib.Apparatus, state, touched, starts, rows, observations) -> None:
         """Writes the observations of some simulations.
@@ -314,6 +324,11 @@ class QuestionTask(composer.Task):
         for (name, shape), part in zip(self._noisy.items(), parts, strict=True):
             observations[name][rows] += part.reshape(len(part), *shape).astype(np.float32)
 
+    def reveal_answers(self, ledger: episodes.Ledger, rows, observations) -> None:
+        """Writes the right answers, where they are observed; arguments as for `add_noise`."""
+        if self.options.reveal:
+            observations[ANSWER][rows] = ledger.answers[rows, None] == np.arange(self.num_labels)
+
     def close(self) -> None:
         """Frees what the sense holds. A closed task can be played again."""
         self.sense.close()
@@ -353,6 +368,7 @@ class QuestionTask(composer.Task):
         physics.data.qpos[:] = self._starts.qpos[0]
         self._action = 0
         self._look({field: self._starts.shown[field] for field in self.sense.fields})
+        self.reveal_answers(self._ledger, _ROW, self._seen)
         if self.options.visualize_reward:
             physics.bind(self._arena.floor).rgba = self._arena.floor.rgba
 

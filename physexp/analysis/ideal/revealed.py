@@ -1,0 +1,71 @@
+"""The ideal experimenter of a task that reveals the right answer: it has nothing to find out, and answers at once."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from physexp import suite
+from physexp.agents import core
+from physexp.analysis.ideal import base
+from physexp.suite.engine import rules
+from physexp.suite.engine import task as task_lib
+
+
+class Solution:
+    """The best policy, which names the answer that it sees."""
+
+    value = bound = at_once = random_value = float(rules.RIGHT)
+
+    def __init__(self, domain: str, task: str, task_kwargs: Mapping[str, Any], discount: float):
+        """Takes what is played, as for `suite.load`, and the agent's gamma.
+
+        Raises:
+          ValueError: for a value that makes no sense.
+        """
+        self.discount = base.check_discount(discount)
+        self._task = suite.load_task(domain, task, dict(task_kwargs))
+
+    def actor(self) -> core.Actor:
+        """Returns an actor that gives the answer that it sees."""
+        return _Player(self._task.num_interactions)
+
+    def beliefs(self, episode: base.Episode) -> np.ndarray:
+        """Returns one at the right label and 0 elsewhere, at the start and after each action, float64 [T + 1, L]."""
+        return np.repeat(self._known(episode)[None], len(episode.actions) + 1, axis=0)
+
+    def judge(self, episode: base.Episode) -> base.Judgement:
+        """Returns what the actions were worth: an interaction, as much as an answer a step later."""
+        num_interactions, num_actions = self._task.num_interactions, self._task.rules.num_actions
+        values = np.empty((len(episode.actions), num_actions))
+        values[:, :num_interactions] = self.discount * rules.RIGHT
+        values[self._task.rules.step_limit - 1 :, :num_interactions] = rules.WRONG  # Silence.
+        values[:, num_interactions:] = rules.WRONG + (rules.RIGHT - rules.WRONG) * self._known(episode)
+        return base.Judgement(self.beliefs(episode), values, np.zeros(len(episode.actions), bool))
+
+    def _known(self, episode: base.Episode) -> np.ndarray:
+        return np.eye(self._task.num_labels)[self._task.answers(np.asarray(episode.hidden)[None])[0]]
+
+    def summary(self) -> dict[str, Any]:
+        """Returns `value`, `bound`, `at_once`, `random_value`, `accuracy`, `mean_interactions` and `histogram`."""
+        figures = {name: self.value for name in ("value", "bound", "at_once", "random_value", "accuracy")}
+        return {**figures, "mean_interactions": 0.0, "histogram": {0: 1.0}}
+
+
+class _Player(core.Actor):
+    """Plays the solution."""
+
+    def __init__(self, num_interactions: int):
+        self._num_interactions = num_interactions
+
+    def observe_first(self, timestep):
+        """Does nothing: each observation tells all."""
+
+    def select_action(self, observation) -> int:
+        return self._num_interactions + int(observation[task_lib.ANSWER].argmax())
+
+    def observe(self, action, next_timestep):
+        """Does nothing: each observation tells all."""
+
+    def update(self):
+        """Does nothing: it knows all that can be known."""
