@@ -25,6 +25,7 @@ FLOORS = (
     ("domains",),
     ("training",),
     ("evaluation",),
+    ("score",),
     ("experiments",),
     ("replay",),
     ("reproduction",),

@@ -1,6 +1,6 @@
 """The commands by name, in the order in which help lists them."""
 
-from physexp.cli import experiments, ideal, playing, tasks, train
+from physexp.cli import experiments, ideal, playing, score, tasks, train
 
 COMMANDS = {
     "tasks": tasks.Tasks,
@@ -10,6 +10,8 @@ COMMANDS = {
     "play": playing.Play,
     "publish": playing.Publish,
     "ideal": ideal.Ideal,
+    "score": score.Score,
+    "verify": score.Verify,
     "reproduce": experiments.Reproduce,
     "report": experiments.Report,
     "bench": experiments.Bench,

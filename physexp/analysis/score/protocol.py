@@ -1,0 +1,135 @@
+"""The protocol of the score: what is played, how often, and which ideal experimenter it is compared with.
+
+Everybody plays the same instances: episode e of a task is that of index e in the environment of one seed.
+"""
+
+from collections.abc import Mapping, Sequence
+import dataclasses
+import functools
+
+from dm_env import specs
+import numpy as np
+
+from physexp import suite
+from physexp.analysis import domains
+from physexp.analysis.ideal import base as ideal_base
+
+VERSION = "v1"
+SEED = 2_000_003  # Of the environments, apart from those of training and of evaluation.
+ENVIRONMENT_SEED = suite.environment_seed(SEED, 0)  # With it and an episode's index `suite.load` makes the instance.
+EPISODES, QUICK_EPISODES = 1_000, 100  # Of each task.
+MOST_EPISODES = 100_000
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Question:
+    """What an agent is told of a task before it plays: what is written in the documentation, and nothing of an episode.
+
+    Attributes:
+      domain, task: as for `suite.load`.
+      question: what is asked, in words.
+      observation_spec: specs of what is observed, by name.
+      action_spec: the spec of an action.
+      num_interactions: how many of the actions are interactions; they come first, answers after them.
+      label_names: the answers, in words.
+      action_names: what each action does or says, in words.
+      step_limit: actions in an episode at most; the last one in time should be an answer.
+      discount: gamma: what counts is the reward times gamma to the power of the actions before the last.
+    """
+
+    domain: str
+    task: str
+    question: str
+    observation_spec: Mapping[str, specs.Array]
+    action_spec: specs.DiscreteArray
+    num_interactions: int
+    label_names: tuple[str, ...]
+    action_names: tuple[str, ...]
+    step_limit: int
+    discount: float
+
+    @property
+    def name(self) -> str:
+        """Domain and task, as in `towers/fist_features`."""
+        return f"{self.domain}/{self.task}"
+
+    @property
+    def num_actions(self) -> int:
+        """How many actions there are."""
+        return self.action_spec.num_values
+
+
+@functools.cache
+def question(domain: str, task: str) -> Question:
+    """Returns the question of a task.
+
+    Raises:
+      ValueError: for an unknown name; it lists those that there are.
+    """
+    played = suite.load_task(domain, task)
+    return Question(
+        domain=domain,
+        task=task,
+        question=played.question,
+        observation_spec=played.observation_spec(),
+        action_spec=played.action_spec(),
+        num_interactions=played.num_interactions,
+        label_names=tuple(played.label_names),
+        action_names=tuple(played.action_names),
+        step_limit=played.rules.step_limit,
+        discount=domains.find(domain).discount,
+    )
+
+
+def ideal(asked: Question) -> ideal_base.Solution:
+    """Returns the ideal experimenter that agents are compared with.
+
+    Raises:
+      ValueError: if none is known who says what every action was worth.
+    """
+    known = domains.find(asked.domain)
+    observer = known.observer.get(asked.task, {})
+    solution = known.ideal(asked.task, {}, asked.discount, **observer) if known.ideal is not None else None
+    if solution is None or not hasattr(solution, "judge"):
+        raise ValueError(
+            f"{asked.name} has no score: no ideal experimenter is known that says what every action there is worth; "
+            f"choose from {', '.join(one.name for one in observing('all'))}"
+        )
+    return solution
+
+
+def load(asked: Question) -> suite.BatchEnvironment:
+    """Returns the environment that is played, a batch of one."""
+    return suite.load_batch(asked.domain, asked.task, 1, {"random": SEED})
+
+
+def drawn(asked: Question, num_episodes: int) -> np.ndarray:
+    """Returns the hidden properties of the first episodes, [N, ...]."""
+    seeds = np.full(num_episodes, ENVIRONMENT_SEED)
+    return suite.load_task(asked.domain, asked.task).draw(seeds, np.arange(num_episodes))
+
+
+def named(names: Sequence[str]) -> tuple[Question, ...]:
+    """Returns the questions of tasks, given as `domain/task`, each once.
+
+    Raises:
+      ValueError: for an unknown name; it lists those that there are.
+    """
+    known = {f"{domain}/{task}": (domain, task) for domain, task in suite.ALL_TASKS}
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        raise ValueError(f"task is {unknown[0]!r}; choose from {', '.join(known)}")
+    return tuple(question(*known[name]) for name in dict.fromkeys(names))
+
+
+def observing(kind: str) -> tuple[Question, ...]:
+    """Returns the questions of all tasks that have a score and observe `features`, `pixels`, or, for `all`, either."""
+    names = suite.ALL_TASKS if kind == "all" else suite.tagged(kind)
+    return tuple(question(domain, task) for domain, task in names if _is_judged(domain, task))
+
+
+@functools.cache
+def _is_judged(domain: str, task: str) -> bool:
+    """Returns whether the ideal experimenter of a task says what actions are worth."""
+    known = domains.find(domain)
+    return known.ideal is not None and hasattr(known.ideal(task, {}, known.discount), "judge")

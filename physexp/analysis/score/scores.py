@@ -1,0 +1,143 @@
+"""From the log to the score: the share of the ideal's return, where the rest of it went, and over all domains.
+
+A task's score is 0 for the better of answering at once and never answering, and 1 for the optimum. Over domains it is
+the interquartile mean with a stratified bootstrap (Agarwal et al., 2021). Their `rliable` draws again from the runs of
+an algorithm, and trims single ones; here one agent plays, its episodes are drawn again, within each task, and domains
+are trimmed, which is scipy's trimmed mean.
+"""
+
+from collections.abc import Mapping, Sequence
+import dataclasses
+from typing import Any
+
+import numpy as np
+from scipy import stats
+
+from physexp.analysis.ideal import mistakes
+from physexp.analysis.score import protocol, reference
+from physexp.suite.engine import rules
+
+_RESAMPLES = 2_000
+_CUT = 0.25  # Of the domains, on either side of the interquartile mean.
+
+
+@dataclasses.dataclass(frozen=True)
+class TaskScore:
+    """What an agent earned on one task, from N episodes.
+
+    Attributes:
+      asked: the task.
+      ideal, at_once, floor: returns of the optimum, of the likeliest answer given at once, and of the better of that
+        and of no answer.
+      costs: of each episode by kind of mistake, as shares of ideal - floor, float64 [N] each.
+      raw: scores of the returns, float64 [N].
+      length: actions in each episode, int64 [N].
+      right, silent: how each ended, bool [N].
+      bits: of information about the answer in each, float64 [N].
+    """
+
+    asked: protocol.Question
+    ideal: float
+    at_once: float
+    floor: float
+    costs: Mapping[str, np.ndarray]
+    raw: np.ndarray
+    length: np.ndarray
+    right: np.ndarray
+    silent: np.ndarray
+    bits: np.ndarray
+
+    @property
+    def scores(self) -> np.ndarray:
+        """Returns the score of each episode, without luck, float64 [N]."""
+        return 1 - np.sum(list(self.costs.values()), axis=0)
+
+    def figures(self, seed: int) -> dict[str, Any]:
+        """Returns figures by name; the score and the mistakes sum to 1, the score and the luck to the raw score."""
+        interactions = self.length - ~self.silent
+        known = reference.of(self.asked, len(self.length))
+        return {
+            "episodes": len(self.length),
+            "ideal": self.ideal,
+            "floor": self.floor,
+            "at_once": self.at_once,
+            "score": float(self.scores.mean()),
+            "interval": _interval(_resampled(self.scores, seed)),
+            "raw_score": float(self.raw.mean()),
+            "raw_interval": _interval(_resampled(self.raw, seed)),
+            "luck": float((self.raw - self.scores).mean()),
+            "mistakes": {kind: float(cost.mean()) for kind, cost in self.costs.items()},
+            "success_rate": float(self.right.mean()),
+            "timeouts": int(self.silent.sum()),
+            "mean_interactions": float(interactions.mean()),
+            "ideal_interactions": known and known.interactions,
+            "bits_per_interaction": float(self.bits.sum() / max(1, interactions.sum())),
+            "ideal_bits_per_interaction": known and known.bits,
+        }
+
+
+def of_task(asked: protocol.Question, columns: Mapping[str, np.ndarray]) -> TaskScore:
+    """Returns the score of a task.
+
+    Args:
+      asked: the task.
+      columns: of the log, of its rows alone: whole episodes, one after the other.
+    """
+    first = columns["step"] == 0
+    index = np.cumsum(first) - 1
+    last = np.append(first[1:], True)
+    are_answers = columns["action"] >= asked.num_interactions
+    factors = asked.discount ** columns["step"].astype(float)
+    ideal, at_once = float(columns["value"][0]), float(columns["answering"][0])
+    floor = max(at_once, rules.WRONG * asked.discount ** (asked.step_limit - 1))
+
+    def discounted(values: np.ndarray) -> np.ndarray:
+        return np.bincount(index, factors * values)
+
+    judged = mistakes.Actions(**{field.name: columns[field.name] for field in dataclasses.fields(mistakes.Actions)})
+    costs = mistakes.costs(judged, are_answers, last & ~are_answers)
+    return TaskScore(
+        asked=asked,
+        ideal=ideal,
+        at_once=at_once,
+        floor=floor,
+        costs={kind: discounted(cost) / (ideal - floor) for kind, cost in costs.items()},
+        raw=(discounted(columns["reward"]) - floor) / (ideal - floor),
+        length=np.bincount(index),
+        right=columns["reward"][last] > 0,
+        silent=~are_answers[last],
+        bits=np.bincount(index, columns["bits"]),
+    )
+
+
+def summary(found: Sequence[TaskScore]) -> dict[str, Any]:
+    """Returns the figures of all tasks, at least one, of their domains, and over the domains."""
+    means: dict[str, list[float]] = {}
+    again: dict[str, list[np.ndarray]] = {}
+    for seed, one in enumerate(found):
+        means.setdefault(one.asked.domain, []).append(one.scores.mean())
+        again.setdefault(one.asked.domain, []).append(_resampled(one.scores, seed))
+    of_domains = np.array([np.mean(parts) for parts in means.values()])
+    resampled = np.array([np.mean(parts, axis=0) for parts in again.values()])
+    return {
+        "tasks": {one.asked.name: one.figures(seed) for seed, one in enumerate(found)},
+        "domains": {
+            name: {"score": float(score), "interval": _interval(drawn)}
+            for name, score, drawn in zip(means, of_domains, resampled, strict=True)
+        },
+        "whole": {
+            "score": float(stats.trim_mean(of_domains, _CUT)),
+            "interval": _interval(stats.trim_mean(resampled, _CUT, axis=0)),
+        },
+    }
+
+
+def _resampled(values: np.ndarray, seed: int) -> np.ndarray:
+    """Returns means of values, [N], drawn again with replacement, float64 [_RESAMPLES]."""
+    generator = np.random.default_rng(seed)
+    return np.array([values[generator.integers(len(values), size=len(values))].mean() for _ in range(_RESAMPLES)])
+
+
+def _interval(means: np.ndarray) -> list[float]:
+    """Returns the ends of the 95 % interval of what was drawn again."""
+    return [float(end) for end in np.quantile(means, [0.025, 0.975])]

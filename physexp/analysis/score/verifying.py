@@ -1,0 +1,132 @@
+"""Verifies a score: plays the logged actions again, bit for bit, and says what does not follow from them."""
+
+from collections.abc import Callable, Mapping, Sequence
+import itertools
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from physexp import suite
+from physexp.analysis.score import episodes, judging, log, protocol, scoring
+
+_TOLERANCE = 1e-9  # Of what is computed in floating point, on whatever machine.
+
+
+def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dict[str, Any]:
+    """Plays what a folder's log says again; returns how many episodes and actions there are, and the score.
+
+    Args:
+      folder: what `scoring.score` has written.
+      show: called with how many episodes have been played.
+
+    Raises:
+      OSError: if a file is missing.
+      ValueError: if anything differs; the line names what.
+    """
+    written, found = scoring.read(folder), log.read(folder)
+    questions = protocol.named(written["protocol"]["tasks"])
+    path = folder / log.FILE
+    columns = {asked.name: log.of_task(found, asked) for asked in questions}
+    _check_order(path, found["domain"].to_numpy(), found["task"].to_numpy(), [asked.name for asked in questions])
+    counts = [int((columns[asked.name]["step"] == 0).sum()) for asked in questions]
+    _check_counts(folder, written, questions, counts)
+    done = 0
+    for asked in questions:
+        environment, judge = protocol.load(asked), judging.Judge(protocol.ideal(asked))
+        for number, logged in enumerate(_split(columns[asked.name])):
+            place = f"{path}: {asked.name}, episode {number}"
+            episode = _play(environment, place, logged, number)
+            _compare(place, logged, log.rows(asked, protocol.ENVIRONMENT_SEED, number, episode, judge))
+            done += 1
+            show(done)
+        environment.close()
+    again = scoring.figures(found, questions)
+    _compare_figures(folder / scoring.FILE, {name: written[name] for name in again}, again)
+    return {"episodes": done, "actions": len(found), "target": written["target"], "score": written["whole"]["score"]}
+
+
+def _check_order(path: Path, domains: np.ndarray, tasks: np.ndarray, wanted: Sequence[str]) -> None:
+    """Refuses rows of other tasks, and tasks in another order."""
+    names = domains + "/" + tasks
+    starts = np.flatnonzero([before != name for before, name in itertools.pairwise(["", *names])])
+    for start, name in zip(starts, [*wanted, "no further task"], strict=False):
+        if names[start] != name:
+            raise ValueError(
+                f"{path}: row {start} is of {names[start]}, where {name} is expected; put back what was played"
+            )
+
+
+def _check_counts(
+    folder: Path, written: Mapping[str, Any], questions: Sequence[protocol.Question], counts: Sequence[int]
+) -> None:
+    """Refuses another number of episodes than was asked for; what was ended early has all of them until its end."""
+    asked_for = written["protocol"]["episodes"]
+    if written["protocol"]["seed"] != protocol.SEED:
+        raise ValueError(f"{folder / scoring.FILE}: seed is {written['protocol']['seed']} instead of {protocol.SEED}")
+    reached = max((number for number, count in enumerate(counts) if count), default=0)
+    for number, (asked, count) in enumerate(zip(questions, counts, strict=True)):
+        may_be_less = not written["complete"] and number >= reached
+        if count > asked_for or (count < asked_for and not may_be_less):
+            raise ValueError(f"{folder / log.FILE}: {asked.name} has {count} episodes instead of {asked_for}")
+
+
+def _split(columns: Mapping[str, np.ndarray]) -> list[dict[str, np.ndarray]]:
+    """Returns the columns of each episode of a task; an episode begins with step 0."""
+    starts = np.flatnonzero(columns["step"] == 0)
+    bounds = [0, *starts[1:], len(columns["step"])] if len(starts) else []
+    return [{name: values[a:b] for name, values in columns.items()} for a, b in zip(bounds, bounds[1:], strict=False)]
+
+
+def _play(
+    environment: suite.BatchEnvironment, place: str, logged: Mapping[str, np.ndarray], number: int
+) -> episodes.Episode:
+    """Plays the logged actions of an episode."""
+    actions = logged["action"].tolist()
+
+    def act(step: int, timestep) -> int:
+        if step == len(actions):
+            raise ValueError(f"{place}: the episode does not end with its last row, step {step - 1}; rows are missing")
+        if not 0 <= actions[step] < environment.task.rules.num_actions:
+            raise ValueError(f"{place}, step {step}: action is {actions[step]}, which is none")
+        return actions[step]
+
+    played = episodes.play(environment, act, number)
+    if len(played.actions) < len(actions):
+        raise ValueError(f"{place}: the episode ends with step {len(played.actions) - 1}, and there are more rows")
+    return played
+
+
+def _compare(place: str, logged: Mapping[str, np.ndarray], again: Mapping[str, np.ndarray]) -> None:
+    """Refuses what is not the same when it is played again."""
+    for name in log.SCHEMA.names:
+        theirs, ours = logged[name], again[name]
+        is_close = name in log.JUDGED.names and ours.dtype.kind == "f"
+        differs = ~np.isclose(theirs, ours, rtol=0, atol=_TOLERANCE) if is_close else theirs != ours
+        if differs.any():
+            step = int(differs.argmax())
+            raise ValueError(
+                f"{place}, step {step}: {name} is {theirs[step]}, and {ours[step]} when it is played again; the log "
+                "was changed, or another version made it"
+            )
+
+
+def _compare_figures(path: Path, written: Any, again: Mapping[str, Any], place: str = "") -> None:
+    """Refuses figures that do not follow from the log."""
+    if not isinstance(written, dict) or set(written) - set(again):
+        raise ValueError(f"{path}: {place or 'it '}has other figures than {', '.join(again)}; score again, elsewhere")
+    for name, ours in again.items():
+        theirs = written.get(name)
+        if isinstance(ours, dict):
+            _compare_figures(path, theirs, ours, f"{place}{name}, ")
+        elif not _are_close(theirs, ours):
+            raise ValueError(f"{path}: {place}{name} is {theirs}, and {ours} by the log; score again, elsewhere")
+
+
+def _are_close(theirs: Any, ours: Any) -> bool:
+    if isinstance(ours, list):
+        return isinstance(theirs, list) and len(theirs) == len(ours) and all(map(_are_close, theirs, ours))
+    if ours is None or isinstance(theirs, bool) or not isinstance(theirs, (int, float)):
+        return theirs is None and ours is None
+    return math.isclose(theirs, ours, rel_tol=0, abs_tol=_TOLERANCE)

@@ -1,0 +1,129 @@
+"""Commands that put a number on anything that experiments."""
+
+import dataclasses
+from pathlib import Path
+import re
+from typing import Annotated, Literal
+
+import tyro
+from tyro.conf import Positional
+
+from physexp.cli import printing
+from physexp.cli.arguments import OptionalInt, OptionalPath, Switch
+
+
+@dataclasses.dataclass
+class Score:
+    """Play a fixed protocol with anything that experiments: its share of the ideal's return, and where the rest went.
+
+    Attributes:
+      tasks: what it plays, as DOMAIN/TASK; by default all that it can of --observations.
+      observations: the kind of tasks that it plays where none are named.
+      quick: 100 episodes of each task instead of 1000.
+      episodes: of each task.
+      greedy: a trained agent takes its likeliest actions instead of drawing them.
+      timeout: for each call of the agent, s.
+      output: the folder for the log and the figures; by default one named after the target, under scores/.
+      json: print JSON.
+    """
+
+    target: Annotated[
+        Positional[str],
+        tyro.conf.arg(
+            metavar="TARGET",
+            help="the folder of a run; DOMAIN/TASK for the agent that comes with the package; MODULE:FUNCTION for an "
+            "agent of your own (docs/score.md); or random, at_once, silent, ideal.",
+        ),
+    ]
+    tasks: Annotated[tuple[str, ...], tyro.conf.arg(metavar="DOMAIN/TASK ...", help_behavior_hint="")] = ()
+    observations: Literal["features", "pixels", "all"] = "features"
+    quick: Switch = False
+    episodes: OptionalInt = None
+    greedy: Switch = False
+    timeout: float = 60.0
+    output: OptionalPath = None
+    json: Switch = False
+
+    def run(self) -> None:
+        from physexp.analysis.score import protocol, scoring, targets
+        from physexp.analysis.training import progress
+
+        can = targets.suitable(self.target)
+        chosen = protocol.named(self.tasks) if self.tasks else can or protocol.observing(self.observations)
+        refused = [asked.name for asked in chosen if can is not None and asked not in can]
+        if refused:
+            raise ValueError(
+                f"{self.target} does not play {refused[0]}; it plays {', '.join(asked.name for asked in can or ())}"
+            )
+        usual = protocol.QUICK_EPISODES if self.quick else protocol.EPISODES
+        count = usual if self.episodes is None else self.episodes
+        folder = self.output or Path("scores") / re.sub(r"\W+", "_", self.target).strip("_")
+        try:
+            with progress.bar("episodes", count * len(chosen)) as show:
+                found = scoring.score(
+                    self.target, chosen, count, folder, greedy=self.greedy, timeout=self.timeout, show=show
+                )
+        except KeyboardInterrupt:
+            printing.warn(f"the episodes that were played are in {folder}")
+            raise
+        if self.json:
+            printing.show(found, as_json=True)
+            return
+        printing.show_rows(_rows(found), as_json=False)
+        print(folder)
+
+
+def _rows(found: dict) -> list[dict]:
+    """Returns a line for each task, for each domain of several tasks, and for the whole."""
+    tasks = found["tasks"]
+    rows = [
+        {
+            "task": name,
+            **_score(figures),
+            "right": figures["success_rate"],
+            "interactions": figures["mean_interactions"],
+            "lost most by": _worst(figures["mistakes"]),
+        }
+        for name, figures in tasks.items()
+    ]
+    several = [name for name in found["domains"] if sum(task.startswith(f"{name}/") for task in tasks) > 1]
+    totals = {name: found["domains"][name] for name in several}
+    if len(found["domains"]) > 1:
+        totals["all domains"] = found["whole"]
+    rest = {"right": "", "interactions": "", "lost most by": ""}
+    return rows + [{"task": name, **_score(figures), **rest} for name, figures in totals.items()]
+
+
+def _score(figures: dict) -> dict:
+    return {"score": figures["score"], "95 % interval": figures["interval"]}
+
+
+def _worst(mistakes: dict[str, float]) -> str:
+    kind = max(mistakes, key=lambda name: mistakes[name])
+    return f"{kind} {mistakes[kind]:.4f}" if mistakes[kind] > 0 else "nothing"
+
+
+@dataclasses.dataclass
+class Verify:
+    """Play the actions of a score's log again, bit for bit, and say whether everything in the folder follows from them.
+
+    Attributes:
+      json: print JSON.
+    """
+
+    folder: Annotated[Positional[Path], tyro.conf.arg(metavar="FOLDER", help="what `physexp score` has written.")]
+    json: Switch = False
+
+    def run(self) -> None:
+        from physexp.analysis.score import scoring, verifying
+        from physexp.analysis.training import progress
+
+        asked = scoring.read(self.folder)["protocol"]
+        with progress.bar("episodes", asked["episodes"] * len(asked["tasks"])) as show:
+            found = verifying.verify(self.folder, show)
+        if self.json:
+            printing.show(found, as_json=True)
+        else:
+            print(
+                f"OK: {found['episodes']:,} episodes were played so, by {found['target']}; score {found['score']:.4f}"
+            )

@@ -1,0 +1,117 @@
+"""Agents that tests score: the text of a module that is put where scoring is started."""
+
+from pathlib import Path
+import shutil
+import textwrap
+
+HALVING = Path(__file__).parents[3] / "docs" / "examples" / "halving.py"
+
+_MODULE = textwrap.dedent(
+    '''
+    """Agents of all sorts."""
+
+    import os
+    import signal
+    import sys
+    import time
+    from pathlib import Path
+
+    import halving
+
+    episodes = 0
+
+
+    def _after_two_episodes(happens):
+        """A policy that halves, until something happens before the first action of the third episode."""
+
+        def policy(observation, state):
+            global episodes
+            episodes += state is None
+            if episodes == 3:
+                return happens(), state
+            return halving.policy(observation, state)
+
+        return policy
+
+
+    def _hang():
+        Path("hanging").touch()
+        while True:
+            time.sleep(60)
+
+
+    def _fail():
+        raise KeyError("no such thing")
+
+
+    def raises(question):
+        return _after_two_episodes(_fail)
+
+
+    def exits(question):
+        return _after_two_episodes(lambda: sys.exit(7))
+
+
+    def dies(question):
+        return _after_two_episodes(lambda: os.kill(os.getpid(), signal.SIGKILL))
+
+
+    def hangs(question):
+        return _after_two_episodes(_hang)
+
+
+    def chooses_text(question):
+        return _after_two_episodes(lambda: "push")
+
+
+    def chooses_a_truth(question):
+        return _after_two_episodes(lambda: True)
+
+
+    def chooses_too_much(question):
+        return _after_two_episodes(lambda: question.action_spec.num_values)
+
+
+    def chooses_nothing(question):
+        return _after_two_episodes(lambda: None)
+
+
+    def makes_nothing(question):
+        return 7
+
+
+    def of_three(observation, state, third):
+        return 0, state
+
+
+    number = 5
+
+
+    class Told:
+        """An actor that writes down what it is told, and answers at once."""
+
+        def __init__(self, question):
+            print("made for", question.name)
+            self.question, self.told = question, []
+
+        def select_action(self, observation):
+            self.told.append(f"asked {sorted(observation)}")
+            return self.question.num_interactions if len(self.told) > 4 else 0
+
+        def observe_first(self, timestep):
+            self.told = [f"first {timestep.reward} {timestep.discount}"]
+
+        def observe(self, action, next_timestep):
+            self.told.append(f"saw {action} {next_timestep.discount}")
+            Path("told").write_text("; ".join(self.told))
+
+        def update(self):
+            self.told.append("updated")
+    '''
+)
+
+
+def put_into(folder: Path) -> None:
+    """Makes the modules `made` and `halving` in a folder."""
+    shutil.copy(HALVING, folder)
+    (folder / "made.py").write_text(_MODULE)

@@ -1,0 +1,211 @@
+"""Anything that acts is scored; what fails is told in one line, and what was played before is kept."""
+
+import json
+import multiprocessing
+from pathlib import Path
+import re
+import signal
+
+import commands
+import made_agents
+import numpy as np
+import pytest
+import waiting
+
+from physexp import suite
+from physexp.analysis.score import log, player, protocol, scoring, targets, verifying
+
+THRESHOLD = protocol.named(["threshold/features"])
+BOTH = protocol.named(["threshold/features", "strings/features"])
+
+
+@pytest.fixture(autouse=True)
+def here(monkeypatch, tmp_path):
+    """A folder with agents, which is the current one."""
+    made_agents.put_into(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def score(target, questions=THRESHOLD, count=4, folder="scored", **options):
+    return scoring.score(target, questions, count, Path(folder), **options)
+
+
+def failure_of(target, **options):
+    """What is said of an agent that fails in its third episode; checks that two were kept."""
+    with pytest.raises(player.PlayerError) as error:
+        score(target, **options)
+    assert str(error.value).endswith("; the 2 episodes before are in scored")
+    kept = scoring.read(Path("scored"))
+    assert not kept["complete"] and kept["problem"] in str(error.value)
+    assert kept["tasks"]["threshold/features"]["episodes"] == 2
+    assert verifying.verify(Path("scored"))["episodes"] == 2
+    assert "\n" not in str(error.value)
+    return str(error.value)
+
+
+def test_the_policy_of_the_documentation_is_as_good_as_the_ideal():
+    figures = score("halving:policy")["tasks"]["threshold/features"]
+    # Eight levels, alike likely, and three pushes halve them three times; each loses a twentieth of what comes after.
+    assert figures["score"] == figures["raw_score"] == 1
+    assert figures["ideal"] == pytest.approx(0.95**3)
+    assert figures["mean_interactions"] == figures["ideal_interactions"] == 3
+    assert figures["bits_per_interaction"] == pytest.approx(1)
+    assert figures["success_rate"] == 1
+
+
+def test_an_actor_is_told_what_a_dm_env_environment_tells_and_what_it_prints_is_no_output(capfd):
+    score("made:Told", count=1)
+    seen = "asked ['slid', 'strength']"
+    assert Path("told").read_text() == (f"first None None; {seen}; saw 0 1.0; updated; {seen}; saw 8 0.0")
+    printed = capfd.readouterr()
+    assert not printed.out and printed.err.startswith("made for threshold/features")
+
+
+@pytest.mark.parametrize(
+    ("target", "said"),
+    [
+        ("made:raises", r"failed: KeyError: 'no such thing', made.py:\d+ \(threshold/features, episode 2, step 0\)"),
+        ("made:exits", r"ended its process, exit code 7 \(threshold/features, episode 2, step 0\)"),
+        ("made:dies", r"ended its process, exit code -9 \(threshold/features, episode 2, step 0\)"),
+        ("made:chooses_text", r"chose 'push', which is no action \(.* step 0\); return an integer from 0 to 15"),
+        ("made:chooses_a_truth", "chose True, which is no action"),
+        ("made:chooses_too_much", "chose 16, which is no action"),
+        ("made:chooses_nothing", "chose None, which is no action"),
+    ],
+)
+def test_an_agent_that_fails_is_told_in_one_line_and_what_was_played_is_kept(target, said):
+    failure = failure_of(target)
+    assert failure.startswith(f"{target} ") and re.search(said, failure), failure
+
+
+def test_an_agent_that_hangs_is_ended():
+    said = failure_of("made:hangs", timeout=2.0)
+    assert said.startswith("made:hangs did nothing within 2 s (threshold/features, episode 2, step 0)")
+    assert not [child for child in multiprocessing.active_children() if child.name.startswith("actor")]
+
+
+def test_an_agent_whose_process_is_killed_is_told():
+    def kill(done):
+        if done == 2:
+            (process,) = [child for child in multiprocessing.active_children() if child.name.startswith("actor")]
+            process.kill()
+
+    assert "ended its process, exit code -9" in failure_of("halving:policy", show=kill)
+
+
+@pytest.mark.parametrize(
+    ("target", "said"),
+    [
+        ("nowhere:policy", "No module named 'nowhere'; start where it is, or install it"),
+        ("made:nothing", "made has no nothing; name a function that it has"),
+        ("made:number", "number is no function; give a function of a question"),
+        ("made:of_three", "of_three has 3 parameters; give a function of a question"),
+        ("made:makes_nothing", "it returned int; return an actor, with select_action, observe_first, observe, update"),
+    ],
+)
+def test_what_cannot_play_is_told_before_anything_is_played(target, said):
+    with pytest.raises(player.PlayerError, match="before the first episode") as error:
+        score(target)
+    assert str(error.value).startswith(f"{target} failed: {said}")
+    assert not any(Path("scored").iterdir()), "so that it can be tried again"
+
+
+def test_what_is_no_target_is_refused_with_what_there_is():
+    with pytest.raises(
+        ValueError, match="fly holds no run.*threshold-features.*random, at_once, silent, ideal, .*rule"
+    ):
+        targets.suitable("fly")
+    with pytest.raises(ValueError, match="difficulty3 was trained with {'difficulty': 3.0}"):
+        targets.suitable("which_is_heavier-features-difficulty3")
+
+
+def test_targets_play_the_tasks_that_they_can():
+    def names(target):
+        return [asked.name for asked in targets.suitable(target)]
+
+    assert targets.suitable("random") is targets.suitable("made:raises") is None
+    assert names("threshold/features") == names("threshold-features") == ["threshold/features"]
+    assert names("which_is_heavier-features-difficulty5") == ["which_is_heavier/features"]
+    assert names("rule") == names("lookup") == ["towers/direct_features", "towers/fist_features"]
+
+
+@pytest.mark.parametrize("target", ["random", "threshold/features"])
+def test_a_target_plays_the_same_again_and_no_episode_depends_on_how_many_there_are(target):
+    score(target, folder="once")
+    score(target, folder="again")
+    score(target, folder="fewer", count=2)
+    first, second = ((Path(folder) / log.FILE).read_bytes() for folder in ("once", "again"))
+    assert first == second
+    fewer = log.read(Path("fewer"))
+    assert log.read(Path("once")).slice(0, len(fewer)).equals(fewer)
+
+
+def test_a_trained_agent_is_scored_with_what_it_was_trained_with():
+    found = score("threshold/features", count=20)
+    assert found["agent"]["frames"] == 60_024 and found["agent"]["command"].startswith("physexp train threshold")
+    assert found["tasks"]["threshold/features"]["score"] > 0.9  # A wrong answer of 20 costs 2 / 20 / 1.3 = 0.07.
+
+
+def test_a_run_is_scored_as_the_agent_it_has_trained(untrained):
+    untrained.append_metrics({"frames": 0, "seconds": 0.0})
+    assert targets.facts(str(untrained.path))["command"].startswith("physexp train which_is_heavier features")
+    with pytest.raises(ValueError, match="was trained with {'difficulty': 10.0}"):
+        targets.suitable(str(untrained.path))
+
+
+def test_the_log_has_a_row_for_each_action_and_rebuilds_each_instance():
+    score("random", BOTH)
+    rows = log.read(Path("scored")).to_pandas()
+    for (domain, task, seed, episode), played in rows.groupby(["domain", "task", "seed", "episode"], sort=False):
+        environment = suite.load(domain, task, {"random": seed})
+        environment.task.next_episode = episode
+        timestep = environment.reset()
+        for row in played.itertuples():
+            assert row.observation == log.digest(timestep.observation)
+            timestep = environment.step(row.action)
+            assert row.reward == timestep.reward and row.next_observation == log.digest(timestep.observation)
+        assert timestep.last()
+    made = rows.mistake.notna()
+    np.testing.assert_allclose(rows.regret, rows.value - rows.worth, atol=1e-12)
+    assert (rows.regret[made] > 1e-9).all() and (rows.regret[~made].abs() <= 1e-9).all()
+
+
+def test_the_command_scores_and_verifies(here):
+    done = commands.run("score", "halving:policy", "--tasks", "threshold/features", "--episodes", "3", cwd=here)
+    assert done.returncode == 0, done.stderr
+    head, line, folder = done.stdout.splitlines()
+    assert head.split()[:2] == ["task", "score"] and folder == "scores/halving_policy"
+    assert line.split() == ["threshold/features", "1.0000", "1.0000", "to", "1.0000", "1.0000", "3.0000", "nothing"]
+    done = commands.run("verify", folder, cwd=here)
+    assert done.stdout == "OK: 3 episodes were played so, by halving:policy; score 1.0000\n"
+    done = commands.run("verify", folder, "--json", cwd=here)
+    assert json.loads(done.stdout) == {"episodes": 3, "actions": 12, "target": "halving:policy", "score": 1.0}
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["halving:policy", "--tasks", "threshold/fast"], "task is 'threshold/fast'; choose from which_is_heavier/"),
+        (["threshold/features", "--tasks", "strings/features"], "threshold/features does not play strings/features; "),
+        (["halving:policy", "--episodes", "0"], "episodes is 0; give a number from 1 to 100,000"),
+        (["halving:policy", "--timeout", "0"], "timeout is 0; give seconds > 0"),
+        (["halving:policy", "--output", "."], ". exists and is not empty; give another --output"),
+    ],
+)
+def test_the_command_refuses_before_anything_is_played(here, words, said):
+    done = commands.run("score", *words, cwd=here)
+    assert done.returncode == 2 and done.stderr.startswith(f"physexp: {said}"), done.stderr
+    assert not (here / "scores").exists()
+
+
+def test_ctrl_c_keeps_what_was_played(here):
+    words = ["score", "made:hangs", "--tasks", "threshold/features", "--output", "kept"]
+    with commands.start(*words, cwd=here) as process:
+        waiting.wait_until((here / "hanging").exists, "the third episode", pid=process.pid)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate()
+    assert process.returncode == 130
+    assert errors == "the episodes that were played are in kept\nphysexp: interrupted\n"
+    kept = scoring.read(here / "kept")
+    assert not kept["complete"] and kept["tasks"]["threshold/features"]["episodes"] == 2

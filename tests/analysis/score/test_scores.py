@@ -1,0 +1,94 @@
+"""Scores are shares of what can be had: 1 for the ideal, 0 for the best that needs no experiment."""
+
+import numpy as np
+import pytest
+
+from physexp.analysis.score import episodes, judging, log, protocol, scores, scoring, targets
+
+FEATURES = protocol.observing("features")
+COUNT = 6
+
+
+def play(target, asked, count=COUNT):
+    """The score of a target on a task, played in this process."""
+    actor, environment = targets.maker(target)(asked), protocol.load(asked)
+    judge = judging.Judge(protocol.ideal(asked))
+    played, action = [], None
+
+    def act(step, timestep):
+        nonlocal action
+        episodes.show(actor, action if step else None, timestep)
+        action = int(actor.select_action(timestep.observation))
+        return action
+
+    for number in range(count):
+        episode = episodes.play(environment, act, number)
+        played.append(log.rows(asked, protocol.ENVIRONMENT_SEED, number, episode, judge))
+    environment.close()
+    return scores.of_task(asked, log.of_task(log.table(played), asked))
+
+
+@pytest.mark.parametrize("asked", FEATURES, ids=lambda asked: asked.name)
+def test_the_ideal_scores_1_in_every_episode(asked):
+    found = play("ideal", asked)
+    # Its returns are interpolated, to a few parts in ten thousand, in the one domain whose states are no finite set.
+    np.testing.assert_allclose(found.scores, 1, atol=1e-3)
+    figures = found.figures(0)
+    assert figures["mean_interactions"] == pytest.approx(figures["ideal_interactions"])
+    assert figures["bits_per_interaction"] == pytest.approx(figures["ideal_bits_per_interaction"])
+
+
+@pytest.mark.parametrize("asked", FEATURES, ids=lambda asked: asked.name)
+def test_the_floor_is_the_better_of_the_likeliest_answer_and_of_no_answer(asked):
+    at_once, silent = play("at_once", asked, 2), play("silent", asked, 2)
+    never = -(asked.discount ** (asked.step_limit - 1))
+    assert at_once.floor == silent.floor == max(at_once.at_once, never)
+    np.testing.assert_allclose(silent.raw, (never - silent.floor) / (silent.ideal - silent.floor), atol=1e-12)
+    # An answer at once is worth what the likeliest label is, whatever turns out to be right.
+    np.testing.assert_allclose(at_once.scores, (at_once.at_once - at_once.floor) / (at_once.ideal - at_once.floor))
+
+
+def test_the_scores_of_guesses_are_those_of_their_chances():
+    (threshold,) = protocol.named(["threshold/features"])
+    found = play("at_once", threshold)
+    # One of eight levels is right: an answer is worth 2/8 - 1; none in 15 steps, -0.95^14; and the ideal pushes thrice.
+    ideal, floor = 0.95**3, -(0.95**14)
+    np.testing.assert_allclose(found.scores, (-0.75 - floor) / (ideal - floor))
+    assert found.figures(0)["mistakes"]["early"] == pytest.approx((ideal + 0.75) / (ideal - floor))
+
+
+@pytest.fixture(scope="module")
+def of_random(tmp_path_factory):
+    """What is found of random actions."""
+    asked = protocol.named(["threshold/features", "strings/features", "balance/features"])
+    return scoring.score("random", asked, 40, tmp_path_factory.mktemp("random") / "score")
+
+
+def test_the_score_and_the_mistakes_sum_to_1_and_with_luck_to_the_raw_score(of_random):
+    for figures in of_random["tasks"].values():
+        assert figures["score"] + sum(figures["mistakes"].values()) == pytest.approx(1, abs=1e-12)
+        assert figures["score"] + figures["luck"] == pytest.approx(figures["raw_score"], abs=1e-12)
+        assert min(figures["mistakes"].values()) >= 0
+
+
+def test_the_score_without_luck_has_the_narrower_interval(of_random):
+    for figures in of_random["tasks"].values():
+        width, raw_width = (np.ptp(figures[name]) for name in ("interval", "raw_interval"))
+        assert figures["interval"][0] <= figures["score"] <= figures["interval"][1]
+        assert 0 < width < raw_width
+
+
+def test_the_whole_is_the_interquartile_mean_of_the_domains(of_random):
+    # Of three domains a quarter is less than one, so that none is left out.
+    of_domains = [figures["score"] for figures in of_random["domains"].values()]
+    assert of_random["whole"]["score"] == pytest.approx(np.mean(of_domains))
+    assert of_domains == [figures["score"] for figures in of_random["tasks"].values()]
+
+
+def test_every_task_has_an_ideal_to_be_compared_with_and_instances_of_its_own():
+    for asked in protocol.observing("all"):
+        assert protocol.ideal(asked) is protocol.ideal(asked)
+        environment = protocol.load(asked)
+        environment.reset(episode=3)
+        np.testing.assert_array_equal(environment.hidden[0], protocol.drawn(asked, 4)[3])
+        environment.close()
