@@ -40,6 +40,7 @@ CONDITIONS = tuple(
 )
 LEAST_SHARE = 0.95  # Of the ideal's return, that an agent who has learned a domain earns.
 FLOOR = -0.1  # Of the figure; what is less is drawn there.
+_CLEAR = 0.8  # Of agents; a line above has no name in the figure, which would cover them.
 _CLAIMS = {
     "a3c": "A3C learns every domain from the reward alone",
     "ppo": "PPO learns every domain from the reward alone",
@@ -148,8 +149,9 @@ def draw(frame):
         axes.set_axis_off()
     for axes, task in zip(panels.flat, shown, strict=False):
         row = frame.attrs["untrained"][task.label]
-        figures.reference(axes, 1.0, "ideal")
-        figures.reference(axes, max(FLOOR, row["random_value"] / row["value"]), "random interactions")
+        by_chance = row["random_value"] / row["value"]
+        figures.reference(axes, 1.0, "")
+        figures.reference(axes, max(FLOOR, by_chance), "random interactions" if by_chance < _CLEAR else "")
         for number, learner in enumerate(LEARNERS):
             shares = _agents(frame, task.label, learner).share.clip(lower=FLOOR)
             spread = np.linspace(-0.15, 0.15, len(shares)) if len(shares) > 1 else np.zeros(len(shares))
