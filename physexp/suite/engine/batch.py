@@ -27,6 +27,7 @@ class Moment:
       episodes: indices of the episodes, int64 [N].
       steps: control steps taken, int64 [N].
       touched: whether each held entity has moved, bool [N, number of held entities].
+      observed: what was observed last, arrays [N, ...].
       states: of the simulations, those of each structure together, float64 [number of its environments, ...].
     """
 
@@ -34,6 +35,7 @@ class Moment:
     episodes: np.ndarray
     steps: np.ndarray
     touched: np.ndarray
+    observed: dict[str, np.ndarray]
     states: tuple[np.ndarray, ...]
 
 
@@ -212,6 +214,7 @@ class BatchEnvironment:
                 episodes=self.episodes[chosen],
                 steps=self._ledger.steps[chosen],
                 touched=self._ledger.touched[chosen],
+                observed={name: values[chosen] for name, values in self._observations.items()},
                 states=tuple(group.save(chosen[members]) for group, members in self._by_structure(chosen)),
             )
 
@@ -228,6 +231,8 @@ class BatchEnvironment:
                 raise ValueError("environments have begun other episodes since this was saved; restore before that")
             ledger = self._ledger
             ledger.steps[chosen], ledger.touched[chosen], ledger.over[chosen] = moment.steps, moment.touched, False
+            for name, values in moment.observed.items():
+                self._observations[name][chosen] = values
             for (group, members), states in zip(self._by_structure(chosen), moment.states, strict=True):
                 group.restore(chosen[members], states)
 
