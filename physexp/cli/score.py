@@ -48,13 +48,7 @@ class Score:
         from physexp.analysis.score import protocol, scoring, targets
         from physexp.analysis.training import progress
 
-        can = targets.suitable(self.target)
-        chosen = protocol.named(self.tasks) if self.tasks else can or protocol.observing(self.observations)
-        refused = [asked.name for asked in chosen if can is not None and asked not in can]
-        if refused:
-            raise ValueError(
-                f"{self.target} does not play {refused[0]}; it plays {', '.join(asked.name for asked in can or ())}"
-            )
+        chosen = targets.chosen(self.target, self.tasks, self.observations)
         usual = protocol.QUICK_EPISODES if self.quick else protocol.EPISODES
         count = usual if self.episodes is None else self.episodes
         folder = self.output or Path("scores") / re.sub(r"\W+", "_", self.target).strip("_")

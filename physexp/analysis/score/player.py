@@ -52,14 +52,16 @@ class Player:
         processes.kill(self._process)
         self._ours.close()
 
-    def play(self, asked: protocol.Question, num_episodes: int) -> Iterator[episodes.Episode]:
-        """Makes an actor for a task, and plays the first episodes with it; yields each when it is over.
+    def play(
+        self, asked: protocol.Question, num_episodes: int, seed: int = protocol.SEED
+    ) -> Iterator[episodes.Episode]:
+        """Makes an actor for a task, and plays the first episodes of a seed; yields each when it is over.
 
         Raises:
           PlayerError: if the actor fails.
         """
         self._call(f"{asked.name}, before the first episode", ("task", asked), self._timeout + _START_SECONDS)
-        environment = protocol.load(asked)
+        environment = protocol.load(asked, seed)
         for number in range(num_episodes):
             place = f"{asked.name}, episode {number}"
 

@@ -98,9 +98,9 @@ def ideal(asked: Question) -> ideal_base.Solution:
     return solution
 
 
-def load(asked: Question) -> suite.BatchEnvironment:
-    """Returns the environment that is played, a batch of one."""
-    return suite.load_batch(asked.domain, asked.task, 1, {"random": SEED})
+def load(asked: Question, seed: int = SEED) -> suite.BatchEnvironment:
+    """Returns the environment that is played, a batch of one; with another seed, other instances."""
+    return suite.load_batch(asked.domain, asked.task, 1, {"random": seed})
 
 
 def drawn(asked: Question, num_episodes: int) -> np.ndarray:

@@ -1,6 +1,6 @@
 """What can be scored: baselines, trained agents, and anybody's own, as something that makes actors."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 import importlib
 import inspect
 import os
@@ -56,6 +56,27 @@ def suitable(target: str) -> "tuple[protocol.Question, ...] | None":
         if chosen != usual:
             raise ValueError(f"{target} was trained with {dict(config.task_kwargs)}; score an agent of the usual task")
     return (asked,)
+
+
+def chosen(target: str, tasks: Sequence[str], observations: str) -> tuple[protocol.Question, ...]:
+    """Returns the tasks that a target is to play.
+
+    Args:
+      target: see `maker`.
+      tasks: those that are named, as `domain/task`; none for all that it can play.
+      observations: the kind of these, as for `protocol.observing`, where it can play any.
+
+    Raises:
+      ValueError: if there is no such target or task, or the target does not play it.
+    """
+    can = suitable(target)
+    found = protocol.named(tasks) if tasks else can or protocol.observing(observations)
+    refused = [asked.name for asked in found if can is not None and asked not in can]
+    if refused:
+        raise ValueError(
+            f"{target} does not play {refused[0]}; it plays {', '.join(asked.name for asked in can or ())}"
+        )
+    return found
 
 
 def maker(target: str, greedy: bool = False) -> MakeActor:
