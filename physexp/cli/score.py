@@ -2,7 +2,6 @@
 
 import dataclasses
 from pathlib import Path
-import re
 from typing import Annotated, Literal
 
 import tyro
@@ -51,7 +50,7 @@ class Score:
         chosen = targets.chosen(self.target, self.tasks, self.observations)
         usual = protocol.QUICK_EPISODES if self.quick else protocol.EPISODES
         count = usual if self.episodes is None else self.episodes
-        folder = self.output or Path("scores") / re.sub(r"\W+", "_", self.target).strip("_")
+        folder = self.output or Path("scores") / targets.file_name(self.target)
         try:
             with progress.bar("episodes", count * len(chosen)) as show:
                 found = scoring.score(

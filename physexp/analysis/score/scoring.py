@@ -42,7 +42,7 @@ def score(
       player.PlayerError: if the actor fails.
       ValueError: if there is something in the folder, no ideal experimenter is known, or a number makes no sense.
     """
-    _check(num_episodes, timeout, folder)
+    check(num_episodes, timeout, folder)
     judges = [judging.Judge(protocol.ideal(asked)) for asked in questions]
     agent = targets.facts(target)
     folder.mkdir(parents=True, exist_ok=True)
@@ -118,7 +118,8 @@ def read(folder: Path) -> dict[str, Any]:
     return found
 
 
-def _check(num_episodes: int, timeout: float, folder: Path) -> None:
+def check(num_episodes: int, timeout: float, folder: Path) -> None:
+    """Refuses numbers that make no sense, and a folder with something in it: raises ValueError."""
     if not 1 <= num_episodes <= protocol.MOST_EPISODES:
         raise ValueError(f"episodes is {num_episodes}; give a number from 1 to {protocol.MOST_EPISODES:,}")
     if not 0 < timeout < float("inf"):

@@ -5,6 +5,7 @@ import importlib
 import inspect
 import os
 from pathlib import Path
+import re
 import sys
 from typing import Any
 
@@ -99,6 +100,11 @@ def maker(target: str, greedy: bool = False) -> MakeActor:
 
     network, _ = playing.find_agent(target)
     return lambda asked: _Network(network.eval(), greedy)
+
+
+def file_name(target: str) -> str:
+    """Returns the name that files of a target have: letters, digits and underscores."""
+    return re.sub(r"\W+", "_", target).strip("_")
 
 
 def facts(target: str) -> dict[str, Any]:
