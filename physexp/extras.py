@@ -6,6 +6,7 @@ import importlib.util
 EXTRAS = {
     "gymnasium": "gymnasium",
     "matplotlib": "figures",
+    "minari": "minari",
     "pandas": "analysis",
     "ray": "ray",
     "sb3_contrib": "sb3",

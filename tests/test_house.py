@@ -26,6 +26,7 @@ FLOORS = (
     ("training",),
     ("evaluation",),
     ("score",),
+    ("export",),
     ("experiments",),
     ("replay",),
     ("reproduction",),

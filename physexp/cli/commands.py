@@ -1,6 +1,6 @@
 """The commands by name, in the order in which help lists them."""
 
-from physexp.cli import experiments, ideal, playing, score, tasks, train
+from physexp.cli import experiments, export, ideal, playing, score, tasks, train
 
 COMMANDS = {
     "tasks": tasks.Tasks,
@@ -12,6 +12,7 @@ COMMANDS = {
     "ideal": ideal.Ideal,
     "score": score.Score,
     "verify": score.Verify,
+    "export": export.Export,
     "reproduce": experiments.Reproduce,
     "report": experiments.Report,
     "bench": experiments.Bench,

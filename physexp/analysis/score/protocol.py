@@ -125,11 +125,11 @@ def named(names: Sequence[str]) -> tuple[Question, ...]:
 def observing(kind: str) -> tuple[Question, ...]:
     """Returns the questions of all tasks that have a score and observe `features`, `pixels`, or, for `all`, either."""
     names = suite.ALL_TASKS if kind == "all" else suite.tagged(kind)
-    return tuple(question(domain, task) for domain, task in names if _is_judged(domain, task))
+    return tuple(question(domain, task) for domain, task in names if is_judged(domain, task))
 
 
 @functools.cache
-def _is_judged(domain: str, task: str) -> bool:
+def is_judged(domain: str, task: str) -> bool:
     """Returns whether the ideal experimenter of a task says what actions are worth."""
     known = domains.find(domain)
     return known.ideal is not None and hasattr(known.ideal(task, {}, known.discount), "judge")

@@ -1,0 +1,262 @@
+"""Exported trajectories are what was played, whole, in tables and in data sets of Minari alike."""
+
+import json
+from pathlib import Path
+import shutil
+import signal
+import sys
+
+import commands
+import minari
+import numpy as np
+from pyarrow import parquet
+import pytest
+import waiting
+
+from physexp import suite
+from physexp.analysis.data import tables
+from physexp.analysis.export import exporting, steps
+from physexp.analysis.score import player, protocol, scoring
+
+HALVING = Path(__file__).parents[3] / "docs" / "examples" / "halving.py"
+HANGS = """
+from pathlib import Path
+import time
+
+import halving
+
+episodes = 0
+
+
+def policy(observation, state):
+    global episodes
+    episodes += state is None
+    if episodes == 3:
+        Path("hanging").touch()
+        time.sleep(10_000)
+    return halving.policy(observation, state)
+"""
+THRESHOLD = protocol.named(["threshold/features"])
+BOTH = protocol.named(["threshold/features", "strings/features"])
+
+
+@pytest.fixture(autouse=True)
+def here(monkeypatch, tmp_path):
+    """A folder with agents, which is the current one."""
+    shutil.copy(HALVING, tmp_path)
+    (tmp_path / "hanging_agent.py").write_text(HANGS)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def export(target, questions=THRESHOLD, count=4, folder="exported", **options):
+    return exporting.export(target, questions, count, Path(folder), **options)
+
+
+def table_of(asked, folder="exported"):
+    return parquet.read_table(Path(folder) / f"{asked.domain}-{asked.task}" / exporting.TABLE)
+
+
+def columns_of(asked, folder="exported"):
+    table = table_of(asked, folder)
+    return {name: steps.array(table[name]) for name in table.column_names}
+
+
+def test_each_row_is_what_playing_the_action_on_the_instance_brings():
+    export("random", BOTH, count=5)
+    for asked in BOTH:
+        episodes = list(steps.split(columns_of(asked)))
+        assert len(episodes) == 5
+        for number, played in enumerate(episodes):
+            assert set(played["episode"]) == {number}
+            environment = suite.load(asked.domain, asked.task, {"random": int(played["seed"][0])})
+            environment.task.next_episode = number
+            timestep = environment.reset()
+            for step, action in enumerate(played["action"]):
+                for name, seen in timestep.observation.items():
+                    np.testing.assert_array_equal(played[f"observation_{name}"][step], seen.ravel())
+                timestep = environment.step(int(action))
+                for name, seen in timestep.observation.items():
+                    np.testing.assert_array_equal(played[f"next_observation_{name}"][step], seen.ravel())
+                assert played["step"][step] == step and played["reward"][step] == timestep.reward
+                assert played["terminated"][step] == timestep.last() and not played["truncated"][step]
+                assert played["answer"][step] == environment.task.correct_answer
+                np.testing.assert_array_equal(played["hidden"][step], environment.task.hidden)
+            assert timestep.last()
+
+
+@pytest.mark.parametrize("asked", BOTH, ids=lambda asked: asked.name)
+def test_what_the_ideal_does_is_worth_the_most_and_it_believes_ever_more(asked):
+    export("ideal", [asked])
+    columns = columns_of(asked)
+    actions, values = columns["action"], columns["values"]
+    np.testing.assert_allclose(values[np.arange(len(actions)), actions], values.max(axis=1), atol=1e-9)
+    assert values.max(axis=1)[0] == protocol.ideal(asked).value
+    # An answer is worth +1 where it is right and -1 where it is not.
+    np.testing.assert_allclose(values[:, asked.num_interactions :], 2 * columns["belief"] - 1, atol=1e-12)
+    within = ~columns["terminated"][:-1]
+    np.testing.assert_array_equal(columns["next_belief"][:-1][within], columns["belief"][1:][within])
+    right = columns["answer"][columns["terminated"]]
+    last = columns["next_belief"][columns["terminated"]]
+    assert (last[np.arange(len(right)), right] > 0).all(), "what is right is never held for impossible"
+
+
+def test_a_data_set_of_minari_holds_what_the_table_holds(monkeypatch):
+    export("ideal", BOTH, count=6, as_minari=True)
+    monkeypatch.setenv("MINARI_DATASETS_PATH", str(Path("exported/minari").resolve()))
+    names = [f"physexp/{asked.domain}-{asked.task}/ideal-v0" for asked in BOTH]
+    assert sorted(minari.list_local_datasets()) == sorted(names)
+    for asked, name in zip(BOTH, names, strict=True):
+        data_set, table = minari.load_dataset(name), columns_of(asked)
+        assert data_set.total_steps == len(table["step"]) and data_set.total_episodes == 6
+        facts = data_set.storage.get_episode_metadata(range(6))
+        for loaded, played, fact in zip(data_set, steps.split(table), facts, strict=True):
+            for seen, spec in asked.observation_spec.items():
+                array = loaded.observations[seen]
+                assert array.dtype == spec.dtype and array.shape == (len(loaded) + 1, *spec.shape)
+                flat = array.reshape(len(array), -1)
+                np.testing.assert_array_equal(flat[:-1], played[f"observation_{seen}"])
+                np.testing.assert_array_equal(flat[1:], played[f"next_observation_{seen}"])
+            np.testing.assert_array_equal(loaded.actions, played["action"])
+            np.testing.assert_array_equal(loaded.rewards, played["reward"])
+            np.testing.assert_array_equal(loaded.terminations, played["terminated"])
+            np.testing.assert_array_equal(loaded.truncations, played["truncated"])
+            np.testing.assert_array_equal(loaded.infos["belief"][:-1], played["belief"])
+            np.testing.assert_array_equal(loaded.infos["belief"][1:], played["next_belief"])
+            np.testing.assert_array_equal(loaded.infos["values"][:-1], played["values"])
+            assert fact["answer"] == played["answer"][0] and fact["episode"] == played["episode"][0]
+            np.testing.assert_array_equal(fact["hidden"], played["hidden"][0])
+        environment = data_set.recover_environment()
+        assert environment.observation_space == data_set.observation_space
+        assert environment.action_space == data_set.action_space
+        environment.close()
+
+
+def test_images_are_stored_bit_for_bit():
+    (asked,) = protocol.named(["threshold/pixels"])
+    export("random", [asked], count=2, as_minari=True)
+    data_set = minari.MinariDataset("exported/minari/physexp/threshold-pixels/random-v0/data")
+    environment = protocol.load(asked, exporting.SEED)
+    for loaded, played in zip(data_set, steps.split(columns_of(asked)), strict=True):
+        seen = [environment.reset(), *(environment.step(np.array([action])) for action in loaded.actions)]
+        images = np.concatenate([timestep.observation["pixels"] for timestep in seen])
+        assert images.std() > 0
+        np.testing.assert_array_equal(loaded.observations["pixels"], images)
+        np.testing.assert_array_equal(played["observation_pixels"], images[:-1].reshape(len(loaded), -1))
+    environment.close()
+
+
+def test_parts_have_whole_episodes_and_say_together_what_a_single_one_says(monkeypatch):
+    export("random", count=12, folder="at_once", as_minari=True)
+    monkeypatch.setattr(exporting, "_ROWS", 8)
+    export("random", count=12, folder="in_parts", as_minari=True)
+    (asked,) = THRESHOLD
+    parts = sorted((Path("in_parts") / "threshold-features" / exporting.TABLE).iterdir())
+    assert len(parts) > 1
+    schema = steps.Steps(asked, 0).schema
+    for part in parts:
+        table = tables.read(part, schema)
+        assert table["step"][0].as_py() == 0 and table["terminated"][-1].as_py()
+    assert table_of(asked, "in_parts").equals(table_of(asked, "at_once"))
+    once, in_parts = (
+        minari.MinariDataset(Path(folder) / "minari/physexp/threshold-features/random-v0/data")
+        for folder in ("at_once", "in_parts")
+    )
+    assert len(once) == len(in_parts) == 12
+    for one, other in zip(once, in_parts, strict=True):
+        np.testing.assert_array_equal(one.actions, other.actions)
+
+
+def test_nobody_is_scored_on_what_is_exported():
+    (asked,) = BOTH[1:]
+    export("silent", [asked], count=20)
+    exported = columns_of(asked)
+    first = exported["step"] == 0
+    scored = protocol.drawn(asked, 20)
+    assert not np.isclose(exported["hidden"][first], scored).all(axis=1).any()
+    with pytest.raises(ValueError, match=f"seed is {protocol.SEED}, whose episodes are scored; give another one"):
+        export("silent", folder="other", seed=protocol.SEED)
+    assert not Path("other").exists()
+
+
+def test_another_seed_exports_other_instances():
+    (asked,) = THRESHOLD
+    export("silent")
+    export("silent", folder="other", seed=7)
+    assert set(columns_of(asked)["hidden"]).isdisjoint(columns_of(asked, "other")["hidden"])
+
+
+def test_where_no_ideal_judges_the_table_has_no_beliefs(monkeypatch):
+    monkeypatch.setattr(protocol, "is_judged", lambda domain, task: False)
+    assert not export("halving:policy", as_minari=True)["tasks"]["threshold/features"]["judged"]
+    names = table_of(*THRESHOLD).column_names
+    assert names[-2:] == ["hidden", "answer"] and "belief" not in names
+    assert len(minari.MinariDataset("exported/minari/physexp/threshold-features/halving_policy-v0/data")) == 4
+
+
+def test_an_agent_that_hangs_loses_nothing_that_was_played():
+    with pytest.raises(player.PlayerError, match="did nothing within 2 s .*; the 2 episodes before are in exported"):
+        export("hanging_agent:policy", timeout=2.0)
+    facts = json.loads(Path("exported/export.json").read_text())
+    assert not facts["complete"] and facts["tasks"]["threshold/features"]["episodes"] == 2
+    assert len(list(steps.split(columns_of(*THRESHOLD)))) == 2
+
+
+def test_ctrl_c_keeps_what_was_played(here):
+    words = ["export", "hanging_agent:policy", "--tasks", "threshold/features", "--episodes", "9", "--output", "kept"]
+    with commands.start(*words, cwd=here) as process:
+        waiting.wait_until((here / "hanging").exists, "the third episode", pid=process.pid)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate()
+    assert process.returncode == 130
+    assert errors == "the episodes that were played are in kept\nphysexp: interrupted\n"
+    assert len(list(steps.split(columns_of(*THRESHOLD, folder="kept")))) == 2
+
+
+def test_the_command_exports(here):
+    words = ["export", "halving:policy", "--tasks", "threshold/features", "--episodes", "3", "--minari"]
+    done = commands.run(*words, cwd=here)
+    assert done.returncode == 0, done.stderr
+    head, line, folder = done.stdout.splitlines()
+    # Three pushes find one of eight levels, and then comes the answer.
+    assert head.split() == ["task", "episodes", "steps", "right", "return"]
+    assert line.split() == ["threshold/features", "3", "12", "1.0000", f"{0.95**3:.4f}"]
+    assert folder == "exports/halving_policy" and (here / folder / "minari").is_dir()
+    done = commands.run(*words, cwd=here)
+    assert done.returncode == 2
+    assert done.stderr == "physexp: exports/halving_policy exists and is not empty; give another --output\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["halving:policy"], "--episodes"),
+        (["halving:policy", "--episodes", "0"], "episodes is 0; give a number from 1 to 100,000"),
+        (["fly", "--episodes", "1"], "fly holds no run"),
+        (["threshold/features", "--episodes", "1", "--tasks", "strings/features"], "threshold/features does not play"),
+        (["random", "--episodes", "1", "--seed", "-1"], "seed is -1; give an integer"),
+    ],
+)
+def test_the_command_refuses_before_anything_is_played(here, words, said):
+    done = commands.run("export", *words, cwd=here)
+    assert done.returncode == 2 and said in done.stderr and done.stderr.count("\n") == 1, done.stderr
+    assert not (here / "exports").exists()
+
+
+def test_without_minari_the_extra_is_named_before_anything_is_played(monkeypatch):
+    from physexp import extras
+    from physexp.cli import parsing
+
+    monkeypatch.setitem(sys.modules, "minari", None)  # Cannot be imported, nor found.
+    with pytest.raises(extras.MissingExtraError, match=r"minari is not installed; pip install 'physexp\[minari\]'"):
+        parsing.parse(["export", "halving:policy", "--episodes", "1", "--minari"]).run()
+    assert not Path("exports").exists()
+
+
+def test_a_score_and_an_export_of_a_task_have_the_same_columns_in_common():
+    export("random", count=2)
+    scoring.score("random", THRESHOLD, 2, Path("scored"))
+    scored = parquet.read_table("scored/actions.parquet")
+    names = ["domain", "task", "seed", "episode", "step", "action", "reward"]
+    exported = table_of(*THRESHOLD)
+    assert [exported.schema.field(name).type for name in names] == [scored.schema.field(name).type for name in names]
