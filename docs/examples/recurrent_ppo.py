@@ -1,0 +1,90 @@
+"""RecurrentPPO of sb3-contrib with its own defaults: `python recurrent_ppo.py strings/features` trains it."""
+
+import json
+from pathlib import Path
+import time
+
+import numpy as np
+import sb3_contrib
+from stable_baselines3.common import callbacks, vec_env
+import torch
+import tyro
+
+from physexp.analysis.score import protocol
+from physexp.suite import stable_baselines
+
+FOLDER = Path("runs/recurrent_ppo")
+NUM_ENVIRONMENTS = 8  # More are no faster: nearly all of its time goes into learning.
+
+
+def train(task: tyro.conf.Positional[str], frames: int = 300_000, minutes: float = 15, seed: int = 0) -> None:
+    """Trains on a task until it has seen so many frames or time is over; keeps the network, and how it was made."""
+    torch.set_num_threads(1)  # The networks are small.
+    (asked,) = protocol.named([task])
+    batch = stable_baselines.VecEnv(asked.domain, asked.task, NUM_ENVIRONMENTS, random=seed)
+    environments = vec_env.VecMonitor(batch)  # Tells the learner what episodes earn.
+    # The discount says what a step costs, and belongs to the question; everything else is the library's.
+    learner = sb3_contrib.RecurrentPPO("MultiInputLstmPolicy", environments, gamma=asked.discount, seed=seed)
+    watch = Watch(frames, 60 * minutes)
+    learner.learn(frames, watch)
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    learner.save(path_of(asked))
+    curve = list(watch.curve.values())
+    facts = {
+        "algorithm": f"RecurrentPPO of sb3-contrib {sb3_contrib.__version__}",
+        "command": f"python recurrent_ppo.py {task} --frames {frames} --minutes {minutes:g} --seed {seed}",
+        **curve[-1],
+        "curve": curve,
+    }
+    path_of(asked).with_suffix(".json").write_text(json.dumps(facts, indent=1) + "\n")
+
+
+class Watch(callbacks.BaseCallback):
+    """Prints and keeps what episodes earn, and ends training when its time is over."""
+
+    def __init__(self, frames, seconds):
+        super().__init__()
+        self._frames, self._seconds, self.curve = frames, seconds, {}
+
+    def _on_training_start(self):
+        self._start = time.perf_counter()
+
+    def _on_step(self):
+        return time.perf_counter() - self._start < self._seconds
+
+    def _on_rollout_end(self):
+        self._look()
+
+    def _on_training_end(self):
+        self._look()
+
+    def _look(self):
+        passed, frames = time.perf_counter() - self._start, self.num_timesteps
+        ended = self.model.ep_info_buffer  # The last 100 episodes.
+        mean = float(np.mean([one["r"] * self.model.gamma ** (one["l"] - 1) for one in ended])) if ended else 0.0
+        self.curve[frames] = {"frames": frames, "seconds": round(passed, 1), "return": mean}
+        left = max(0, min(passed * (self._frames / frames - 1), self._seconds - passed))
+        print(f"{frames:,} frames, mean return {mean:.3f}, {left / 60:.1f} minutes left", flush=True)
+
+
+def make(asked: protocol.Question):
+    """Returns the policy that was trained on a task, for `physexp score recurrent_ppo:make`."""
+    if not path_of(asked).exists():
+        raise ValueError(f"{path_of(asked)} is missing; train it: python recurrent_ppo.py {asked.name}")
+    learner = sb3_contrib.RecurrentPPO.load(path_of(asked), device="cpu")
+    learner.set_random_seed(0)
+
+    def policy(observation, state):
+        action, state = learner.predict(observation, state, np.array([state is None]))
+        return int(action), state
+
+    return policy
+
+
+def path_of(asked):
+    """Returns the file of what was trained on a task."""
+    return FOLDER / f"{asked.domain}-{asked.task}.zip"
+
+
+if __name__ == "__main__":
+    tyro.cli(train)

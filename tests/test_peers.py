@@ -1,0 +1,86 @@
+"""Learners of other projects, the examples of docs/how_to.md, train on our tasks, and what they learn is scored."""
+
+import importlib
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from physexp import suite
+from physexp.analysis.score import player, protocol, scoring
+
+EXAMPLES = Path(__file__).parents[1] / "docs" / "examples"
+PEERS = ["recurrent_ppo", "skrl_ppo"]
+(STRINGS,) = protocol.named(["strings/features"])
+
+
+@pytest.fixture(scope="module", autouse=True)
+def here(tmp_path_factory):
+    """A folder where each has trained on a task of pucks for some hundred steps; it is the current one."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(str(EXAMPLES))
+        patch.chdir(tmp_path_factory.mktemp("peers"))
+        for peer in PEERS:
+            importlib.import_module(peer).train(STRINGS.name, frames=1024)
+        yield
+
+
+@pytest.mark.parametrize("peer", PEERS)
+def test_a_peer_keeps_what_it_has_learned_and_how_long_it_took(peer):
+    facts = json.loads(Path(f"runs/{peer}/strings-features.json").read_text())
+    assert facts["frames"] == 1024 and facts["seconds"] > 0
+    assert facts["command"].startswith(f"python {peer}.py strings/features --frames 1024 ")
+    assert facts["curve"][-1].items() <= facts.items()
+    assert all(-1 <= row["return"] <= 1 for row in facts["curve"])
+
+
+@pytest.mark.parametrize("peer", PEERS)
+def test_training_ends_when_its_time_is_over(peer):
+    module = importlib.import_module(peer)
+    module.train("threshold/features", frames=10**9, minutes=0.02)
+    facts = json.loads(Path(f"runs/{peer}/threshold-features.json").read_text())
+    assert facts["seconds"] >= 1.2 and facts["frames"] < 10**9
+    assert module.path_of(*protocol.named(["threshold/features"])).exists()
+
+
+@pytest.mark.parametrize("peer", PEERS)
+def test_what_a_peer_has_learned_is_scored_and_other_tasks_say_how_to_train(peer):
+    found = scoring.score(f"{peer}:make", [STRINGS], 5, Path(f"scored_{peer}"))
+    assert found["complete"] and found["tasks"]["strings/features"]["episodes"] == 5
+    with pytest.raises(player.PlayerError, match=rf"balance-features\.\w+ is missing; train it: python {peer}.py b"):
+        scoring.score(f"{peer}:make", protocol.named(["balance/features"]), 1, Path(f"none_{peer}"))
+
+
+@pytest.mark.parametrize("peer", PEERS)
+def test_a_policy_remembers_within_an_episode_and_nothing_of_the_one_before(peer):
+    policy = importlib.import_module(peer).make(STRINGS)
+    observation = suite.load("strings", "features", task_kwargs={"random": 0}).reset().observation
+    _, first = policy(observation, None)
+    _, second = policy(observation, first)
+    _, again = policy(observation, None)
+    np.testing.assert_array_equal(np.asarray(first), np.asarray(again))
+    assert not np.array_equal(np.asarray(first), np.asarray(second))
+
+
+def test_the_network_of_skrl_says_the_same_of_sequences_in_which_episodes_end_as_step_by_step():
+    length, count = 16, 3
+    policy = importlib.import_module("skrl_ppo").Policy(STRINGS, count)
+    observed = torch.rand(length, count, policy.num_observations)
+    ended = torch.rand(length, count) < 0.3
+    states = [torch.rand(1, count, 64)]
+    outputs = []
+    policy.eval()
+    for step in range(length):
+        output, more = policy.compute({"observations": observed[step], "rnn": states[-1:]}, "policy")
+        outputs.append(output)
+        states.append(more["rnn"][0] * ~ended[step, :, None])
+    sequences = {  # One environment after another.
+        "observations": observed.transpose(0, 1).flatten(0, 1),
+        "rnn": [torch.cat(states[:-1]).transpose(0, 1).flatten(0, 1)[None]],
+        "terminated": ended.T.reshape(-1, 1),
+    }
+    policy.train()
+    together, _ = policy.compute(sequences, "policy")
+    torch.testing.assert_close(together, torch.stack(outputs, dim=1).flatten(0, 1))
