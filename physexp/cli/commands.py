@@ -12,6 +12,7 @@ COMMANDS = {
     "ideal": ideal.Ideal,
     "score": score.Score,
     "verify": score.Verify,
+    "leaderboard": score.Leaderboard,
     "export": export.Export,
     "reproduce": experiments.Reproduce,
     "report": experiments.Report,

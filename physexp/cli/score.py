@@ -7,8 +7,11 @@ from typing import Annotated, Literal
 import tyro
 from tyro.conf import Positional
 
+from physexp import extras
 from physexp.cli import printing
-from physexp.cli.arguments import OptionalInt, OptionalPath, Switch
+from physexp.cli.arguments import OptionalFloat, OptionalInt, OptionalPath, Switch
+
+OptionalText = Annotated[str | None, tyro.conf.arg(metavar="TEXT", help_behavior_hint="")]
 
 
 @dataclasses.dataclass
@@ -22,7 +25,10 @@ class Score:
       episodes: of each task.
       greedy: a trained agent takes its likeliest actions instead of drawing them.
       timeout: for each call of the agent, s.
-      output: the folder for the log and the figures; by default one named after the target, under scores/.
+      algorithm: how an agent of your own was trained, as it is to stand in the report and in the leaderboard.
+      frames: environment steps of its training.
+      minutes: of its training.
+      output: the folder for the log, the figures and the report; by default one named after the target, under scores/.
       json: print JSON.
     """
 
@@ -30,8 +36,9 @@ class Score:
         Positional[str],
         tyro.conf.arg(
             metavar="TARGET",
-            help="the folder of a run; DOMAIN/TASK for the agent that comes with the package; MODULE:FUNCTION for an "
-            "agent of your own (docs/score.md); or random, at_once, silent, ideal.",
+            help="the folder of a run; DOMAIN/TASK for the agent that comes with the package; several of these with "
+            "commas between, shipped, or a3c, belief or ppo, for a team; MODULE:FUNCTION for an agent of your own "
+            "(docs/score.md); or random, at_once, silent, ideal.",
         ),
     ]
     tasks: Annotated[tuple[str, ...], tyro.conf.arg(metavar="DOMAIN/TASK ...", help_behavior_hint="")] = ()
@@ -40,11 +47,15 @@ class Score:
     episodes: OptionalInt = None
     greedy: Switch = False
     timeout: float = 60.0
+    algorithm: OptionalText = None
+    frames: OptionalInt = None
+    minutes: OptionalFloat = None
     output: OptionalPath = None
     json: Switch = False
 
     def run(self) -> None:
-        from physexp.analysis.score import protocol, scoring, targets
+        extras.require("matplotlib")
+        from physexp.analysis.score import protocol, report, scoring, targets
         from physexp.analysis.training import progress
 
         chosen = targets.chosen(self.target, self.tasks, self.observations)
@@ -54,8 +65,16 @@ class Score:
         try:
             with progress.bar("episodes", count * len(chosen)) as show:
                 found = scoring.score(
-                    self.target, chosen, count, folder, greedy=self.greedy, timeout=self.timeout, show=show
+                    self.target,
+                    chosen,
+                    count,
+                    folder,
+                    greedy=self.greedy,
+                    timeout=self.timeout,
+                    made=self._made(),
+                    show=show,
                 )
+            report.write(folder)
         except KeyboardInterrupt:
             printing.warn(f"the episodes that were played are in {folder}")
             raise
@@ -64,6 +83,12 @@ class Score:
             return
         printing.show_rows(_rows(found), as_json=False)
         print(folder)
+
+    def _made(self) -> dict:
+        """Returns what was said of how the agent was made."""
+        seconds = None if self.minutes is None else 60 * self.minutes
+        said = {"algorithm": self.algorithm, "frames": self.frames, "seconds": seconds}
+        return {name: value for name, value in said.items() if value is not None}
 
 
 def _rows(found: dict) -> list[dict]:
@@ -120,3 +145,21 @@ class Verify:
             print(
                 f"OK: {found['episodes']:,} episodes were played so, by {found['target']}; score {found['score']:.4f}"
             )
+
+
+@dataclasses.dataclass
+class Leaderboard:
+    """Write leaderboard.md and its figure from the scores in RESULTS/scores, and its part of the README beside RESULTS.
+
+    Attributes:
+      results_dir: the folder of all results.
+    """
+
+    results_dir: Path = Path("results")
+
+    def run(self) -> None:
+        extras.require("matplotlib")
+        from physexp.analysis.score import leaderboard
+
+        for path in leaderboard.write(self.results_dir):
+            print(path)

@@ -40,6 +40,7 @@ def _tilt(observation) -> int:
 
 DOMAIN = base.Domain(
     name=_NAME,
+    skill="use a tool",
     discount=_DISCOUNT,
     presets={
         "features": {"a3c": base.A3C_OF_BITS, "ppo": base.PPO_OF_BITS},

@@ -80,6 +80,7 @@ class Domain:
 
     Attributes:
       name: the domain's name, as `suite.load` takes it.
+      skill: what it asks of an agent beyond others, in a few words.
       discount: the agents' gamma.
       presets: by task and algorithm, the configuration to train with where nothing else is asked for. A task or an
         algorithm that is not there has the algorithm's defaults, with the domain's discount.
@@ -95,6 +96,7 @@ class Domain:
     """
 
     name: str
+    skill: str = ""
     discount: float = agent_config.AgentConfig.discount
     presets: Mapping[str, Mapping[str, agent_config.AgentConfig]] = dataclasses.field(default_factory=dict)
     labels: Mapping[str, str] = dataclasses.field(default_factory=dict)

@@ -39,6 +39,7 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
 
 DOMAIN = base.Domain(
     name=_NAME,
+    skill="excite and watch",
     discount=_DISCOUNT,
     presets={
         "features": {

@@ -40,6 +40,7 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
 
 DOMAIN = base.Domain(
     name=_NAME,
+    skill="learn for a goal",
     discount=_DISCOUNT,
     presets={
         "features": {"a3c": base.A3C_OF_BITS, "ppo": base.PPO_OF_BITS},

@@ -39,6 +39,7 @@ def _slid(observation) -> int:
 
 DOMAIN = base.Domain(
     name=_NAME,
+    skill="halve what is left",
     discount=_DISCOUNT,
     presets={
         "features": {"a3c": base.A3C_OF_BITS, "ppo": base.PPO_OF_BITS},

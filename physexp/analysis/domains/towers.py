@@ -180,6 +180,7 @@ _BELIEF = {"direct_pixels": _FROM_IMAGES, "fist_pixels": _FROM_IMAGES}
 
 DOMAIN = base.Domain(
     name=_NAME,
+    skill="look for motion",
     discount=_DISCOUNT,
     presets={task: {"a3c": _A3C[task], "ppo": _PPO[task], **_BELIEF.get(task, {})} for task in _A3C},
     labels={"direct_features": "D-F", "direct_pixels": "D-P", "fist_features": "F-F", "fist_pixels": "F-P"},

@@ -72,6 +72,7 @@ def _fill(hidden):
 
 DOMAIN = base.Domain(
     name=_NAME,
+    skill="know when to stop",
     discount=_DISCOUNT,
     presets={
         "features": {"a3c": _FEATURES, "ppo": base.ppo_like(_FEATURES, frames=1_500_000, learning_rate=3e-3)},

@@ -1,4 +1,4 @@
-"""How the ideal experimenter fares on the instances of the protocol."""
+"""What a score stands beside: how the ideal experimenter fares on the same instances, and what is earned at random."""
 
 import dataclasses
 import functools
@@ -9,6 +9,7 @@ from physexp.agents import core
 from physexp.analysis.ideal import base as ideal_base
 from physexp.analysis.ideal import mistakes
 from physexp.analysis.score import episodes, protocol
+from physexp.suite.engine import rules
 
 
 @dataclasses.dataclass(frozen=True)
@@ -17,11 +18,17 @@ class Reference:
 
     Attributes:
       interactions: of an episode.
-      bits: of information about the answer, for each interaction; 0 where there is none.
+      gains: bits of information about the answer from the first interaction, the second and so on; none once an
+        episode is over. float64 [K].
     """
 
     interactions: float
-    bits: float
+    gains: np.ndarray
+
+    @property
+    def bits_per_interaction(self) -> float:
+        """Returns 0 where there is no interaction."""
+        return float(self.gains.sum() / self.interactions) if self.interactions else 0.0
 
 
 @functools.cache
@@ -37,14 +44,15 @@ def of(asked: protocol.Question, num_episodes: int) -> Reference | None:
         return None
     hidden, counts = np.unique(protocol.drawn(asked, num_episodes), axis=0, return_counts=True)
     environment = protocol.load(asked)
-    found = np.array([_play(environment, actor, solution, one) for one in hidden])
+    played = [_play(environment, actor, solution, one) for one in hidden]
     environment.close()
-    interactions, bits = counts @ found / num_episodes
-    return Reference(float(interactions), float(bits / interactions) if interactions else 0.0)
+    lengths = np.array([len(gains) for gains in played])
+    padded = np.array([np.pad(gains, (0, lengths.max() - len(gains))) for gains in played])
+    return Reference(float(counts @ lengths / num_episodes), counts @ padded / num_episodes)
 
 
-def _play(environment, actor: core.Actor, solution: ideal_base.Solution, hidden: np.ndarray) -> tuple[int, float]:
-    """Plays an episode; returns interactions, and bits in all."""
+def _play(environment, actor: core.Actor, solution: ideal_base.Solution, hidden: np.ndarray) -> np.ndarray:
+    """Plays an episode; returns the bits that each interaction brought."""
     action: int | None = None
 
     def act(step: int, timestep) -> int:
@@ -54,5 +62,14 @@ def _play(environment, actor: core.Actor, solution: ideal_base.Solution, hidden:
         return action
 
     played = episodes.play(environment, act, hidden=hidden)
-    bits = mistakes.information(solution.beliefs(played))
-    return len(played.actions) - 1, float(bits.sum())
+    return mistakes.information(solution.beliefs(played))[:-1]
+
+
+def random_return(asked: protocol.Question) -> float:
+    """Returns what is expected of actions that are all alike likely: one answer of L is right, whatever is hidden."""
+    num_labels = asked.num_actions - asked.num_interactions
+    goes_on = asked.num_interactions / asked.num_actions
+    steps = np.arange(asked.step_limit)
+    answer = rules.WRONG + (rules.RIGHT - rules.WRONG) / num_labels
+    answered = np.sum((asked.discount * goes_on) ** steps) * (1 - goes_on) * answer
+    return float(answered + asked.discount ** steps[-1] * goes_on**asked.step_limit * rules.WRONG)

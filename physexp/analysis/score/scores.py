@@ -33,7 +33,8 @@ class TaskScore:
       raw: scores of the returns, float64 [N].
       length: actions in each episode, int64 [N].
       right, silent: how each ended, bool [N].
-      bits: of information about the answer in each, float64 [N].
+      gains: bits of information about the answer from the first interaction, the second and so on, means over the
+        episodes, float64 [K].
     """
 
     asked: protocol.Question
@@ -45,7 +46,7 @@ class TaskScore:
     length: np.ndarray
     right: np.ndarray
     silent: np.ndarray
-    bits: np.ndarray
+    gains: np.ndarray
 
     @property
     def scores(self) -> np.ndarray:
@@ -61,6 +62,7 @@ class TaskScore:
             "ideal": self.ideal,
             "floor": self.floor,
             "at_once": self.at_once,
+            "random": reference.random_return(self.asked),
             "score": float(self.scores.mean()),
             "interval": _interval(_resampled(self.scores, seed)),
             "raw_score": float(self.raw.mean()),
@@ -71,8 +73,10 @@ class TaskScore:
             "timeouts": int(self.silent.sum()),
             "mean_interactions": float(interactions.mean()),
             "ideal_interactions": known and known.interactions,
-            "bits_per_interaction": float(self.bits.sum() / max(1, interactions.sum())),
-            "ideal_bits_per_interaction": known and known.bits,
+            "bits_per_interaction": float(self.gains.sum() * len(self.length) / max(1, interactions.sum())),
+            "ideal_bits_per_interaction": known and known.bits_per_interaction,
+            "gains": self.gains.tolist(),
+            "ideal_gains": known and known.gains.tolist(),
         }
 
 
@@ -106,21 +110,34 @@ def of_task(asked: protocol.Question, columns: Mapping[str, np.ndarray]) -> Task
         length=np.bincount(index),
         right=columns["reward"][last] > 0,
         silent=~are_answers[last],
-        bits=np.bincount(index, columns["bits"]),
+        gains=np.bincount(columns["step"][~are_answers], columns["bits"][~are_answers]) / first.sum(),
     )
 
 
 def summary(found: Sequence[TaskScore]) -> dict[str, Any]:
     """Returns the figures of all tasks, at least one, of their domains, and over the domains."""
+    tasks = {one.asked.name: one.figures(seed) for seed, one in enumerate(found)}
+    return {"tasks": tasks, **over(found, [one.asked for one in found])}
+
+
+def over(found: Sequence[TaskScore], questions: Sequence[protocol.Question]) -> dict[str, Any]:
+    """Returns scores and intervals of the `domains` of some tasks, and of the `whole`.
+
+    Args:
+      found: the scores of those that were played.
+      questions: the tasks, at least one; one that was not played counts as 0, which is what anybody has.
+    """
+    nothing = 0.0, np.zeros(_RESAMPLES)
+    played = {one.asked.name: (one.scores.mean(), _resampled(one.scores, seed)) for seed, one in enumerate(found)}
     means: dict[str, list[float]] = {}
     again: dict[str, list[np.ndarray]] = {}
-    for seed, one in enumerate(found):
-        means.setdefault(one.asked.domain, []).append(one.scores.mean())
-        again.setdefault(one.asked.domain, []).append(_resampled(one.scores, seed))
+    for asked in questions:
+        mean, drawn = played.get(asked.name, nothing)
+        means.setdefault(asked.domain, []).append(mean)
+        again.setdefault(asked.domain, []).append(drawn)
     of_domains = np.array([np.mean(parts) for parts in means.values()])
     resampled = np.array([np.mean(parts, axis=0) for parts in again.values()])
     return {
-        "tasks": {one.asked.name: one.figures(seed) for seed, one in enumerate(found)},
         "domains": {
             name: {"score": float(score), "interval": _interval(drawn)}
             for name, score, drawn in zip(means, of_domains, resampled, strict=True)

@@ -1,6 +1,6 @@
 """Scores a target: plays the protocol, judges what was played, and keeps both in a folder."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import json
 from pathlib import Path
 import time
@@ -23,6 +23,7 @@ def score(
     *,
     greedy: bool = False,
     timeout: float = 60.0,
+    made: Mapping[str, Any] | None = None,
     show: Callable[[int], None] = lambda done: None,
 ) -> dict[str, Any]:
     """Plays the protocol with a target; returns what `score.json` holds.
@@ -35,6 +36,7 @@ def score(
       num_episodes: of each of them.
       folder: where everything goes; it is made, or is empty.
       timeout: for each call of the actor, s.
+      made: what else is to be said of how it was made: `algorithm`, `frames`, `seconds`.
       show: called with how many episodes have been played.
 
     Raises:
@@ -44,7 +46,7 @@ def score(
     """
     check(num_episodes, timeout, folder)
     judges = [judging.Judge(protocol.ideal(asked)) for asked in questions]
-    agent = targets.facts(target)
+    agent = {**targets.facts(target, [asked.name for asked in questions]), **(made or {})}
     folder.mkdir(parents=True, exist_ok=True)
     begun, played, problem = time.monotonic(), [], "it was ended early"
     try:
@@ -91,8 +93,13 @@ def _write(
 
 def figures(found: pyarrow.Table, questions: Sequence[protocol.Question]) -> dict[str, Any]:
     """Returns the figures of a log, of those of the tasks that were played."""
+    return scores.summary(played(found, questions))
+
+
+def played(found: pyarrow.Table, questions: Sequence[protocol.Question]) -> list[scores.TaskScore]:
+    """Returns the scores of those of the tasks that are in a log."""
     parts = [(asked, log.of_task(found, asked)) for asked in questions]
-    return scores.summary([scores.of_task(asked, columns) for asked, columns in parts if len(columns["step"])])
+    return [scores.of_task(asked, columns) for asked, columns in parts if len(columns["step"])]
 
 
 def read(folder: Path) -> dict[str, Any]:
@@ -107,7 +114,8 @@ def read(folder: Path) -> dict[str, Any]:
     version = found.get("version") if isinstance(found, dict) else None
     if version != protocol.VERSION:
         raise ValueError(f"{path} is of protocol {version!r}; this version of physexp plays {protocol.VERSION}")
-    kinds = {"target": str, "complete": bool, "protocol": dict, "tasks": dict, "domains": dict, "whole": dict}
+    dicts = dict.fromkeys(("agent", "protocol", "tasks", "domains", "whole"), dict)
+    kinds = {"target": str, "complete": bool, **dicts}
     asked = {"seed": int, "episodes": int, "tasks": list}
     for fields, wanted in ((found, kinds), (found.get("protocol"), asked)):
         for name, kind in wanted.items():

@@ -1,6 +1,6 @@
 """What can be scored: baselines, trained agents, and anybody's own, as something that makes actors."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 import importlib
 import inspect
 import os
@@ -9,14 +9,13 @@ import re
 import sys
 from typing import Any
 
-import numpy as np
-
 from physexp.agents import core
 from physexp.analysis import domains
-from physexp.analysis.score import episodes, protocol
+from physexp.analysis.score import actors, protocol
+from physexp.analysis.training import config as config_lib
 
-BASELINES = ("random", "at_once", "silent", "ideal")
-"""Experimenters that every task has."""
+SHIPPED = "shipped"
+"""The team of the best agents that come with the package; a learner's name stands for those of the learner."""
 
 MakeActor = Callable[[protocol.Question], core.Actor]
 
@@ -36,8 +35,10 @@ def suitable(target: str) -> "tuple[protocol.Question, ...] | None":
     Raises:
       ValueError: if there is no such target; the line lists what there is.
     """
-    if target in BASELINES or _is_function(target):
+    if target in actors.BASELINES or _is_function(target):
         return None
+    if team := _team(target):
+        return protocol.named(list(team))
     if found := _with_baseline(target):
         return found
     from physexp.analysis.evaluation import playing
@@ -45,18 +46,56 @@ def suitable(target: str) -> "tuple[protocol.Question, ...] | None":
     try:
         _, config = playing.find_agent(target)
     except ValueError as error:
-        raise ValueError(f"{error}; or give {', '.join(_all_baselines())}, or MODULE:FUNCTION") from None
-    asked = protocol.question(config.domain, config.task)
-    if config.task_kwargs:
-        from physexp import suite
+        others = ", ".join([*_all_baselines(), SHIPPED, *config_lib.ALGORITHMS])
+        raise ValueError(f"{error}; or give {others}, or MODULE:FUNCTION") from None
+    if not _is_usual(config):
+        raise ValueError(f"{target} was trained with {dict(config.task_kwargs)}; score an agent of the usual task")
+    return (protocol.question(config.domain, config.task),)
 
-        chosen, usual = (
-            suite.load_task(asked.domain, asked.task, {**kwargs, "random": 0}).options
-            for kwargs in (config.task_kwargs, {})
-        )
-        if chosen != usual:
-            raise ValueError(f"{target} was trained with {dict(config.task_kwargs)}; score an agent of the usual task")
-    return (asked,)
+
+def _is_usual(config) -> bool:
+    """Returns whether an agent was trained on a task with its default options."""
+    from physexp import suite
+
+    chosen, usual = (
+        suite.load_task(config.domain, config.task, {**kwargs, "random": 0}).options
+        for kwargs in (dict(config.task_kwargs), {})
+    )
+    return chosen == usual
+
+
+def _team(target: str) -> dict[str, str]:
+    """Returns who plays each task, by the tasks' names; nothing where the target is no team.
+
+    Raises:
+      ValueError: if one of them plays anything, or two play the same.
+    """
+    if target == SHIPPED or target in config_lib.ALGORITHMS:
+        return _shipped(target)
+    team: dict[str, str] = {}
+    for member in target.split(",") if "," in target else []:
+        can = suitable(member)
+        if can is None:
+            raise ValueError(f"{member} plays every task; a team is of trained agents, so give it alone")
+        for asked in can:
+            if other := team.get(asked.name):
+                raise ValueError(f"both {other} and {member} play {asked.name}; name one of them")
+            team[asked.name] = member
+    return team
+
+
+def _shipped(whose: str) -> dict[str, str]:
+    """Returns the agents that come with the package, by task: the best ones, or those of a learner."""
+    from physexp.agents import pretrained
+    from physexp.analysis.evaluation import playing
+
+    team: dict[str, str] = {}
+    for name in pretrained.names():
+        config = playing.config_of(pretrained.load_named(name))
+        is_wanted = "/" not in name if whose == SHIPPED else config.agent.algorithm == whose
+        if is_wanted and _is_usual(config):
+            team.setdefault(f"{config.domain}/{config.task}", name)
+    return team
 
 
 def chosen(target: str, tasks: Sequence[str], observations: str) -> tuple[protocol.Question, ...]:
@@ -71,7 +110,9 @@ def chosen(target: str, tasks: Sequence[str], observations: str) -> tuple[protoc
       ValueError: if there is no such target or task, or the target does not play it.
     """
     can = suitable(target)
-    found = protocol.named(tasks) if tasks else can or protocol.observing(observations)
+    usual = protocol.observing(observations)
+    all_of_them = usual if can is None else tuple(asked for asked in can if asked in usual) or can
+    found = protocol.named(tasks) if tasks else all_of_them
     refused = [asked.name for asked in found if can is not None and asked not in can]
     if refused:
         raise ValueError(
@@ -84,14 +125,19 @@ def maker(target: str, greedy: bool = False) -> MakeActor:
     """Returns what makes an actor for a task.
 
     Args:
-      target: a baseline; the folder of a run, or an agent that comes with the package; or `module:function`.
+      target: a baseline; the folder of a run, or an agent that comes with the package; several of these with commas
+        between, `shipped`, or a learner's name, for a team in which each plays its own task; or `module:function`.
       greedy: a trained agent takes its likeliest action instead of drawing one.
 
     Raises:
       ValueError: if there is no such target, or it is no function that can play.
     """
-    if target in BASELINES:
-        return {"random": _Random, "at_once": _AtOnce, "silent": _Silent, "ideal": _ideal}[target]
+    if target in actors.BASELINES:
+        return {"random": actors.Random, "at_once": actors.AtOnce, "silent": actors.Silent, "ideal": actors.ideal}[
+            target
+        ]
+    if team := _team(target):
+        return lambda asked: maker(team[asked.name], greedy)(asked)
     if _with_baseline(target):
         return lambda asked: domains.find(asked.domain).baselines[asked.task][target]()
     if _is_function(target):
@@ -99,7 +145,7 @@ def maker(target: str, greedy: bool = False) -> MakeActor:
     from physexp.analysis.evaluation import playing
 
     network, _ = playing.find_agent(target)
-    return lambda asked: _Network(network.eval(), greedy)
+    return lambda asked: actors.Network(network.eval(), greedy)
 
 
 def file_name(target: str) -> str:
@@ -107,10 +153,22 @@ def file_name(target: str) -> str:
     return re.sub(r"\W+", "_", target).strip("_")
 
 
-def facts(target: str) -> dict[str, Any]:
-    """Returns how a trained agent was trained: algorithm, seed, command, commit, frames, seconds; nothing of others."""
+def facts(target: str, tasks: Collection[str] | None = None) -> dict[str, Any]:
+    """Returns how a trained agent was trained: algorithm, seed, command, commit, frames, seconds; nothing of others.
+
+    Of a team, algorithms, frames and seconds in all, and all of it of each of its `agents`, by task.
+
+    Args:
+      target: see `maker`.
+      tasks: what counts of a team, as `domain/task`; all of it by default.
+    """
     if target in _all_baselines() or _is_function(target):
         return {}
+    if team := _team(target):
+        each = {task: facts(member) for task, member in team.items() if tasks is None or task in tasks}
+        sums = {name: sum(one[name] for one in each.values()) for name in ("frames", "seconds")}
+        algorithms = dict.fromkeys(one["algorithm"] for one in each.values())
+        return {"algorithm": ", ".join(algorithms), **sums, "agents": each}
     from physexp.agents import pretrained
     from physexp.analysis.evaluation import playing, publishing
     from physexp.analysis.training import run as run_lib
@@ -128,7 +186,7 @@ def facts(target: str) -> dict[str, Any]:
 
 def _all_baselines() -> list[str]:
     own = {name for known in domains.DOMAINS.values() for baselines in known.baselines.values() for name in baselines}
-    return [*BASELINES, *sorted(own)]
+    return [*actors.BASELINES, *sorted(own)]
 
 
 def _with_baseline(target: str) -> tuple[protocol.Question, ...]:
@@ -158,7 +216,7 @@ def _of_function(target: str) -> MakeActor:
         raise TargetError(f"{module} has no {name}; name a function that it has") from None
     count = len(inspect.signature(function).parameters) if callable(function) else 0
     if count == 2:
-        return lambda asked: _Policy(function)
+        return lambda asked: actors.Policy(function)
     if count == 1:
         return lambda asked: _as_actor(function(asked))
     what = f"has {count} parameters" if callable(function) else "is no function"
@@ -172,102 +230,8 @@ def _as_actor(made: Any) -> core.Actor:
     if all(callable(getattr(made, method, None)) for method in _METHODS):
         return made
     if callable(made):
-        return _Policy(made)
+        return actors.Policy(made)
     raise TargetError(
         f"it returned {type(made).__name__}; return an actor, with {', '.join(_METHODS)}, or a policy, a function "
         "of an observation and a state"
     )
-
-
-class _Policy(core.Actor):
-    """Plays a policy in Gymnasium's manner: of an observation and a state, None at first, to an action and a state."""
-
-    def __init__(self, policy: Callable[[Any, Any], tuple[int, Any]]):
-        self._policy, self._state = policy, None
-
-    def observe_first(self, timestep):
-        self._state = None
-
-    def select_action(self, observation):
-        action, self._state = self._policy(observation, self._state)
-        return action
-
-    def observe(self, action, next_timestep):
-        """Does nothing: the policy sees the next observation when it is asked."""
-
-    def update(self):
-        """Does nothing: the policy is fixed."""
-
-
-class _Baseline(core.Actor):
-    """An experimenter who looks at nothing."""
-
-    def __init__(self, asked: protocol.Question):
-        self._asked, self._number = asked, -1
-
-    def observe_first(self, timestep):
-        self._number += 1
-
-    def observe(self, action, next_timestep):
-        """Does nothing."""
-
-    def update(self):
-        """Does nothing."""
-
-
-class _Random(_Baseline):
-    """Draws every action, interactions and answers alike; in an episode of some number always the same."""
-
-    def observe_first(self, timestep):
-        super().observe_first(timestep)
-        self._generator = np.random.default_rng(self._number)
-
-    def select_action(self, observation):
-        return int(self._generator.integers(self._asked.num_actions))
-
-
-class _AtOnce(_Baseline):
-    """Gives the likeliest answer at once."""
-
-    def __init__(self, asked):
-        super().__init__(asked)
-        hidden = protocol.drawn(asked, 1)[0]
-        nothing = episodes.Episode(hidden, np.zeros(0, np.int64), np.zeros(0), [])
-        self._label = int(protocol.ideal(asked).beliefs(nothing)[0].argmax())
-
-    def select_action(self, observation):
-        return self._asked.num_interactions + self._label
-
-
-class _Silent(_Baseline):
-    """Never answers."""
-
-    def select_action(self, observation):
-        return 0
-
-
-def _ideal(asked: protocol.Question) -> core.Actor:
-    return protocol.ideal(asked).actor()
-
-
-class _Network(core.Actor):
-    """Plays a trained network; what it draws in an episode of some number is always the same."""
-
-    def __init__(self, network, greedy: bool):
-        self._network, self._greedy, self._number = network, greedy, -1
-
-    def observe_first(self, timestep):
-        from physexp.agents import acting
-
-        self._number += 1
-        self._actor = acting.RecurrentActor(self._network, self._number, self._greedy)
-        self._actor.observe_first(timestep)
-
-    def select_action(self, observation):
-        return self._actor.select_action(observation)
-
-    def observe(self, action, next_timestep):
-        self._actor.observe(action, next_timestep)
-
-    def update(self):
-        """Does nothing: the network is fixed."""

@@ -1,0 +1,113 @@
+"""Actors that are scored: baselines who look at nothing, the ideal, trained networks, and anybody's policies."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from physexp.agents import core
+from physexp.analysis.score import episodes, protocol
+
+
+class Policy(core.Actor):
+    """Plays a policy in Gymnasium's manner: of an observation and a state, None at first, to an action and a state."""
+
+    def __init__(self, policy: Callable[[Any, Any], tuple[int, Any]]):
+        self._policy, self._state = policy, None
+
+    def observe_first(self, timestep):
+        self._state = None
+
+    def select_action(self, observation):
+        action, self._state = self._policy(observation, self._state)
+        return action
+
+    def observe(self, action, next_timestep):
+        """Does nothing: the policy sees the next observation when it is asked."""
+
+    def update(self):
+        """Does nothing: the policy is fixed."""
+
+
+class _Baseline(core.Actor):
+    """An experimenter who looks at nothing."""
+
+    def __init__(self, asked: protocol.Question):
+        self._asked, self._number = asked, -1
+
+    def observe_first(self, timestep):
+        self._number += 1
+
+    def observe(self, action, next_timestep):
+        """Does nothing."""
+
+    def update(self):
+        """Does nothing."""
+
+
+class Random(_Baseline):
+    """Draws every action, interactions and answers alike; in an episode of some number always the same."""
+
+    def observe_first(self, timestep):
+        super().observe_first(timestep)
+        self._generator = np.random.default_rng(self._number)
+
+    def select_action(self, observation):
+        return int(self._generator.integers(self._asked.num_actions))
+
+
+class AtOnce(_Baseline):
+    """Gives the likeliest answer at once."""
+
+    def __init__(self, asked):
+        super().__init__(asked)
+        hidden = protocol.drawn(asked, 1)[0]
+        nothing = episodes.Episode(hidden, np.zeros(0, np.int64), np.zeros(0), [])
+        self._label = int(protocol.ideal(asked).beliefs(nothing)[0].argmax())
+
+    def select_action(self, observation):
+        return self._asked.num_interactions + self._label
+
+
+class Silent(_Baseline):
+    """Never answers."""
+
+    def select_action(self, observation):
+        return 0
+
+
+def ideal(asked: protocol.Question) -> core.Actor:
+    """Returns the ideal experimenter of a task."""
+    return protocol.ideal(asked).actor()
+
+
+class Network(core.Actor):
+    """Plays a trained network; what it draws in an episode of some number is always the same."""
+
+    def __init__(self, network, greedy: bool):
+        self._network, self._greedy, self._number = network, greedy, -1
+
+    def observe_first(self, timestep):
+        from physexp.agents import acting
+
+        self._number += 1
+        self._actor = acting.RecurrentActor(self._network, self._number, self._greedy)
+        self._actor.observe_first(timestep)
+
+    def select_action(self, observation):
+        return self._actor.select_action(observation)
+
+    def observe(self, action, next_timestep):
+        self._actor.observe(action, next_timestep)
+
+    def update(self):
+        """Does nothing: the network is fixed."""
+
+
+BASELINES: Mapping[str, Callable[[protocol.Question], core.Actor]] = {
+    "random": Random,
+    "at_once": AtOnce,
+    "silent": Silent,
+    "ideal": ideal,
+}
+"""Experimenters that every task has."""

@@ -1,0 +1,198 @@
+"""The leaderboard: a row for each folder with a score of the whole protocol, in words and as a figure."""
+
+from collections.abc import Mapping, Sequence
+import dataclasses
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from physexp.agents import files
+from physexp.analysis.evaluation import figures
+from physexp.analysis.score import drawing, log, protocol, scores, scoring
+
+FOLDER = "scores"
+NAME = "leaderboard"
+MARKS = ("<!-- leaderboard: physexp leaderboard writes it -->", "<!-- end of the leaderboard -->")
+"""What it stands between in the README."""
+
+SHORT = 10  # Rows in the README.
+_ABSENT = "–"
+_INTRODUCTION = (
+    "Each row is a folder in `results/scores`, which `physexp verify` plays again; `physexp leaderboard` makes this "
+    "page from them. The score is 1 for the [ideal experimenter](../docs/ideal.md) and 0 for the best that needs no "
+    "experiment; its interval is at 95 %. Over all domains it is the interquartile mean. A task that a row does not "
+    "play (–) counts as 0. Frames and minutes are those of training, of all agents of a team together; the commit is "
+    "that of the score. [docs/score.md](../docs/score.md) says how to add a row."
+)
+
+
+@dataclasses.dataclass(frozen=True)
+class Row:
+    """A row.
+
+    Attributes:
+      name: the folder's.
+      whole: score and interval over all domains.
+      domains: the same of each domain.
+      played: how many of each domain's tasks were played, and how many there are.
+      found: what `score.json` holds.
+    """
+
+    name: str
+    whole: Mapping[str, Any]
+    domains: Mapping[str, Mapping[str, Any]]
+    played: Mapping[str, tuple[int, int]]
+    found: Mapping[str, Any]
+
+
+def read(results: Path) -> list[Row]:
+    """Returns the rows, best first.
+
+    Raises:
+      OSError: if there are none.
+      ValueError: if a folder holds no score of the whole protocol, or one that was changed; it names the folder.
+    """
+    questions = protocol.observing("features")
+    rows = [_row(folder, questions) for folder in sorted((results / FOLDER).iterdir()) if folder.is_dir()]
+    return sorted(rows, key=lambda row: (-row.whole["score"], row.name))
+
+
+def _row(folder: Path, questions: Sequence[protocol.Question]) -> Row:
+    found = scoring.read(folder)
+    _check(folder, found, [asked.name for asked in questions])
+    played = scoring.played(log.read(folder), questions)
+    earned = scores.over(played, questions)
+    names = {one.asked.name for one in played}
+    counts = {}
+    for domain in earned["domains"]:
+        tasks = [asked.name for asked in questions if asked.domain == domain]
+        counts[domain] = sum(name in names for name in tasks), len(tasks)
+    return Row(folder.name, earned["whole"], earned["domains"], counts, found)
+
+
+def _check(folder: Path, found: Mapping[str, Any], names: Sequence[str]) -> None:
+    """Refuses what is less than the whole protocol, and other tasks than those of a leaderboard."""
+    asked = found["protocol"]
+    if not found["complete"]:
+        raise ValueError(f"{folder} is not complete: {found.get('problem')}; score again, elsewhere")
+    if asked["episodes"] != protocol.EPISODES:
+        raise ValueError(f"{folder} has {asked['episodes']} episodes of each task; a row has {protocol.EPISODES:,}")
+    if others := [name for name in asked["tasks"] if name not in names]:
+        raise ValueError(f"{folder} is of {others[0]}; a row is of {', '.join(names)}")
+
+
+def write(results: Path) -> list[Path]:
+    """Writes the leaderboard as Markdown, its figure, and its part of the README beside the results.
+
+    Raises:
+      OSError, ValueError: as `read`.
+    """
+    rows = read(results)
+    page, readme = results / f"{NAME}.md", results.parent / "README.md"
+    files.write_atomically(page, markdown(rows).encode())
+    with figures.style():
+        written = [page, *figures.save(draw(rows), results / "figures", NAME)]
+    text = readme.read_text() if readme.exists() else ""
+    if MARKS[0] in text:
+        files.write_atomically(readme, with_part(text, short(rows)).encode())
+        written.append(readme)
+    return written
+
+
+def with_part(text: str, part: str) -> str:
+    """Returns the text of a README with another leaderboard between its marks."""
+    before, _, rest = text.partition(MARKS[0])
+    _, _, after = rest.partition(MARKS[1])
+    return f"{before}{MARKS[0]}\n\n{part}\n{MARKS[1]}{after}"
+
+
+def markdown(rows: Sequence[Row]) -> str:
+    """Returns the page of the leaderboard."""
+    more = {"algorithm": _algorithm, "frames": _frames, "minutes": _minutes, "commit": _commit}
+    return f"# Leaderboard\n\n{_INTRODUCTION}\n\n![Scores of all rows](figures/{NAME}.png)\n\n{_table(rows, more)}"
+
+
+def short(rows: Sequence[Row]) -> str:
+    """Returns the first rows, as they stand in the README."""
+    figure = f"![Scores of all rows of the leaderboard, by domain](results/figures/{NAME}.png)"
+    return f"{_table(rows[:SHORT], {'algorithm': _algorithm})}\n{figure}\n"
+
+
+def _table(rows: Sequence[Row], more: Mapping[str, Any]) -> str:
+    names = [drawing.words(domain) for domain in rows[0].domains]
+    lines = [["", "agent", "score", "95 % interval", *names, *more]]
+    lines.append(["---"] * len(lines[0]))
+    for number, row in enumerate(rows, 1):
+        cells = [_cell(row, domain) for domain in row.domains]
+        interval = " to ".join(map(_number, row.whole["interval"]))
+        lines.append(
+            [str(number), row.name, _number(row.whole["score"]), interval, *cells, *(say(row) for say in more.values())]
+        )
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def _cell(row: Row, domain: str) -> str:
+    count, of_all = row.played[domain]
+    number = _number(row.domains[domain]["score"])
+    return _ABSENT if count == 0 else number if count == of_all else f"{number} ({count} of {of_all} tasks)"
+
+
+def _number(score: float) -> str:
+    """Returns a score in words, without the sign of a 0."""
+    return f"{score:.3f}".replace("-0.000", "0.000")
+
+
+def _algorithm(row: Row) -> str:
+    return row.found["agent"].get("algorithm", "")
+
+
+def _frames(row: Row) -> str:
+    frames = row.found["agent"].get("frames")
+    return "" if frames is None else f"{frames:,}"
+
+
+def _minutes(row: Row) -> str:
+    seconds = row.found["agent"].get("seconds")
+    return "" if seconds is None else f"{seconds / 60:,.0f}"
+
+
+def _commit(row: Row) -> str:
+    return row.found["commit"][:10]
+
+
+def draw(rows: Sequence[Row]):
+    """Draws the score of each row, with its interval, and those of the domains that it plays."""
+    figure, axes = figures.new(width=7.2, height=0.75 + 0.24 * len(rows))
+    markers = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "*")
+    names = list(rows[0].domains)
+    places = np.arange(len(rows))[::-1]
+    for place, row in zip(places, rows, strict=True):
+        axes.axhline(place, color="0.93", linewidth=0.7, zorder=0)
+        ends = np.clip(row.whole["interval"], drawing.LEAST, None)
+        axes.plot(ends, [place] * 2, color="black", linewidth=5, alpha=0.3, solid_capstyle="butt")
+        score = max(drawing.LEAST, row.whole["score"])
+        axes.plot(score, place, "|", color="black", markersize=12, markeredgewidth=2)
+    for number, domain in enumerate(names):
+        shown = [
+            (row.domains[domain]["score"], place)
+            for row, place in zip(rows, places, strict=True)
+            if row.played[domain][0]
+        ]
+        axes.plot(
+            [max(drawing.LEAST, score) for score, _ in shown],
+            [place for _, place in shown],
+            markers[number % len(markers)],
+            color=figures.COLORS[1:][number % (len(figures.COLORS) - 1)],
+            markersize=4.5,
+            alpha=0.75,
+            linestyle="none",
+            label=drawing.words(domain),
+        )
+    axes.set_yticks(places, [row.name for row in rows])
+    axes.tick_params(axis="y", length=0)
+    axes.set(xlim=(drawing.LEAST - 0.03, 1.04), ylim=(-0.7, len(rows) - 0.3))
+    axes.set_xlabel("score: black, over all domains, with its 95 % interval; others, of each domain")
+    drawing.mark_ends(axes, len(rows))
+    axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
+    return figure
