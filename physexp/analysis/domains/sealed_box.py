@@ -29,11 +29,11 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
     """Returns the ideal experimenter, to whom every difference in what is observed is one."""
     import numpy as np
 
-    from physexp.analysis.ideal import search, trajectories
+    from physexp.analysis.ideal import hypotheses, search
     from physexp.suite.domains import sealed_box
 
     contents = np.arange(len(sealed_box.ALL_CONTENTS))
-    known = trajectories.Trajectories(_NAME, task, contents, sealed_box.PRIOR, task_kwargs)
+    known = hypotheses.Hypotheses(_NAME, task, contents, sealed_box.PRIOR, task_kwargs)
     return search.solve(known, 0.0, discount)
 
 

@@ -30,12 +30,12 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
     """Returns the ideal experimenter, to whom every difference in what is observed is one."""
     import numpy as np
 
-    from physexp.analysis.ideal import search, trajectories
+    from physexp.analysis.ideal import hypotheses, search
     from physexp.suite.domains import strike
 
     pucks = np.arange(len(strike.PUCKS))
     prior = np.full(len(pucks), 1 / len(pucks))
-    return search.solve(trajectories.Trajectories(_NAME, task, pucks, prior, task_kwargs), 0.0, discount)
+    return search.solve(hypotheses.Hypotheses(_NAME, task, pucks, prior, task_kwargs), 0.0, discount)
 
 
 DOMAIN = base.Domain(

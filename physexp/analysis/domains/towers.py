@@ -98,15 +98,15 @@ class IdealOptions:
     variation: float | None = None
 
 
-def trajectories(task: str, task_kwargs: Mapping[str, Any] | None = None, nuisances=None):
-    """Returns the `Trajectories` of all glue patterns in a task of the towers; for `nuisances` see there."""
+def hypotheses(task: str, task_kwargs: Mapping[str, Any] | None = None, nuisances=None):
+    """Returns the `Hypotheses` of all glue patterns in a task of the towers; for `nuisances` see there."""
     import numpy as np
 
-    from physexp.analysis.ideal import trajectories as trajectories_lib
+    from physexp.analysis.ideal import hypotheses as hypotheses_lib
     from physexp.suite.domains import towers
 
     patterns = np.arange(len(towers.PRIOR))
-    return trajectories_lib.Trajectories(_NAME, task, patterns, towers.PRIOR, task_kwargs, nuisances)
+    return hypotheses_lib.Hypotheses(_NAME, task, patterns, towers.PRIOR, task_kwargs, nuisances)
 
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolution: float = IdealOptions.resolution):
@@ -118,12 +118,13 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolu
     from physexp.analysis.ideal import bounds, search
 
     if bounds.is_certain(task_kwargs):
-        return search.solve(trajectories(task, task_kwargs), resolution, discount)
+        tolerance = _STEP / 2 if task.startswith("fist") else None
+        return search.solve(hypotheses(task, task_kwargs), resolution, discount, tolerance=tolerance)
     if task not in _RULES:
         raise ValueError(f"task is {task!r}; with noise or variation, choose from {', '.join(_RULES)}")
     told = {name: value for name, value in task_kwargs.items() if name != "noise"}
     upper = [
-        search.solve(trajectories(task, told, nuisances), resolution, discount).bound
+        search.solve(hypotheses(task, told, nuisances), resolution, discount).bound
         for nuisances in _drawn_nuisances(task, told)
     ]
     rule = functools.partial(_rule, task, task_kwargs.get("noise") or 0.0)
@@ -145,6 +146,7 @@ def _drawn_nuisances(task: str, task_kwargs: Mapping[str, Any]):
 
 
 _NUM_NUISANCES = 16
+_STEP = 0.1  # m, that the fist moves in a control step; wherever it wanders, it may stand at any of countless places
 _FINE = 0.001  # m, the least that agents from features are taken to tell apart.
 _RULES = {
     "direct_features": (4, 14),  # Push cube 1 to +x, and cube 3 to +y.

@@ -21,7 +21,7 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
             report(f"searching for the ideal experimenter of {condition.task}")
             path.parent.mkdir(parents=True, exist_ok=True)
             resolutions = RESOLUTIONS[conditions.observations(condition)]
-            rows = search.curve(towers.trajectories(condition.task), resolutions, condition.agent.discount)
+            rows = search.curve(towers.hypotheses(condition.task), resolutions, condition.agent.discount)
             files.write_atomically(path, (json.dumps(rows, indent=1) + "\n").encode())
 
 

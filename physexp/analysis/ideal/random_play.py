@@ -9,8 +9,7 @@ import dataclasses
 
 import numpy as np
 
-from physexp.analysis.ideal import branch_and_bound
-from physexp.analysis.ideal import trajectories as trajectories_lib
+from physexp.analysis.ideal import situations as situations_lib
 
 _NUM_SEQUENCES = 64
 
@@ -64,18 +63,18 @@ class _Group:
             yield from part.all()
 
 
-def bounds(trajectories: trajectories_lib.Trajectories, resolution: float, discount: float) -> Bounds:
+def bounds(situations: situations_lib.Situations, discount: float) -> Bounds:
     """Returns what is earned without thought; figures of random interactions are means of 64 drawn sequences.
 
     Args:
-      trajectories: of the hypotheses.
-      resolution: of the observer, as for `search.solve`.
+      situations: what actions lead to.
       discount: the agent's gamma.
     """
-    task = trajectories.task
+    task = situations.hypotheses.task
     length = task.rules.step_limit - 1  # The last action in time is the answer.
     drawn = np.random.default_rng(0).integers(task.num_interactions, size=(_NUM_SEQUENCES, length))
-    roots = [_grown(trajectories, resolution, tuple(sequence.tolist())) for sequence in drawn]
+    everything = tuple(range(len(situations.hypotheses.prior)))
+    roots = [_grown(situations, situations.start, everything, sequence.tolist()) for sequence in drawn]
     levels = sorted({round(group.likeliest, 6) for root in roots for group in root.all()})
     returns = [np.mean([root.cautious(discount, level - 1e-6) for root in roots]) for level in levels]
     return Bounds(
@@ -85,28 +84,19 @@ def bounds(trajectories: trajectories_lib.Trajectories, resolution: float, disco
     )
 
 
-def _grown(trajectories: trajectories_lib.Trajectories, resolution: float, sequence: tuple[int, ...]) -> _Group:
-    """Returns the group of all hypotheses, and all that is left of it along a sequence, until every label is known."""
-    prior, answers = trajectories.prior, trajectories.answers
-
-    def is_known(members: branch_and_bound.Group) -> bool:
-        return len(set(answers[list(members)])) == 1
-
-    def group_of(members: branch_and_bound.Group, step: int) -> _Group:
-        labels = branch_and_bound.label_chances(members, prior, answers, trajectories.task.num_labels)
-        return _Group(
-            chance=float(prior[list(members)].sum()),
-            likeliest=float(labels.max()),
-            parts=tuple(group_of(part, step + 1) for part in parts.get((step, members), ())),
-        )
-
-    everything = tuple(range(len(prior)))
-    parts: dict[tuple[int, branch_and_bound.Group], list[branch_and_bound.Group]] = {}
-    unknown = [everything]
-    for step, apart in enumerate(trajectories.follow(sequence)):
-        for members in unknown:
-            parts[step, members] = [part for _, part in branch_and_bound.split(members, apart, resolution, prior)]
-        unknown = [part for members in unknown for part in parts[step, members] if not is_known(part)]
-        if not unknown:
-            break
-    return group_of(everything, 0)
+def _grown(
+    situations: situations_lib.Situations,
+    situation: situations_lib.Situation,
+    members: situations_lib.Group,
+    actions: list[int],
+) -> _Group:
+    """Returns a group, and all that is left of it along a sequence of actions, until every label is known."""
+    parts: tuple[_Group, ...] = ()
+    if actions and not situations.is_known(members):
+        left, following = situations.follow(situation, members, actions[0])
+        parts = tuple(_grown(situations, following, part, actions[1:]) for _, part in left)
+    return _Group(
+        chance=float(situations.hypotheses.prior[list(members)].sum()),
+        likeliest=float(situations.chances(members).max()),
+        parts=parts,
+    )

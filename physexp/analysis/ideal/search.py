@@ -14,8 +14,9 @@ import numpy as np
 
 from physexp.agents import core
 from physexp.analysis.ideal import base, branch_and_bound, random_play
-from physexp.analysis.ideal import trajectories as trajectories_lib
-from physexp.suite.engine import checks
+from physexp.analysis.ideal import hypotheses as hypotheses_lib
+from physexp.analysis.ideal import situations as situations_lib
+from physexp.suite.engine import checks, rules
 
 OBJECTIVES = ("return", "time")
 
@@ -24,40 +25,54 @@ class Solution:
     """The best policy found. It is searched for when something is first asked that only a search can tell.
 
     Attributes:
-      trajectories: of the hypotheses.
-      resolution: of the observer.
+      hypotheses: what may be hidden.
       discount: the agent's gamma.
       objective: one of `OBJECTIVES`.
     """
 
     def __init__(
         self,
-        trajectories: trajectories_lib.Trajectories,
+        hypotheses: hypotheses_lib.Hypotheses,
         resolution: float,
         discount: float,
         objective: str,
         max_depth: int,
         max_steps: int,
+        tolerance: float | None,
     ):
         """Prepares the search; for the arguments see `solve`."""
-        self.trajectories = trajectories
-        self.resolution, self.discount, self.objective = resolution, discount, objective
+        self.hypotheses = hypotheses
+        self.discount, self.objective = discount, objective
+        self._resolution, self._tolerance = resolution, tolerance
         self._max_depth, self._max_steps = max_depth, max_steps
+        self._everything = tuple(range(len(hypotheses.prior)))
 
     @functools.cached_property
-    def _found(self) -> tuple[float, float, branch_and_bound.Node]:
-        """The value and the bound of the objective, and the first decision."""
+    def situations(self) -> situations_lib.Situations:
+        """What actions lead to."""
+        return situations_lib.Situations(self.hypotheses, self._resolution)
+
+    @functools.cached_property
+    def _search(self) -> branch_and_bound.Search:
+        return branch_and_bound.Search(self._aim, self.situations)
+
+    @property
+    def _aim(self) -> branch_and_bound.Objective:
         is_return = self.objective == "return"
-        aim = branch_and_bound.Objective(
+        return branch_and_bound.Objective(
             discount=self.discount if is_return else 1.0,
             cost=0.0 if is_return else 1.0,
             known=1.0 if is_return else 0.0,
             guesses=is_return,
         )
-        search = branch_and_bound.Search(aim, self.resolution, self.trajectories, self._max_depth)
-        low, high = search.run(self.trajectories.steps + self._max_steps)
-        sign = 1.0 if is_return else -1.0
-        return sign * low, sign * high, search.policy()
+
+    @functools.cached_property
+    def _found(self) -> tuple[float, float, branch_and_bound.Node]:
+        """The value and the bound of the objective, and the first decision."""
+        first = self.situations.start, self._everything, self.hypotheses.task.rules.step_limit
+        low, high = self._search.run(*first, self._max_depth, self._max_steps)
+        sign = 1.0 if self.objective == "return" else -1.0
+        return sign * low, sign * high, self._search.policy(*first)
 
     @property
     def value(self) -> float:
@@ -84,31 +99,87 @@ class Solution:
         Raises:
           ValueError: if the hidden property of the episode is none of the hypotheses.
         """
-        known = self.trajectories
+        groups = self.left(self._true(episode), episode.actions)
+        return np.array([self.situations.chances(group) for group in groups])
+
+    def left(self, hypothesis: int, actions: Sequence[int] | np.ndarray) -> list[situations_lib.Group]:
+        """Returns the hypotheses that cannot be told from the true one at the start and after each action, T + 1."""
+        groups, situation = [self._everything], self._watching.start
+        for action in map(int, actions):
+            following = groups[-1]
+            if action < self.hypotheses.task.num_interactions:  # An answer tells nothing.
+                parts, situation = self._watching.follow(situation, groups[-1], action)
+                following = _part_with(hypothesis, parts)
+            groups.append(following)
+        return groups
+
+    def judge(self, episode: base.Episode) -> base.Judgement:
+        """Returns what could be known in an episode, and what its actions were worth.
+
+        Of an interaction that was neither taken nor best it is a lower bound. Where situations are alike within the
+        tolerance, what is known in one is said of all.
+
+        Raises:
+          ValueError: if the hidden property of the episode is none of the hypotheses, or the objective is not the
+            return.
+        """
+        if self.objective != "return":
+            raise ValueError(
+                f"objective is {self.objective!r}; actions are judged by what they are worth for the return"
+            )
+        hypothesis, num_interactions = self._true(episode), self.hypotheses.task.num_interactions
+        situation, group = self._judging.situations.start, self._everything
+        beliefs, values, tells = [], [], []
+        for step, action in enumerate(map(int, episode.actions)):
+            left = self.hypotheses.task.rules.step_limit - step
+            beliefs.append(self.situations.chances(group))
+            acting = self._worth_of_interactions(situation, group, left, action)
+            values.append(np.concatenate([acting, base.worth_of_answers(beliefs[-1])]))
+            parts: situations_lib.Parts = [(1.0, group)]
+            if action < num_interactions:
+                parts, situation = self._judging.situations.follow(situation, group, action)
+            tells.append(len(parts) > 1)
+            group = _part_with(hypothesis, parts)
+        beliefs.append(self.situations.chances(group))
+        return base.Judgement(np.array(beliefs), np.array(values), np.array(tells))
+
+    def _worth_of_interactions(self, situation, group, left: int, action: int) -> np.ndarray:
+        """Returns what interactions are worth, float64 [number of them], exactly of the best and of the one taken."""
+        count, search = self.hypotheses.task.num_interactions, self._judging
+        if left == 1:
+            return np.full(count, float(rules.WRONG))
+        if self.situations.is_known(group):
+            return np.full(count, self.discount * rules.RIGHT)
+        search.run(situation, group, left)
+        if action < count:
+            parts, following = search.situations.follow(situation, group, action)
+            for _, part in parts:
+                search.run(following, part, left - 1)
+        return np.array([search.acting(situation, group, left, other)[0] for other in range(count)])
+
+    @functools.cached_property
+    def _judging(self) -> branch_and_bound.Search:
+        if self._tolerance is None:
+            return self._search
+        situations = situations_lib.Situations(self.hypotheses, self._resolution, tolerance=self._tolerance)
+        return branch_and_bound.Search(self._aim, situations)
+
+    @functools.cached_property
+    def _watching(self) -> situations_lib.Situations:
+        return situations_lib.Situations(self.hypotheses, self._resolution, wholly=True)
+
+    def _true(self, episode: base.Episode) -> int:
+        """Returns the hypothesis that is right in an episode."""
+        known = self.hypotheses
         is_it = (known.hidden == episode.hidden).reshape(len(known.hidden), -1).all(axis=1)
         if not is_it.any():
             raise ValueError(f"hidden is {checks.shown(episode.hidden)}, which is none of the hypotheses")
-        return np.array(
-            [
-                branch_and_bound.label_chances(group, known.prior, known.answers, known.task.num_labels)
-                for group in self.left(int(is_it.argmax()), episode.actions)
-            ]
-        )
-
-    def left(self, hypothesis: int, actions: Sequence[int] | np.ndarray) -> list[branch_and_bound.Group]:
-        """Returns the hypotheses that cannot be told from the true one at the start and after each action, T + 1."""
-        known = self.trajectories
-        taken = tuple(int(action) for action in actions if action < known.task.num_interactions)
-        groups = [tuple(range(len(known.hidden)))]
-        for apart in known.follow(taken):
-            parts = branch_and_bound.split(groups[-1], apart, self.resolution, known.prior)
-            groups += [part for _, part in parts if hypothesis in part]
-        return groups + [groups[-1]] * (len(actions) - len(taken))  # An answer tells nothing.
+        return int(is_it.argmax())
 
     def outcomes(self) -> np.ndarray:
         """Returns for each hypothesis the interactions before the answer and whether it is right, int64 [H, 2]."""
         found = []
-        for hypothesis, answer in enumerate(self.trajectories.answers):
+        for hypothesis, answer in enumerate(self.hypotheses.answers):
             node, interactions = self.policy, 0
             while node.action is not None:
                 node, interactions = node.children[hypothesis], interactions + 1
@@ -119,7 +190,7 @@ class Solution:
         """Returns what `figures` does, and for the return what others earn, see `random_play.Bounds`."""
         if self.objective != "return":
             return self.figures()
-        others = random_play.bounds(self.trajectories, self.resolution, self.discount)
+        others = random_play.bounds(self.situations, self.discount)
         return {**self.figures(), **dataclasses.asdict(others)}
 
     def figures(self) -> dict[str, Any]:
@@ -128,7 +199,7 @@ class Solution:
         The value is None where the right label cannot be known for certain within the depth of the search.
         """
         interactions, right = self.outcomes().T
-        prior = self.trajectories.prior
+        prior = self.hypotheses.prior
         mean = float(prior @ interactions)
         shares = np.bincount(interactions, prior)
         value, bound = (figure if math.isfinite(figure) else None for figure in (self.value, self.bound))
@@ -137,31 +208,34 @@ class Solution:
             "bound": bound,
             "accuracy": float(prior @ right),
             "mean_interactions": mean,
-            "mean_seconds": mean * self.trajectories.task.control_timestep,
+            "mean_seconds": mean * self.hypotheses.task.control_timestep,
             "histogram": {number: float(share) for number, share in enumerate(shares)},
         }
 
 
 def solve(
-    trajectories: trajectories_lib.Trajectories,
+    hypotheses: hypotheses_lib.Hypotheses,
     resolution: float,
     discount: float,
     objective: str = "return",
     *,
     max_depth: int = 8,
     max_steps: int = 2_000_000,
+    tolerance: float | None = None,
 ) -> Solution:
     """Returns the best policy.
 
     Args:
-      trajectories: of the hypotheses; what they have simulated already is used.
+      hypotheses: what may be hidden.
       resolution: by how much two observations must differ to be told apart: in the readings' unit for features, pixels
         for images. At 0 every bit counts, and the bound holds for every agent.
       discount: the agent's gamma, in (0, 1].
       objective: `return`, the expected discounted return; or `time`, as few interactions as possible until the right
         label is known for certain.
-      max_depth: longest sequences of actions looked at.
-      max_steps: control steps that may be simulated.
+      max_depth: longest sequences of actions looked at for the policy.
+      max_steps: control steps that may be simulated for the policy.
+      tolerance: to judge what others do, situations of physics are taken for one that differ by no more than this, in m
+        and m/s, as `Situations` has it.
 
     Raises:
       ValueError: for a value that makes no sense.
@@ -174,22 +248,25 @@ def solve(
             raise ValueError(f"{name} is {limit!r}; give an integer >= 1")
     if objective not in OBJECTIVES:
         raise ValueError(f"objective is {objective!r}; choose from {', '.join(OBJECTIVES)}")
-    return Solution(trajectories, resolution, discount, objective, max_depth, max_steps)
+    return Solution(hypotheses, resolution, discount, objective, max_depth, max_steps, tolerance)
 
 
-def curve(
-    trajectories: trajectories_lib.Trajectories, resolutions: Sequence[float], discount: float
-) -> list[dict[str, Any]]:
+def curve(hypotheses: hypotheses_lib.Hypotheses, resolutions: Sequence[float], discount: float) -> list[dict[str, Any]]:
     """Returns figures for both objectives at several resolutions, with `resolution` and `objective` beside them."""
     return [
         {
             "resolution": resolution,
             "objective": objective,
-            **solve(trajectories, resolution, discount, objective).figures(),
+            **solve(hypotheses, resolution, discount, objective).figures(),
         }
         for resolution in resolutions
         for objective in OBJECTIVES
     ]
+
+
+def _part_with(hypothesis: int, parts: situations_lib.Parts) -> situations_lib.Group:
+    """Returns the group, of those that one splits into, that has a hypothesis."""
+    return next(part for _, part in parts if hypothesis in part)
 
 
 class _Player(core.Actor):
@@ -197,25 +274,20 @@ class _Player(core.Actor):
 
     def __init__(self, solution: Solution):
         """Prepares to play in the environments of the solution's task."""
-        self._first, self._trajectories = solution.policy, solution.trajectories
+        self._first, self._hypotheses = solution.policy, solution.hypotheses
 
     def observe_first(self, timestep):
         self._node = self._first
 
     def select_action(self, observation) -> int:
         node = self._node
-        return self._trajectories.task.num_interactions + node.label if node.action is None else node.action
+        return self._hypotheses.task.num_interactions + node.label if node.action is None else node.action
 
     def observe(self, action, next_timestep):
         node = self._node
         if node.seen is None or next_timestep.last():
             return
-        members = list(node.group)
-        both = {
-            name: np.concatenate([next_timestep.observation[name][None], value[members]])
-            for name, value in node.seen.items()
-        }
-        self._node = node.children[members[int(self._trajectories.distances(both)[0, 1:].argmin())]]
+        self._node = node.children[node.group[self._hypotheses.nearest(next_timestep.observation, node.seen)]]
 
     def update(self):
         """Does nothing: it knows all that can be known."""

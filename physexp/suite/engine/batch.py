@@ -29,6 +29,7 @@ class Moment:
       touched: whether each held entity has moved, bool [N, number of held entities].
       observed: what was observed last, arrays [N, ...].
       states: of the simulations, those of each structure together, float64 [number of its environments, ...].
+      coordinates: of those, the positions and velocities (`qpos` and `qvel`) alone.
     """
 
     environments: np.ndarray
@@ -37,6 +38,11 @@ class Moment:
     touched: np.ndarray
     observed: dict[str, np.ndarray]
     states: tuple[np.ndarray, ...]
+    coordinates: tuple[np.ndarray, ...]
+
+    def at_step(self, step: int) -> "Moment":
+        """Returns the same, as if this many control steps had been taken."""
+        return dataclasses.replace(self, steps=np.full_like(self.steps, step))
 
 
 class BatchEnvironment:
@@ -209,13 +215,15 @@ class BatchEnvironment:
             chosen = self._choose(environments)
             if self._ledger.over[chosen].any():
                 raise RuntimeError("an episode is over; save where episodes are under way")
+            by_structure = [(group, chosen[members]) for group, members in self._by_structure(chosen)]
             return Moment(
                 environments=chosen.copy(),
                 episodes=self.episodes[chosen],
                 steps=self._ledger.steps[chosen],
                 touched=self._ledger.touched[chosen],
                 observed={name: values[chosen] for name, values in self._observations.items()},
-                states=tuple(group.save(chosen[members]) for group, members in self._by_structure(chosen)),
+                states=tuple(group.save(rows) for group, rows in by_structure),
+                coordinates=tuple(group.coordinates(rows) for group, rows in by_structure),
             )
 
     def restore(self, moment: Moment) -> None:
@@ -410,6 +418,10 @@ class _Group:
     def save(self, rows) -> np.ndarray:
         """Returns the states of rows, float64 [number of rows, ...]."""
         return self._batch.state[rows]
+
+    def coordinates(self, rows) -> np.ndarray:
+        """Returns positions and velocities, float64 [number of rows, nq + nv]."""
+        return np.concatenate([self._qpos[rows], self._batch.bind("qvel")[rows]], axis=1)
 
     def restore(self, rows, states) -> None:
         """Takes up what `save` returned."""

@@ -1,11 +1,13 @@
 """The ideal experimenter of Strike: a search, against a tree of all sequences in other simulations."""
 
 import functools
+import types
 
 import ideals
 import mujoco
 import numpy as np
 import pytest
+from trainers import fresh_seed
 
 from physexp.suite.domains import strike
 
@@ -47,7 +49,7 @@ def films(mass, friction):
 
 
 def tree(gates, discount, step_limit):
-    """The best return, by all sequences of pokes until the last action, which is an answer."""
+    """Returns what is best earned after a sequence of pokes, by all that may follow, and what splits a group."""
     pucks = [films(*values) for values in zip(*strike.properties(np.arange(len(ANSWERS)), 0.7), strict=True)]
 
     def value(sequence, group):
@@ -57,22 +59,40 @@ def tree(gates, discount, step_limit):
             return answer
         values = [answer]
         for poke in range(len(strike.POKES)):
-            parts = {}
-            for k in group:
-                gate = min(gates, max(0, int(np.floor(pucks[k]((*sequence, poke)) / (0.3 / gates)))))
-                parts.setdefault(gate, []).append(k)
+            parts = split((*sequence, poke), group)
             following = sum(len(part) * value((*sequence, poke), part) for part in parts.values())
             values.append(discount * following / len(group))
         return max(values)
 
-    return value((), list(range(len(ANSWERS))))
+    def split(sequence, group):
+        parts = {}
+        for k in group:
+            gate = min(gates, max(0, int(np.floor(pucks[k](sequence) / (0.3 / gates)))))
+            parts.setdefault(gate, []).append(k)
+        return parts
+
+    return value, split
 
 
 @pytest.mark.parametrize("difficulty, gates", [(1, 5), (3, 15)])
 def test_a_tree_of_all_sequences_in_other_simulations_finds_the_same_value(difficulty, gates):
     solution = ideals.of("strike", difficulty=difficulty, time_limit=0.5)
     assert solution.bound == pytest.approx(solution.value)
-    assert solution.value == pytest.approx(tree(gates, 0.95, 5), abs=1e-9)
+    value, split = tree(gates, 0.95, 5)
+    everything = list(range(len(ANSWERS)))
+    assert solution.value == pytest.approx(value((), everything), abs=1e-9)
+    rng = np.random.default_rng(fresh_seed())
+    for puck in rng.integers(len(ANSWERS), size=10):
+        pokes, group = tuple(rng.integers(len(strike.POKES), size=3).tolist()), everything
+        judged = solution.judge(types.SimpleNamespace(hidden=puck, actions=np.array(pokes)))
+        for step, poke in enumerate(pokes):
+            assert judged.values[step].max() == pytest.approx(value(pokes[:step], group), abs=1e-9)
+            parts = split(pokes[: step + 1], group).values()
+            worth = 0.95 * sum(len(part) * value(pokes[: step + 1], part) for part in parts) / len(group)
+            assert judged.values[step, poke] == pytest.approx(worth, abs=1e-9)
+            group = next(part for part in parts if puck in part)
+            shares = np.bincount(ANSWERS[group], minlength=7) / len(group)
+            np.testing.assert_allclose(judged.beliefs[step + 1], shares, atol=1e-12)
 
 
 def test_there_is_something_to_find_out_in_strike():

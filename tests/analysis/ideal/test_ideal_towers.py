@@ -13,7 +13,7 @@ from physexp import suite
 from physexp.agents import environment_loop
 from physexp.analysis import domains
 from physexp.analysis.domains import towers
-from physexp.analysis.ideal import branch_and_bound, search, trajectories
+from physexp.analysis.ideal import hypotheses, search, situations
 from physexp.suite.domains.towers import PRIOR
 from physexp.suite.engine import declarations
 
@@ -28,14 +28,18 @@ def test_counts_are_uniform_and_patterns_uniform_given_the_count():
 
 
 def test_patterns_are_linked_through_others():
-    apart = np.abs(np.arange(PATTERNS)[:, None] - np.arange(PATTERNS)).astype(float)
-    assert [group for _, group in branch_and_bound.split((0, 1, 2, 5, 6), apart, 1.0, PRIOR)] == [(0, 1, 2), (5, 6)]
-    assert [group for _, group in branch_and_bound.split((0, 2, 4), apart, 1.0, PRIOR)] == [
-        (0,),
-        (2,),
-        (4,),
-    ]  # 1 and 3 are known not to be.
-    chances = [chance for chance, _ in branch_and_bound.split(tuple(range(PATTERNS)), apart, 0.0, PRIOR)]
+    def parts(*groups):
+        members = np.array(sorted(member for group in groups for member in group))
+        home = np.array([[member in group for group in groups].index(True) for member in members])
+        linked = (abs(members[:, None] - members) <= 1) & (home[:, None] == home)
+        found = situations.split(groups, linked, PRIOR)
+        return [[part for _, part in found[group]] for group in groups]
+
+    assert parts((0, 1, 2, 5, 6)) == [[(0, 1, 2), (5, 6)]]
+    assert parts((0, 2, 4)) == [[(0,), (2,), (4,)]]  # 1 and 3 are known not to be.
+    assert parts((0, 1, 4), (2, 3, 7)) == [[(0, 1), (4,)], [(2, 3), (7,)]]
+    everything = tuple(range(PATTERNS))
+    chances = [chance for chance, _ in situations.split([everything], np.eye(PATTERNS, dtype=bool), PRIOR)[everything]]
     np.testing.assert_allclose(chances, PRIOR)
 
 
@@ -95,9 +99,42 @@ def test_without_any_use_of_acting_the_answer_is_a_guess_at_once():
     assert solution.value == pytest.approx(0.9**2 * -0.6)
 
 
+def test_actions_of_others_are_judged_by_what_is_best_from_there_on():
+    # Action 0 tells 1, 2 and 3 bodies and leaves 4 and 5 together, which action 1 then tells apart.
+    def tells(sequence):
+        return COUNTS if sequence[-1] == 1 and 0 in sequence else [min(count, 4) * (0 in sequence) for count in COUNTS]
+
+    four, (right, guess, wrong) = COUNTS.index(4), (2 + 3, 2 + 4, 2 + 0)
+    solution = solve(MadeWorld(2, tells, step_limit=6))
+    first = 0.9 * (3 / 5 + 2 / 5 * 0.9)
+
+    def judged(*actions):
+        return solution.judge(types.SimpleNamespace(hidden=four, actions=np.array(actions)))
+
+    told = judged(1, 0, 0, 1, right)
+    np.testing.assert_array_equal(told.tells, [False, True, False, True, False])
+    np.testing.assert_allclose(told.values.max(axis=1), [first, first, 0.9, 0.9, 1])
+    np.testing.assert_allclose(told.values[range(5), [1, 0, 0, 1, right]], [0.9 * first, first, 0.9 * 0.9, 0.9, 1])
+    np.testing.assert_allclose(told.beliefs[[0, 2, 3]], [[0.2] * 5, [0, 0, 0, 0.5, 0.5], [0, 0, 0, 0.5, 0.5]])
+    # Of the guess half is right, of the other label nothing.
+    np.testing.assert_allclose(judged(0, guess).values[1, [guess, wrong]], [0, -1])
+    # The last action in time is the answer: whoever interacts then has lost.
+    late = judged(1, 1, 1, 1, 0, 0)
+    np.testing.assert_allclose(late.values[-1], [-1, -1, -1, -1, -1, 0, 0])
+    with pytest.raises(ValueError, match="objective is 'time'; to judge actions, solve for the return"):
+        solve(MadeWorld(2, tells), "time").judge(types.SimpleNamespace(hidden=four, actions=np.array([0])))
+
+
+def test_a_place_that_is_near_to_another_is_worth_as_much():
+    known = towers.hypotheses("fist_features")
+    wandering = types.SimpleNamespace(hidden=np.array(6), actions=np.array([1, 2, 3]))  # Away, aside and back.
+    found = [search.solve(known, 0.001, 0.98, tolerance=tolerance).judge(wandering) for tolerance in (None, 0.05)]
+    np.testing.assert_allclose(found[1].values.max(axis=1), found[0].values.max(axis=1))
+
+
 @pytest.fixture(scope="module", params=["direct_features", "fist_features"])
 def world(request):
-    return request.param, towers.trajectories(request.param)
+    return request.param, towers.hypotheses(request.param)
 
 
 def test_who_sees_every_bit_knows_the_count_with_the_first_touch(world):
@@ -134,11 +171,13 @@ def test_in_the_real_environment_it_is_always_right_and_takes_as_long_as_predict
 
 
 def test_the_towers_look_alike_until_they_are_touched():
-    cache = towers.trajectories("fist_features")
-    cache.expand(dict.fromkeys([(), (1,)], range(PATTERNS)))  # Action 1 moves the fist away.
-    assert not cache.apart((1, 1)).any()
-    # Four actions after the start, and four after one more action, for 16 patterns each.
-    assert cache.steps == (4 + 1 + 4) * PATTERNS
+    known = situations.Situations(towers.hypotheses("fist_features"), 0.0)
+    everything = tuple(range(PATTERNS))
+    _, away = known.follow(known.start, everything, 1)  # Action 1 moves the fist away.
+    known.expand(away)
+    assert [parts for parts, _ in away.after.values()] == [{everything: [(pytest.approx(1), everything)]}] * 4
+    # One action at the start, and four after it, for 16 patterns each.
+    assert known.hypotheses.steps == (1 + 4) * PATTERNS
 
 
 def test_distances_are_the_largest_of_positions_or_the_number_of_pixels():
@@ -152,12 +191,12 @@ def test_distances_are_the_largest_of_positions_or_the_number_of_pixels():
         "angles": declarations.Reading([], (3,), unit="rad"),
     }
     seen = {"positions": positions, "fist_position": fist}
-    np.testing.assert_allclose(trajectories.distances(seen, readings), [[0, 0.05], [0.05, 0]])
-    np.testing.assert_allclose(trajectories.distances({"angles": fist * [3, 3, 3]}, readings), [[0, 0.03], [0.03, 0]])
+    np.testing.assert_allclose(hypotheses.distances(seen, readings), [[0, 0.05], [0.05, 0]])
+    np.testing.assert_allclose(hypotheses.distances({"angles": fist * [3, 3, 3]}, readings), [[0, 0.03], [0.03, 0]])
     pixels = np.zeros((2, 84, 84, 3), np.uint8)
     pixels[1, 3, 4] = 7
     pixels[1, 9, 9, 2] = 1
-    np.testing.assert_array_equal(trajectories.distances({"pixels": pixels}, readings), [[0, 2], [2, 0]])
+    np.testing.assert_array_equal(hypotheses.distances({"pixels": pixels}, readings), [[0, 2], [2, 0]])
 
 
 def test_from_pixels_the_first_touch_tells_as_well():

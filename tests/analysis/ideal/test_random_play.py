@@ -8,7 +8,7 @@ from made_worlds import COUNTS, PATTERNS, MadeWorld
 import numpy as np
 import pytest
 
-from physexp.analysis.ideal import branch_and_bound, random_play, search
+from physexp.analysis.ideal import random_play, search, situations
 
 LABELS = np.array(COUNTS) - 1
 
@@ -19,7 +19,7 @@ def nothing_or_all(sequence):
 
 
 def test_where_every_interaction_tells_all_one_is_enough():
-    found = random_play.bounds(MadeWorld(1, nothing_or_all), 0.5, 0.9)
+    found = random_play.bounds(situations.Situations(MadeWorld(1, nothing_or_all), 0.5), 0.9)
     assert found.at_once == pytest.approx(2 / 5 - 1)
     assert found.random_value == pytest.approx(0.9) and found.random_bound == pytest.approx(0.9)
 
@@ -27,7 +27,7 @@ def test_where_every_interaction_tells_all_one_is_enough():
 def test_where_one_of_two_interactions_tells_all_it_is_drawn_sooner_or_later():
     # It is drawn first after k interactions with probability 1 / 2^k. To know when does not help: only then is there
     # something to say.
-    found = random_play.bounds(MadeWorld(2, nothing_or_all), 0.5, 0.9)
+    found = random_play.bounds(situations.Situations(MadeWorld(2, nothing_or_all), 0.5), 0.9)
     steps = np.arange(1, 60)
     mean, square = (0.5**steps @ 0.9 ** (power * steps) for power in (1, 2))
     assert found.random_value == pytest.approx(found.random_bound)
@@ -49,7 +49,7 @@ def exact(discount, step_limit):
     prior = MadeWorld(3, bits).prior
 
     def chances(group):
-        return branch_and_bound.label_chances(group, prior, LABELS, 5)
+        return situations.label_chances(group, prior, LABELS, 5)
 
     @functools.cache
     def value(told, group, steps):
@@ -70,7 +70,7 @@ def exact(discount, step_limit):
 
 @pytest.mark.parametrize("discount, step_limit", [(0.9, 26), (0.9, 4), (0.5, 10)])
 def test_the_exact_value_lies_between_the_bounds(discount, step_limit):
-    found = random_play.bounds(MadeWorld(3, bits, step_limit), 0.5, discount)
+    found = random_play.bounds(situations.Situations(MadeWorld(3, bits, step_limit), 0.5), discount)
     error = 5 * 0.25 / math.sqrt(64)  # Five standard errors: sequences differ by less than a quarter from their mean.
     expected = exact(discount, step_limit)
     assert found.random_value <= found.random_bound + 1e-12

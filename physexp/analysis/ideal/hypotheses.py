@@ -1,0 +1,112 @@
+"""Finitely many hypotheses about what is hidden, simulated side by side."""
+
+from collections.abc import Mapping, Sequence
+import functools
+from typing import Any
+
+import numpy as np
+
+from physexp import suite
+from physexp.suite.engine import batch, declarations
+
+
+class Hypotheses:
+    """H hypotheses about what is hidden, each with a simulation of its own.
+
+    Physics is deterministic: a hypothesis and a sequence of actions make one trajectory.
+
+    Attributes:
+      task: what is played, a `QuestionTask`.
+      hidden: the hypotheses: all values that the hidden property can have, [H, ...].
+      prior: their probabilities, float64 [H].
+      answers: the right label of each, int64 [H].
+      steps: control steps simulated so far.
+    """
+
+    def __init__(
+        self,
+        domain_name: str,
+        task_name: str,
+        hidden: np.ndarray,
+        prior: np.ndarray,
+        task_kwargs: Mapping[str, Any] | None = None,
+        nuisances: np.ndarray | None = None,
+        num_threads: int = 2,
+    ):
+        """Prepares the simulations.
+
+        Args:
+          domain_name, task_name, task_kwargs: as for `suite.load`.
+          hidden, prior: as above.
+          nuisances: what the episode differs in beside, [number of nuisances], where the task has variation.
+          num_threads: threads that simulate.
+
+        Raises:
+          ValueError: for an unknown name or a bad keyword argument.
+        """
+        self.task = suite.load_task(domain_name, task_name, {**(task_kwargs or {}), "random": 0})
+        self.hidden, self.prior = np.asarray(hidden), np.asarray(prior, float)
+        self.answers = self.task.answers(self.hidden)
+        self.steps = 0
+        self._nuisances, self._num_threads = nuisances, num_threads
+
+    @functools.cached_property
+    def start(self) -> batch.Moment:
+        """Where the hypotheses stand before the first action."""
+        return self._batch.save()
+
+    def step(self, moment: batch.Moment, members: Sequence[int], action: int) -> tuple[np.ndarray, batch.Moment]:
+        """Takes an interaction.
+
+        Args:
+          moment: where some hypotheses stand, as `start` or this method returned it.
+          members: those that take the action, indices in increasing order, n of them.
+          action: the interaction.
+
+        Returns:
+          How far apart they look then, float64 [n, n], as `distances` has it, and where they stand.
+        """
+        seen = self.observe(moment, members, action)
+        return distances(seen, self.task.readings), self._batch.save(np.asarray(members))
+
+    def observe(self, moment: batch.Moment, members: Sequence[int], action: int) -> Mapping[str, np.ndarray]:
+        """Returns what is observed after an interaction, arrays with a leading axis [n]; arguments as for `step`."""
+        self._batch.restore(moment.at_step(0))  # However long an episode was, its time does not run out here.
+        timestep = self._batch.step(np.full(len(members), action), np.asarray(members))
+        self.steps += len(members)
+        if self._batch.num_divergences:
+            raise RuntimeError("the simulation diverged; nothing can be said about what can be told apart")
+        return timestep.observation
+
+    def nearest(self, observation: Mapping[str, np.ndarray], seen: Mapping[str, np.ndarray]) -> int:
+        """Returns which of what was seen, arrays [n, ...], is nearest to an observation."""
+        both = {name: np.concatenate([observation[name][None], values]) for name, values in seen.items()}
+        return int(distances(both, self.task.readings)[0, 1:].argmin())
+
+    @functools.cached_property
+    def _batch(self) -> suite.BatchEnvironment:
+        size = len(self.hidden)
+        environments = suite.BatchEnvironment(self.task, size, self._num_threads)
+        nuisances = None if self._nuisances is None else np.repeat(self._nuisances[None], size, axis=0)
+        environments.reset(hidden=self.hidden, nuisances=nuisances)
+        return environments
+
+
+def distances(observation: Mapping[str, np.ndarray], readings: Mapping[str, declarations.Reading]) -> np.ndarray:
+    """Returns how far apart observations are, pairwise: [N, N] for arrays with a leading axis N.
+
+    Features: the largest distance between what was read of the same thing, in the reading's unit. Images: how many
+    pixels differ.
+
+    Args:
+      observation: arrays by name, [N, ...].
+      readings: the task's; what is not among them is an image.
+    """
+    found = []
+    for name, values in observation.items():
+        if name in readings:
+            points = values.reshape(len(values), -1, max(1, len(readings[name].components))).astype(float)
+            found.append(np.linalg.norm(points[:, None] - points, axis=-1).max(axis=-1))
+        else:
+            found.append(np.array([(image != values).any(axis=-1).sum(axis=(1, 2)) for image in values], float))
+    return np.max(found, axis=0)

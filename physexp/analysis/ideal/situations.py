@@ -1,0 +1,163 @@
+"""What can be known after a sequence of actions: which hypotheses about what is hidden cannot be told apart.
+
+An observer of some resolution can tell two hypotheses apart once what they show has differed by more than that. What it
+knows is a group of hypotheses that it cannot tell apart.
+"""
+
+from collections.abc import Sequence
+import dataclasses
+import itertools
+
+import numpy as np
+
+from physexp.analysis.ideal import hypotheses as hypotheses_lib
+from physexp.suite.engine import batch
+
+Group = tuple[int, ...]  # Hypotheses that cannot be told apart, in increasing order.
+Parts = list[tuple[float, Group]]  # What a group splits into: probabilities, given the group, and groups.
+
+
+def split(groups: Sequence[Group], linked: np.ndarray, prior: Sequence[float]) -> dict[Group, Parts]:
+    """Splits groups of hypotheses into those that can be told apart.
+
+    Those that look alike are linked; a group is all that is linked, also through others.
+
+    Args:
+      groups: of n hypotheses together.
+      linked: which of these, in increasing order, have looked alike so far, bool [n, n]; none of different groups.
+      prior: the probabilities of all hypotheses.
+    """
+    first, before = np.arange(len(linked)), None
+    while before is None or not np.array_equal(first, before):
+        first, before = np.where(linked, first, len(linked)).min(axis=1), first
+    home = {member: group for group in groups for member in group}
+    together: dict[int, list[int]] = {}
+    for member, number in zip(sorted(home), first.tolist(), strict=True):
+        together.setdefault(number, []).append(member)
+    totals = {group: sum(prior[member] for member in group) for group in groups}
+    found: dict[Group, Parts] = {group: [] for group in groups}
+    for members in together.values():
+        group = home[members[0]]
+        found[group].append((sum(prior[member] for member in members) / totals[group], tuple(members)))
+    return found
+
+
+def label_chances(group: Group, prior: np.ndarray, answers: np.ndarray, num_labels: int) -> np.ndarray:
+    """Returns the probabilities of the labels, float64 [L], given that the hypothesis is in a group.
+
+    Args:
+      group: the hypotheses that are possible.
+      prior, answers: probability and right label of each hypothesis, [H].
+      num_labels: L.
+    """
+    members = list(group)
+    weights = np.bincount(answers[members], prior[members], minlength=num_labels)
+    return weights / weights.sum()
+
+
+@dataclasses.dataclass(eq=False)
+class Situation:
+    """Where hypotheses stand after a sequence of actions, and what can be known there.
+
+    Attributes:
+      moment: of the simulations.
+      groups: those that are followed.
+      linked: which of their n members, in increasing order, have looked alike so far, bool [n, n].
+      after: by action, what its groups split into, and the situation that follows; of actions looked at.
+    """
+
+    moment: batch.Moment
+    groups: tuple[Group, ...]
+    linked: np.ndarray
+    after: "dict[int, tuple[dict[Group, Parts], Situation]]" = dataclasses.field(default_factory=dict)
+
+
+class Situations:
+    """The situations that sequences of actions lead to, simulated when they are first looked at, and kept.
+
+    Attributes:
+      hypotheses: what is simulated.
+      resolution: of the observer.
+      start: the situation before the first action.
+    """
+
+    def __init__(
+        self,
+        hypotheses: hypotheses_lib.Hypotheses,
+        resolution: float,
+        *,
+        tolerance: float | None = None,
+        wholly: bool = False,
+    ):
+        """Starts with nothing looked at.
+
+        Args:
+          hypotheses: what is simulated.
+          resolution: of the observer, in the readings' unit for features, in pixels for images.
+          tolerance: where an action tells nothing, its situation is taken for an earlier one whose positions and
+            velocities differ by no more than this, in m and m/s; by default it never is.
+          wholly: whether groups are followed also where their label is known.
+        """
+        self.hypotheses, self.resolution = hypotheses, resolution
+        self._tolerance, self._wholly = tolerance, wholly
+        self._prior, self._answers = hypotheses.prior.tolist(), hypotheses.answers.tolist()
+        size = len(hypotheses.prior)
+        self.start = Situation(hypotheses.start, (tuple(range(size)),), np.ones((size, size), bool))
+        self._chances: dict[Group, np.ndarray] = {}
+        self._untold: dict[tuple[tuple[Group, ...], bytes], list[Situation]] = {}
+        if tolerance is not None:
+            self._merged(self.start)
+
+    def chances(self, group: Group) -> np.ndarray:
+        """Returns the probabilities of the labels, float64 [L], given a group."""
+        if group not in self._chances:
+            known = self.hypotheses
+            self._chances[group] = label_chances(group, known.prior, known.answers, known.task.num_labels)
+        return self._chances[group]
+
+    def is_known(self, group: Group) -> bool:
+        """Returns whether all hypotheses of a group have the same label."""
+        return float(self.chances(group).max()) == 1
+
+    def follow(self, situation: Situation, group: Group, action: int) -> tuple[Parts, Situation]:
+        """Returns what a group splits into with an action, and the situation that follows."""
+        if not self._wholly and self.is_known(group):
+            return [(1.0, group)], situation
+        self._look_at(situation, action)
+        parts, following = situation.after[action]
+        return parts[group], following
+
+    def is_expanded(self, situation: Situation) -> bool:
+        """Returns whether every action has been looked at."""
+        return len(situation.after) == self.hypotheses.task.num_interactions
+
+    def expand(self, situation: Situation) -> None:
+        """Looks at every action."""
+        for action in range(self.hypotheses.task.num_interactions):
+            self._look_at(situation, action)
+
+    def _look_at(self, situation: Situation, action: int) -> None:
+        if action not in situation.after:
+            situation.after[action] = self._look(situation, action)
+
+    def _look(self, situation: Situation, action: int) -> tuple[dict[Group, Parts], Situation]:
+        members = sorted(itertools.chain(*situation.groups))
+        apart, moment = self.hypotheses.step(situation.moment, members, action)
+        linked = situation.linked & (apart <= self.resolution)
+        found = split(situation.groups, linked, self._prior)
+        parts = [part for of_group in found.values() for _, part in of_group]
+        groups = tuple(part for part in parts if self._wholly or not self.is_known(part))
+        rows = np.searchsorted(members, sorted(itertools.chain(*groups)))
+        following = Situation(moment, groups, linked[np.ix_(rows, rows)])
+        tells_nothing = len(groups) == 1 and groups == situation.groups
+        return found, self._merged(following) if tells_nothing and self._tolerance is not None else following
+
+    def _merged(self, situation: Situation) -> Situation:
+        """Returns the first situation that was looked at and is the same within the tolerance, or this one."""
+        alike = self._untold.setdefault((situation.groups, situation.linked.tobytes()), [])
+        for other in alike:
+            pairs = zip(other.moment.coordinates, situation.moment.coordinates, strict=True)
+            if all(np.abs(one - another).max() <= self._tolerance for one, another in pairs):
+                return other
+        alike.append(situation)
+        return situation
