@@ -124,9 +124,7 @@ class Solution:
             return.
         """
         if self.objective != "return":
-            raise ValueError(
-                f"objective is {self.objective!r}; actions are judged by what they are worth for the return"
-            )
+            raise ValueError(f"objective is {self.objective!r}; to judge actions, solve for the return")
         hypothesis, num_interactions = self._true(episode), self.hypotheses.task.num_interactions
         situation, group = self._judging.situations.start, self._everything
         beliefs, values, tells = [], [], []
