@@ -52,6 +52,19 @@ def play(
     return Episode(environment.hidden[0], np.array(actions, np.int64), rewards, timesteps)
 
 
+def chosen_by(actor: core.Actor) -> Act:
+    """Returns what chooses actions as an actor does, who sees all but the last time step of an episode."""
+    action: int | None = None
+
+    def act(step: int, timestep: dm_env.TimeStep) -> int:
+        nonlocal action
+        show(actor, action if step else None, timestep)
+        action = int(actor.select_action(timestep.observation))
+        return action
+
+    return act
+
+
 def show(actor: core.Actor, action: int | None, timestep: dm_env.TimeStep) -> None:
     """Shows an actor a time step, and the action that led to it, None for the first."""
     if action is None:

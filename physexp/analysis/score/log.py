@@ -11,7 +11,7 @@ from pyarrow import compute
 
 from physexp.analysis.data import tables
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import episodes, judging, protocol
+from physexp.analysis.score import episodes, protocol
 
 FILE = "actions.parquet"
 
@@ -58,20 +58,28 @@ def digest(observation: Mapping[str, np.ndarray]) -> int:
 
 
 def rows(
-    asked: protocol.Question, seed: int, number: int, episode: episodes.Episode, judge: judging.Judge
+    asked: protocol.Question, seed: int, number: int, episode: episodes.Episode, judged: mistakes.Actions
 ) -> dict[str, Any]:
     """Returns the columns of one episode, T rows.
+
+    Args:
+      asked, seed, number, episode: as for `played`.
+      judged: what is said of its actions.
+    """
+    return {**played(asked, seed, number, episode), **said(asked, episode.actions, judged)}
+
+
+def played(asked: protocol.Question, seed: int, number: int, episode: episodes.Episode) -> dict[str, Any]:
+    """Returns the columns `PLAYED` of one episode, T rows.
 
     Args:
       asked: the task.
       seed: of the environment.
       number: the episode's index.
       episode: what was played.
-      judge: judges it.
     """
     count = len(episode.actions)
     digests = np.array([digest(timestep.observation) for timestep in episode.timesteps], np.uint64)
-    judged = judge(episode)
     return {
         "domain": np.full(count, asked.domain),
         "task": np.full(count, asked.task),
@@ -82,10 +90,12 @@ def rows(
         "reward": episode.rewards,
         "observation": digests[:-1],
         "next_observation": digests[1:],
-        **vars(judged),
-        "regret": judged.value - judged.worth,
-        "mistake": _kinds(asked, episode.actions, judged),
     }
+
+
+def said(asked: protocol.Question, actions: np.ndarray, judged: mistakes.Actions) -> dict[str, Any]:
+    """Returns the columns `JUDGED` of the actions of one episode, T rows."""
+    return {**vars(judged), "regret": judged.value - judged.worth, "mistake": _kinds(asked, actions, judged)}
 
 
 def _kinds(asked: protocol.Question, actions: np.ndarray, judged: mistakes.Actions) -> np.ndarray:

@@ -35,6 +35,7 @@ class TaskScore:
       right, silent: how each ended, bool [N].
       gains: bits of information about the answer from the first interaction, the second and so on, means over the
         episodes, float64 [K].
+      known: how the ideal experimenter fares; None where it is not known.
     """
 
     asked: protocol.Question
@@ -47,6 +48,7 @@ class TaskScore:
     right: np.ndarray
     silent: np.ndarray
     gains: np.ndarray
+    known: reference.Reference | None
 
     @property
     def scores(self) -> np.ndarray:
@@ -56,7 +58,7 @@ class TaskScore:
     def figures(self, seed: int) -> dict[str, Any]:
         """Returns figures by name; the score and the mistakes sum to 1, the score and the luck to the raw score."""
         interactions = self.length - ~self.silent
-        known = reference.of(self.asked, len(self.length))
+        known = self.known
         return {
             "episodes": len(self.length),
             "ideal": self.ideal,
@@ -80,12 +82,15 @@ class TaskScore:
         }
 
 
-def of_task(asked: protocol.Question, columns: Mapping[str, np.ndarray]) -> TaskScore:
+def of_task(
+    asked: protocol.Question, columns: Mapping[str, np.ndarray], known: reference.Reference | None = None
+) -> TaskScore:
     """Returns the score of a task.
 
     Args:
       asked: the task.
       columns: of the log, of its rows alone: whole episodes, one after the other.
+      known: how the ideal experimenter fares in as many episodes, where that is known.
     """
     first = columns["step"] == 0
     index = np.cumsum(first) - 1
@@ -111,6 +116,7 @@ def of_task(asked: protocol.Question, columns: Mapping[str, np.ndarray]) -> Task
         right=columns["reward"][last] > 0,
         silent=~are_answers[last],
         gains=np.bincount(columns["step"][~are_answers], columns["bits"][~are_answers]) / first.sum(),
+        known=known,
     )
 
 

@@ -1,16 +1,19 @@
 """Scores a target: plays the protocol, judges what was played, and keeps both in a folder."""
 
 from collections.abc import Callable, Mapping, Sequence
+from concurrent import futures
+import dataclasses
 import json
 from pathlib import Path
 import time
+import types
 from typing import Any
 
 import pyarrow
 
 from physexp.agents import files
 from physexp.analysis.data import provenance
-from physexp.analysis.score import judging, log, player, protocol, scores, targets
+from physexp.analysis.score import episodes, judging, log, player, protocol, reference, scores, targets
 
 FILE = "score.json"
 
@@ -45,61 +48,115 @@ def score(
       ValueError: if there is something in the folder, no ideal experimenter is known, or a number makes no sense.
     """
     check(num_episodes, timeout, folder)
-    judges = [judging.Judge(protocol.ideal(asked)) for asked in questions]
+    for asked in questions:
+        protocol.ideal(asked)  # Where none is known, that is told before anything is played.
     agent = {**targets.facts(target, [asked.name for asked in questions]), **(made or {})}
     folder.mkdir(parents=True, exist_ok=True)
-    begun, played, problem = time.monotonic(), [], "it was ended early"
-    try:
-        with player.Player(target, greedy, timeout) as actor:
-            for asked, judge in zip(questions, judges, strict=True):
-                for number, episode in enumerate(actor.play(asked, num_episodes)):
-                    played.append(log.rows(asked, protocol.ENVIRONMENT_SEED, number, episode, judge))
-                    show(len(played))
-        problem = ""
-    except player.PlayerError as error:
-        problem = str(error)
-        kept = f"; the {len(played):,} episodes before are in {folder}" if played else ""
-        raise player.PlayerError(f"{problem}{kept}") from None
-    finally:
-        if played:
-            facts = {
-                "version": protocol.VERSION,
-                "target": target,
-                "greedy": greedy,
-                "complete": not problem,
-                "problem": problem,
-                "protocol": {
-                    "seed": protocol.SEED,
-                    "episodes": num_episodes,
-                    "tasks": [asked.name for asked in questions],
-                },
-                "agent": agent,
-                "seconds": round(time.monotonic() - begun, 1),
-            }
-            written = _write(folder, log.table(played), questions, facts)
+    facts = {
+        "version": protocol.VERSION,
+        "target": target,
+        "greedy": greedy,
+        "protocol": {
+            "seed": protocol.SEED,
+            "episodes": num_episodes,
+            "tasks": [asked.name for asked in questions],
+        },
+        "agent": agent,
+    }
+    begun, problem = time.monotonic(), "it was ended early"
+    parts: list[_Part] = []
+    with judging.Judges(len(questions)) as judges:
+        try:
+            with player.Player(target, greedy, timeout) as actor:
+                for asked in questions:
+                    _play(actor, asked, num_episodes, judges, parts, show)
+            futures.wait([part.judged for part in parts])
+            problem = ""
+        except player.PlayerError as error:
+            problem = str(error)
+            count = sum(len(part.rows) for part in parts)
+            kept = f"; the {count:,} episodes before are in {folder}" if parts else ""
+            raise player.PlayerError(f"{problem}{kept}") from None
+        finally:
+            if parts:
+                ended = {"complete": not problem, "problem": problem}
+                written = _write(folder, parts, begun, {**facts, **ended})
     return written
 
 
-def _write(
-    folder: Path, found: pyarrow.Table, questions: Sequence[protocol.Question], facts: dict[str, Any]
-) -> dict[str, Any]:
+@dataclasses.dataclass(frozen=True)
+class _Part:
+    """What was played of a task, a dictionary of columns for each episode, and what is going to be said of it."""
+
+    asked: protocol.Question
+    rows: list[dict[str, Any]]
+    judged: "futures.Future[judging.Judged]"
+
+
+def _play(
+    actor: player.Player,
+    asked: protocol.Question,
+    num_episodes: int,
+    judges: judging.Judges,
+    parts: list[_Part],
+    show: Callable[[int], None],
+) -> None:
+    """Plays a task and has it judged; adds whole episodes to the parts, also where it is ended early."""
+    before = sum(len(part.rows) for part in parts)
+    rows: list[dict[str, Any]] = []
+    played: list[episodes.Episode] = []
+    try:
+        for number, episode in enumerate(actor.play(asked, num_episodes)):
+            rows.append(log.played(asked, protocol.ENVIRONMENT_SEED, number, episode))
+            played.append(dataclasses.replace(episode, timesteps=[]))  # Images of many episodes are large.
+            show(before + len(rows))
+    finally:
+        if played:
+            parts.append(_Part(asked, rows[: len(played)], judges.begin(asked, played)))
+
+
+def _write(folder: Path, parts: Sequence[_Part], begun: float, facts: dict[str, Any]) -> dict[str, Any]:
     """Writes the log, first, and its figures beside facts; returns the latter two."""
+    said = {part.asked.name: part.judged.result() for part in parts}
+    rows = [
+        {**row, **log.said(part.asked, row["action"], judged)}
+        for part in parts
+        for row, judged in zip(part.rows, said[part.asked.name].actions, strict=True)
+    ]
+    found, questions = log.table(rows), [part.asked for part in parts]
     log.write(folder, found)
-    made_by = {"commit": provenance.commit(), "versions": provenance.versions()}
-    written = {**facts, **made_by, **figures(found, questions)}
+    ideals = {name: one.ideal for name, one in said.items()}
+    made_by = {
+        "seconds": round(time.monotonic() - begun, 1),
+        "commit": provenance.commit(),
+        "versions": provenance.versions(),
+    }
+    written = {**facts, **made_by, **figures(found, questions, ideals)}
     files.write_atomically(folder / FILE, (json.dumps(written, indent=1) + "\n").encode())
     return written
 
 
-def figures(found: pyarrow.Table, questions: Sequence[protocol.Question]) -> dict[str, Any]:
-    """Returns the figures of a log, of those of the tasks that were played."""
-    return scores.summary(played(found, questions))
+def figures(
+    found: pyarrow.Table, questions: Sequence[protocol.Question], ideals: Mapping[str, reference.Reference | None]
+) -> dict[str, Any]:
+    """Returns the figures of a log, of those of the tasks that were played; for the `ideals` see `played`."""
+    return scores.summary(played(found, questions, ideals))
 
 
-def played(found: pyarrow.Table, questions: Sequence[protocol.Question]) -> list[scores.TaskScore]:
-    """Returns the scores of those of the tasks that are in a log."""
+def played(
+    found: pyarrow.Table,
+    questions: Sequence[protocol.Question],
+    ideals: Mapping[str, reference.Reference | None] = types.MappingProxyType({}),
+) -> list[scores.TaskScore]:
+    """Returns the scores of those of the tasks that are in a log.
+
+    Args:
+      found: the log.
+      questions: the tasks.
+      ideals: how the ideal experimenter fares, by task, where that is known.
+    """
     parts = [(asked, log.of_task(found, asked)) for asked in questions]
-    return [scores.of_task(asked, columns) for asked, columns in parts if len(columns["step"])]
+    return [scores.of_task(asked, columns, ideals.get(asked.name)) for asked, columns in parts if len(columns["step"])]
 
 
 def read(folder: Path) -> dict[str, Any]:

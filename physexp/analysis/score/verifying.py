@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from physexp import suite
-from physexp.analysis.score import episodes, judging, log, protocol, scoring
+from physexp.analysis.score import episodes, judging, log, protocol, reference, scoring
 
 _TOLERANCE = 1e-9  # Of what is computed in floating point, on whatever machine.
 
@@ -38,11 +38,12 @@ def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dic
         for number, logged in enumerate(_split(columns[asked.name])):
             place = f"{path}: {asked.name}, episode {number}"
             episode = _play(environment, place, logged, number)
-            _compare(place, logged, log.rows(asked, protocol.ENVIRONMENT_SEED, number, episode, judge))
+            _compare(place, logged, log.rows(asked, protocol.ENVIRONMENT_SEED, number, episode, judge(episode)))
             done += 1
             show(done)
         environment.close()
-    again = scoring.figures(found, questions)
+    ideals = {asked.name: reference.of(asked, count) for asked, count in zip(questions, counts, strict=True) if count}
+    again = scoring.figures(found, questions, ideals)
     _compare_figures(folder / scoring.FILE, {name: written[name] for name in again}, again)
     return {"episodes": done, "actions": len(found), "target": written["target"], "score": written["whole"]["score"]}
 

@@ -130,6 +130,38 @@ def test_targets_play_the_tasks_that_they_can():
     assert names("rule") == names("lookup") == ["towers/direct_features", "towers/fist_features"]
 
 
+def test_agents_that_come_with_the_package_are_a_team_of_which_each_plays_its_own_task():
+    def names(target, observations="features"):
+        return [asked.name for asked in targets.chosen(target, [], observations)]
+
+    assert names("a3c") == ["towers/direct_features", "towers/fist_features", "which_is_heavier/features"]
+    assert {"threshold/features", "strike/features"} < set(names("shipped"))
+    assert "threshold/pixels" in names("shipped", "pixels") and "threshold/features" not in names("shipped", "pixels")
+    assert names("threshold/features,strings/features") == ["threshold/features", "strings/features"]
+
+
+@pytest.mark.parametrize(
+    ("target", "said"),
+    [
+        ("threshold/features,threshold-features", "both threshold/features and threshold-features play threshold/"),
+        ("threshold/features,random", "random plays every task; a team is of trained agents, so give it alone"),
+        ("threshold/features,fly", "fly holds no run"),
+    ],
+)
+def test_a_team_whose_tasks_nobody_or_two_play_is_refused(target, said):
+    with pytest.raises(ValueError, match=said):
+        targets.suitable(target)
+
+
+def test_a_team_scores_what_its_agents_score_alone():
+    team = score("threshold/features,strings/features", BOTH, folder="team")
+    for asked in BOTH:
+        alone = score(asked.name, [asked], folder=asked.domain)
+        assert team["tasks"][asked.name]["score"] == alone["tasks"][asked.name]["score"]
+        assert team["agent"]["agents"][asked.name] == alone["agent"]
+    assert team["agent"]["frames"] == sum(one["frames"] for one in team["agent"]["agents"].values())
+
+
 @pytest.mark.parametrize("target", ["random", "threshold/features"])
 def test_a_target_plays_the_same_again_and_no_episode_depends_on_how_many_there_are(target):
     score(target, folder="once")
