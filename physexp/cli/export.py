@@ -22,7 +22,7 @@ class Export:
       minari: write a data set of Minari for each task, too.
       seed: of the environments; by default one whose episodes nobody is scored on.
       greedy: a trained agent takes its likeliest actions instead of drawing them.
-      timeout: for each call of the agent, s.
+      timeout: for each call of an agent of your own, s.
       output: the folder for all files; by default one named after the target, under exports/.
       json: print JSON.
     """
