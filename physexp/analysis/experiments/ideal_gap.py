@@ -5,17 +5,17 @@ import numpy as np
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures, records
 from physexp.analysis.experiments import base, claims, conditions, ideal_towers
-from physexp.analysis.ideal import regret
+from physexp.analysis.ideal import mistakes
 
 CONDITIONS = (*conditions.HEAVIER, *conditions.TOWERS)
 _WORDS = {
-    "again": "poked a block that was known",
-    "needless": "poked another block when answering was better",
+    "uninformative": "poked a block that was known",
+    "late": "poked a block when answering was better",
     "early": "answered when another poke was better",
-    "against": "gave another answer than the likeliest",
-    "timeout": "never answered",
+    "wrong": "gave another answer than the likeliest",
+    "silence": "never answered",
 }
-"""What the kinds of `regret.KINDS` are in this domain."""
+"""What the kinds of mistakes are in this domain; any block that is not known is as good as another."""
 
 LEAST = {3.0: 0.95, 5.0: 0.97, 10.0: 0.97}  # Share of the ideal's return that feature agents are to reach.
 
@@ -62,7 +62,8 @@ def _ideal_of(condition, episodes, stored: dict[str, list[dict]]) -> dict[str, f
         solution = conditions.ideal(condition)
         summary = solution.summary()
         masses = np.stack(episodes.masses.to_numpy()).astype(float)
-        costs = regret.regrets(solution, masses, list(episodes.actions), (episodes.label < 0).to_numpy())
+        actions = list(episodes.actions)
+        costs = mistakes.of_episodes(solution.judge_all(masses, actions), actions, condition.agent.discount)
     return {
         "ideal_return": summary["value"],
         "ideal_accuracy": summary["accuracy"],
@@ -137,7 +138,7 @@ def _draw_costs(axes, frame) -> None:
     if heavier.empty:
         axes.set_axis_off()
         return
-    means = heavier.groupby("condition", sort=False)[list(regret.KINDS)].mean()
+    means = heavier.groupby("condition", sort=False)[list(_WORDS)].mean()
     ticks = [conditions.tick(name) for name in means.index]
     base_of_bar = np.zeros(len(means))
     for number, (kind, words) in enumerate(_WORDS.items()):

@@ -4,7 +4,7 @@ With V what was known before an action is worth, and Q the action, an action cos
 the ideal's value, minus what its actions cost, plus luck, all discounted; and luck is 0 on average, whatever is done.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 import dataclasses
 
 import numpy as np
@@ -51,6 +51,33 @@ def actions(judgement: base.Judgement, taken: np.ndarray) -> Actions:
         tells=judgement.tells,
         bits=information(judgement.beliefs),
     )
+
+
+def of_episodes(
+    judged: Sequence[base.Judgement], taken: Sequence[np.ndarray], discount: float
+) -> dict[str, np.ndarray]:
+    """Returns what the mistakes of episodes cost, discounted, by kind, float64 [N] each.
+
+    Args:
+      judged: the episodes, N.
+      taken: their actions, N arrays int64 [T].
+      discount: gamma.
+    """
+    lengths = np.array([len(actions) for actions in taken])
+    ends = lengths.cumsum()
+    chosen, values = np.concatenate(taken), np.concatenate([judgement.values for judgement in judged])
+    num_interactions = values.shape[1] - judged[0].beliefs.shape[1]
+    are_answers, rows = chosen >= num_interactions, np.arange(len(chosen))
+    together = Actions(
+        value=values.max(axis=1),
+        worth=values[rows, chosen],
+        answering=values[:, num_interactions:].max(axis=1),
+        tells=np.concatenate([judgement.tells for judgement in judged]),
+        bits=np.concatenate([information(judgement.beliefs) for judgement in judged]),
+    )
+    found = costs(together, are_answers, ~are_answers & np.isin(rows, ends - 1))
+    factors = discount ** (rows - np.repeat(ends - lengths, lengths))
+    return {kind: np.add.reduceat(factors * cost, ends - lengths) for kind, cost in found.items()}
 
 
 def information(beliefs: np.ndarray) -> np.ndarray:

@@ -29,7 +29,7 @@ from physexp.analysis.experiments import (
     weighing,
 )
 from physexp.analysis.experiments import patience as patience_lib
-from physexp.analysis.ideal import regret
+from physexp.analysis.ideal import mistakes
 
 NUM_AGENTS = 6
 _EPISODES = 300  # Of each agent.
@@ -549,8 +549,8 @@ def ideal_gap(num_agents, generator, share=0.985):
                 "ideal_interactions": 2.5,
             }
             if config.domain == "which_is_heavier":
-                parts = generator.dirichlet(np.ones(len(regret.KINDS))) * abs(ideal_return - agent_return)
-                row |= dict(zip(regret.KINDS, parts, strict=True))
+                parts = generator.dirichlet(np.ones(len(mistakes.KINDS))) * abs(ideal_return - agent_return)
+                row |= dict(zip(mistakes.KINDS, parts, strict=True))
             rows.append(row)
     frame = pandas.DataFrame(rows)
     frame.attrs["towers"] = {config.task: list(_resolutions()) for config in conditions.TOWERS}

@@ -11,7 +11,7 @@ from trainers import fresh_seed
 from physexp import suite
 from physexp.agents import environment_loop
 from physexp.analysis import domains
-from physexp.analysis.ideal import calibration, odd_one_out, regret
+from physexp.analysis.ideal import calibration, mistakes, odd_one_out
 from physexp.suite.domains import which_is_heavier
 from physexp.suite.engine import priors
 
@@ -203,7 +203,7 @@ def test_the_costs_of_mistakes_add_up_to_the_gap():
     masses, actions = random_episodes(generator, 60_000, 3.0)
     right = np.array([taken[-1] - 4 == row.argmax() for taken, row in zip(actions, masses, strict=True)])
     returns = 0.9 ** np.array([len(taken) - 1 for taken in actions]) * np.where(right, 1, -1)
-    costs = regret.regrets(solution, masses, actions, np.zeros(len(masses), bool))
+    costs = mistakes.of_episodes(solution.judge_all(masses, actions), actions, 0.9)
     total = sum(costs.values())
     assert all((cost >= -1e-9).all() for cost in costs.values())
     both = returns + total  # Its mean is the value, and its spread what luck adds to both sides.
@@ -220,11 +220,12 @@ def test_each_mistake_is_counted_under_its_name():
         np.array([4]),  # A guess at once.
         np.zeros(100, int),  # Never answered.
     ]
-    costs = regret.regrets(solution, masses, actions, np.array([False] * 4 + [True]))
-    assert costs["against"][2] == pytest.approx(0.95**4 * 2)  # Worth -1 instead of 1, after four pokes.
-    assert costs["again"][0] == 0 and costs["again"][1] > 0
+    costs = mistakes.of_episodes(solution.judge_all(masses, actions), actions, 0.95)
+    assert costs["wrong"][2] == pytest.approx(0.95**4 * 2)  # Worth -1 instead of 1, after four pokes.
+    assert costs["uninformative"][0] == 0 and costs["uninformative"][1] > 0
     assert costs["early"][3] == pytest.approx(solution.value + 0.5)  # A guess is worth 2/4 - 1.
-    assert costs["timeout"][4] > 0 and not costs["timeout"][:4].any()
+    assert costs["silence"][4] > 0 and not costs["silence"][:4].any()
+    assert not costs["inferior"].any()  # Any block that is not known is as good as another.
     np.testing.assert_array_equal(costs["early"][:3], 0)
 
 
