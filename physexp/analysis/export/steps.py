@@ -1,12 +1,14 @@
 """The table of steps: a row for each action, with what was observed before and after it, and what is hidden."""
 
 from collections.abc import Iterator, Mapping, Sequence
+import functools
 import itertools
 
 import numpy as np
 import pyarrow
 
 from physexp import suite
+from physexp.analysis.ideal import base as ideal_base
 from physexp.analysis.score import episodes, protocol
 
 _KEYS = pyarrow.schema(
@@ -26,6 +28,8 @@ _TAKEN = pyarrow.schema(
         ("truncated", pyarrow.bool_()),  # The simulation has diverged: the episode has no outcome.
     ]
 )
+_KEPT = 2**12  # Judgements; of a finite question, the same episode comes often.
+
 OBSERVED, NEXT = "observation_", "next_"
 """What the names of columns with observations begin with, and of those after the action."""
 
@@ -44,7 +48,8 @@ class Steps:
         self.asked, self._seed = asked, environment_seed
         self._task = suite.load_task(asked.domain, asked.task)
         self.judged_by = protocol.ideal(asked) if protocol.is_judged(asked.domain, asked.task) else None
-        hidden = protocol.drawn(asked, 1)[0]
+        self._judge = functools.lru_cache(_KEPT)(self._judge_anew)
+        self._hidden = hidden = protocol.drawn(asked, 1)[0]
         self.schema = pyarrow.schema([*_KEYS, *self._observed(""), *_TAKEN, *self._observed(NEXT)])
         self.schema = self.schema.append(pyarrow.field("hidden", _type(hidden.dtype, hidden.shape)))
         self.schema = self.schema.append(pyarrow.field("answer", pyarrow.int16()))  # The right label.
@@ -89,9 +94,16 @@ class Steps:
             seen = np.array([timestep.observation[name] for timestep in episode.timesteps])
             found[f"{OBSERVED}{name}"], found[f"{NEXT}{OBSERVED}{name}"] = seen[:-1], seen[1:]
         if self.judged_by is not None:
-            judged = self.judged_by.judge(episode)
+            judged = self._judge(episode.hidden.tobytes(), tuple(episode.actions.tolist()))
             found |= {"belief": judged.beliefs[:-1], f"{NEXT}belief": judged.beliefs[1:], "values": judged.values}
         return found
+
+    def _judge_anew(self, hidden: bytes, actions: tuple[int, ...]) -> ideal_base.Judgement:
+        """Returns what the ideal experimenter says of an episode, which what is hidden and was done decide."""
+        assert self.judged_by is not None
+        is_hidden = np.frombuffer(hidden, self._hidden.dtype).reshape(self._hidden.shape)
+        taken = np.array(actions, np.int64)
+        return self.judged_by.judge(episodes.Episode(is_hidden, taken, np.zeros(len(taken)), []))
 
     def table(self, played: Sequence[Mapping[str, np.ndarray]]) -> pyarrow.Table:
         """Returns the table of what `rows` returned for some episodes, at least one."""
