@@ -176,7 +176,13 @@ def facts(target: str, tasks: Collection[str] | None = None) -> dict[str, Any]:
     _, config = playing.find_agent(target)
     if Path(target).exists():
         run = run_lib.Run(Path(target))
-        trained = {**run.metrics()[-1], "commit": run.facts["commit"], "command": publishing.command(config)}
+        last = run.metrics()[-1]
+        trained = {
+            "frames": int(last["frames"]),
+            "seconds": last["seconds"],
+            "commit": run.facts["commit"],
+            "command": publishing.command(config),
+        }
     else:
         agent = pretrained.load_named(target) if target in pretrained.names() else pretrained.load(*target.split("/"))
         trained = agent.card
