@@ -76,7 +76,8 @@ class Score:
                 )
             report.write(folder)
         except KeyboardInterrupt:
-            printing.warn(f"the episodes that were played are in {folder}")
+            if (folder / scoring.FILE).exists():
+                printing.warn(f"the episodes that were played are in {folder}")
             raise
         if self.json:
             printing.show(found, as_json=True)

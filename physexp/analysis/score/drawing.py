@@ -160,7 +160,7 @@ def draw_skills(axes, found: Mapping[str, Any]) -> None:
     line = outline(ours, color=OURS, linewidth=1.8, marker="o", markersize=3.5, label="this agent")
     axes.fill(around, line.get_ydata(), color=OURS, alpha=0.15)
     axes.legend(loc="upper left", bbox_to_anchor=(-0.62, -0.06), fontsize=6.5, handlelength=2.2)
-    axes.set_yticks([-0.5, 0.0, 0.5, 1.0], ["−0.5", "0", "0.5", "1"], fontsize=6, color="0.4")
+    axes.set_yticks([-0.5, 0.0, 0.5, 1.0], ["", "0", "0.5", "1"], fontsize=6, color="0.4")
     axes.set_rlabel_position(np.degrees(np.pi / len(names)))
     axes.set_xticks(angles, [""] * len(names))
     for angle, name in zip(angles, names, strict=True):

@@ -163,7 +163,7 @@ def _commit(row: Row) -> str:
 
 def draw(rows: Sequence[Row]):
     """Draws the score of each row, with its interval, and those of the domains that it plays."""
-    figure, axes = figures.new(width=7.2, height=0.75 + 0.24 * len(rows))
+    figure, axes = figures.new(width=7.2, height=max(2.2, 0.75 + 0.24 * len(rows)))
     markers = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "*")
     names = list(rows[0].domains)
     places = np.arange(len(rows))[::-1]
