@@ -33,7 +33,7 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
     from physexp.suite.domains import sealed_box
 
     contents = np.arange(len(sealed_box.ALL_CONTENTS))
-    known = hypotheses.Hypotheses(_NAME, task, contents, sealed_box.PRIOR, task_kwargs)
+    known = hypotheses.Hypotheses(_NAME, task, contents, sealed_box.PRIOR, task_kwargs, read_as="features")
     return search.solve(known, 0.0, discount)
 
 

@@ -35,7 +35,8 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
 
     pucks = np.arange(len(strike.PUCKS))
     prior = np.full(len(pucks), 1 / len(pucks))
-    return search.solve(hypotheses.Hypotheses(_NAME, task, pucks, prior, task_kwargs), 0.0, discount)
+    known = hypotheses.Hypotheses(_NAME, task, pucks, prior, task_kwargs, read_as="features")
+    return search.solve(known, 0.0, discount)
 
 
 DOMAIN = base.Domain(

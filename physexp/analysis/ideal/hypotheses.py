@@ -1,6 +1,7 @@
 """Finitely many hypotheses about what is hidden, simulated side by side."""
 
 from collections.abc import Mapping, Sequence
+import dataclasses
 import functools
 from typing import Any
 
@@ -8,6 +9,7 @@ import numpy as np
 
 from physexp import suite
 from physexp.suite.engine import batch, declarations
+from physexp.suite.engine import task as task_lib
 
 
 class Hypotheses:
@@ -31,6 +33,8 @@ class Hypotheses:
         prior: np.ndarray,
         task_kwargs: Mapping[str, Any] | None = None,
         nuisances: np.ndarray | None = None,
+        *,
+        read_as: str | None = None,
         num_threads: int = 2,
     ):
         """Prepares the simulations.
@@ -39,12 +43,16 @@ class Hypotheses:
           domain_name, task_name, task_kwargs: as for `suite.load`.
           hidden, prior: as above.
           nuisances: what the episode differs in beside, [number of nuisances], where the task has variation.
+          read_as: a task of the domain with the same physics, whose readings tell apart what this task's images do: it
+            is simulated in its place, without drawing.
           num_threads: threads that simulate.
 
         Raises:
           ValueError: for an unknown name or a bad keyword argument.
         """
-        self.task = suite.load_task(domain_name, task_name, {**(task_kwargs or {}), "random": 0})
+        options = {**(task_kwargs or {}), "random": 0}
+        self.task = suite.load_task(domain_name, task_name, options)
+        self._read = suite.load_task(domain_name, read_as or task_name, options)
         self.hidden, self.prior = np.asarray(hidden), np.asarray(prior, float)
         self.answers = self.task.answers(self.hidden)
         self.steps = 0
@@ -53,7 +61,7 @@ class Hypotheses:
     @functools.cached_property
     def start(self) -> batch.Moment:
         """Where the hypotheses stand before the first action."""
-        return self._batch.save()
+        return self._reading.save()
 
     def step(self, moment: batch.Moment, members: Sequence[int], action: int) -> tuple[np.ndarray, batch.Moment]:
         """Takes an interaction.
@@ -66,15 +74,18 @@ class Hypotheses:
         Returns:
           How far apart they look then, float64 [n, n], as `distances` has it, and where they stand.
         """
-        seen = self.observe(moment, members, action)
-        return distances(seen, self.task.readings), self._batch.save(np.asarray(members))
+        seen = self._step(self._reading, moment, members, action)
+        return distances(seen, self._read.readings), self._reading.save(np.asarray(members))
 
     def observe(self, moment: batch.Moment, members: Sequence[int], action: int) -> Mapping[str, np.ndarray]:
         """Returns what is observed after an interaction, arrays with a leading axis [n]; arguments as for `step`."""
-        self._batch.restore(moment.at_step(0))  # However long an episode was, its time does not run out here.
-        timestep = self._batch.step(np.full(len(members), action), np.asarray(members))
+        return self._step(self._observing, dataclasses.replace(moment, observed={}), members, action)
+
+    def _step(self, environments: suite.BatchEnvironment, moment, members, action) -> Mapping[str, np.ndarray]:
+        environments.restore(moment.at_step(0))  # However long an episode was, its time does not run out here.
+        timestep = environments.step(np.full(len(members), action), np.asarray(members))
         self.steps += len(members)
-        if self._batch.num_divergences:
+        if environments.num_divergences:
             raise RuntimeError("the simulation diverged; nothing can be said about what can be told apart")
         return timestep.observation
 
@@ -84,9 +95,17 @@ class Hypotheses:
         return int(distances(both, self.task.readings)[0, 1:].argmin())
 
     @functools.cached_property
-    def _batch(self) -> suite.BatchEnvironment:
+    def _reading(self) -> suite.BatchEnvironment:
+        return self._begun(self._read)
+
+    @functools.cached_property
+    def _observing(self) -> suite.BatchEnvironment:
+        return self._begun(self.task)
+
+    def _begun(self, task: task_lib.QuestionTask) -> suite.BatchEnvironment:
+        """Returns environments in which each hypothesis is true once."""
         size = len(self.hidden)
-        environments = suite.BatchEnvironment(self.task, size, self._num_threads)
+        environments = suite.BatchEnvironment(task, size, self._num_threads)
         nuisances = None if self._nuisances is None else np.repeat(self._nuisances[None], size, axis=0)
         environments.reset(hidden=self.hidden, nuisances=nuisances)
         return environments

@@ -6,7 +6,10 @@ import ideals
 import mujoco
 import numpy as np
 import pytest
+from trainers import fresh_seed
 
+from physexp import suite
+from physexp.agents import environment_loop
 from physexp.suite.domains import sealed_box
 
 FORCES = (*sealed_box.PUSHES.values(), 0.0)
@@ -106,3 +109,15 @@ def test_it_pushes_first_and_waits_in_every_episode():
             actions.append(node.action)
             node = node.children[hypothesis]
         assert 4 in actions
+
+
+@pytest.mark.parametrize("domain", ["sealed_box", "strike"])
+def test_images_show_what_readings_tell_so_that_it_plays_from_them_as_well(domain):
+    solution = ideals.of(domain, "pixels", time_limit=0.5)
+    assert solution.value == pytest.approx(ideals.of(domain, time_limit=0.5).value, abs=1e-12)
+    environment = suite.load(domain, "pixels", task_kwargs={"random": fresh_seed(), "time_limit": 0.5})
+    loop, outcomes = environment_loop.EnvironmentLoop(environment, solution.actor()), solution.outcomes()
+    for _ in range(4):
+        episode = loop.run_episode()
+        interactions, right = outcomes[environment.task.hidden]
+        assert (episode["episode_return"], episode["episode_length"]) == (1 if right else -1, interactions + 1)
