@@ -9,7 +9,7 @@ import numpy as np
 
 from physexp.agents import files
 from physexp.analysis.evaluation import figures
-from physexp.analysis.score import drawing, log, protocol, scores, scoring
+from physexp.analysis.score import drawing, log, protocol, report, scores, scoring
 
 FOLDER = "scores"
 NAME = "leaderboard"
@@ -110,16 +110,19 @@ def with_part(text: str, part: str) -> str:
 def markdown(rows: Sequence[Row]) -> str:
     """Returns the page of the leaderboard."""
     more = {"algorithm": _algorithm, "frames": _frames, "minutes": _minutes, "commit": _commit}
-    return f"# Leaderboard\n\n{_INTRODUCTION}\n\n![Scores of all rows](figures/{NAME}.png)\n\n{_table(rows, more)}"
+    return (
+        f"# Leaderboard\n\n{_INTRODUCTION}\n\n![Scores of all rows](figures/{NAME}.png)\n\n{_table(rows, FOLDER, more)}"
+    )
 
 
 def short(rows: Sequence[Row]) -> str:
     """Returns the first rows, as they stand in the README."""
     figure = f"![Scores of all rows of the leaderboard, by domain](results/figures/{NAME}.png)"
-    return f"{_table(rows[:SHORT], {'algorithm': _algorithm})}\n{figure}\n"
+    return f"{_table(rows[:SHORT], f'results/{FOLDER}', {'algorithm': _algorithm})}\n{figure}\n"
 
 
-def _table(rows: Sequence[Row], more: Mapping[str, Any]) -> str:
+def _table(rows: Sequence[Row], folder: str, more: Mapping[str, Any]) -> str:
+    """Returns a table whose rows are linked to their reports in a folder."""
     names = [drawing.words(domain) for domain in rows[0].domains]
     lines = [["", "agent", "score", "95 % interval", *names, *more]]
     lines.append(["---"] * len(lines[0]))
@@ -127,7 +130,14 @@ def _table(rows: Sequence[Row], more: Mapping[str, Any]) -> str:
         cells = [_cell(row, domain) for domain in row.domains]
         interval = " to ".join(map(_number, row.whole["interval"]))
         lines.append(
-            [str(number), row.name, _number(row.whole["score"]), interval, *cells, *(say(row) for say in more.values())]
+            [
+                str(number),
+                f"[{row.name}]({folder}/{row.name}/{report.NAME}.png)",
+                _number(row.whole["score"]),
+                interval,
+                *cells,
+                *(say(row) for say in more.values()),
+            ]
         )
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 

@@ -45,7 +45,7 @@ def test_rows_are_sorted_by_score_and_what_they_do_not_play_counts_as_0(results)
 def test_a_domain_that_is_not_played_is_marked(results):
     header, _, row = leaderboard.markdown(leaderboard.read(results)).splitlines()[6:9]
     cells = dict(zip(header.split(" | "), row.split(" | "), strict=True))
-    assert cells["agent"] == "ideal" and cells["threshold"] == "1.000" and cells["balance"] == "–"
+    assert cells["agent"] == "[ideal](scores/ideal/report.png)" and cells["threshold"] == "1.000" and cells["balance"] == "–"
 
 
 def test_the_command_writes_the_page_its_figure_and_its_part_of_the_readme(results):
@@ -56,7 +56,7 @@ def test_the_command_writes_the_page_its_figure_and_its_part_of_the_readme(resul
     assert {path.name for path in paths} == {"leaderboard.md", "leaderboard.svg", "leaderboard.png", "README.md"}
     written = readme.read_text()
     assert written.startswith(f"Before.\n\n{first}\n\n|") and written.endswith(f"{last}\n\nAfter.\n")
-    assert "outdated" not in written and "| ideal |" in written
+    assert "outdated" not in written and "| [ideal](results/scores/ideal/report.png) |" in written
     leaderboard.write(results)
     assert readme.read_text() == written
 
@@ -64,7 +64,7 @@ def test_the_command_writes_the_page_its_figure_and_its_part_of_the_readme(resul
 def test_the_readme_has_the_first_rows_only(results):
     (row, _) = leaderboard.read(results)
     lines = leaderboard.short([row] * 15).splitlines()
-    assert len([line for line in lines if "| ideal |" in line]) == leaderboard.SHORT
+    assert len([line for line in lines if "| [ideal](" in line]) == leaderboard.SHORT
 
 
 def test_a_score_of_less_than_the_protocol_is_no_row(results, tmp_path):
