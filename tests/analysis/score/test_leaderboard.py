@@ -45,7 +45,8 @@ def test_rows_are_sorted_by_score_and_what_they_do_not_play_counts_as_0(results)
 def test_a_domain_that_is_not_played_is_marked(results):
     header, _, row = leaderboard.markdown(leaderboard.read(results)).splitlines()[6:9]
     cells = dict(zip(header.split(" | "), row.split(" | "), strict=True))
-    assert cells["agent"] == "[ideal](scores/ideal/report.png)" and cells["threshold"] == "1.000" and cells["balance"] == "–"
+    assert cells["agent"] == "[ideal](scores/ideal/report.png)"
+    assert (cells["threshold"], cells["balance"]) == ("1.000", "–")
 
 
 def test_the_command_writes_the_page_its_figure_and_its_part_of_the_readme(results):
