@@ -19,6 +19,7 @@ from physexp.analysis.ideal import situations as situations_lib
 from physexp.suite.engine import checks, rules
 
 OBJECTIVES = ("return", "time")
+_MOST_SITUATIONS = 100_000  # Kept to judge others: about a gigabyte.
 
 
 class Solution:
@@ -126,6 +127,8 @@ class Solution:
         if self.objective != "return":
             raise ValueError(f"objective is {self.objective!r}; to judge actions, solve for the return")
         hypothesis, num_interactions = self._true(episode), self.hypotheses.task.num_interactions
+        if self._judging.situations.count > _MOST_SITUATIONS:
+            self._judging = self._new_judging()
         situation, group = self._judging.situations.start, self._everything
         beliefs, values, tells = [], [], []
         for step, action in enumerate(map(int, episode.actions)):
@@ -157,8 +160,9 @@ class Solution:
 
     @functools.cached_property
     def _judging(self) -> branch_and_bound.Search:
-        if self._tolerance is None:
-            return self._search
+        return self._search if self._tolerance is None else self._new_judging()
+
+    def _new_judging(self) -> branch_and_bound.Search:
         situations = situations_lib.Situations(self.hypotheses, self._resolution, tolerance=self._tolerance)
         return branch_and_bound.Search(self._aim, situations)
 

@@ -79,6 +79,7 @@ class Situations:
       hypotheses: what is simulated.
       resolution: of the observer.
       start: the situation before the first action.
+      count: situations simulated so far.
     """
 
     def __init__(
@@ -98,7 +99,7 @@ class Situations:
             velocities differ by no more than this, in m and m/s; by default it never is.
           wholly: whether groups are followed also where their label is known.
         """
-        self.hypotheses, self.resolution = hypotheses, resolution
+        self.hypotheses, self.resolution, self.count = hypotheses, resolution, 0
         self._tolerance, self._wholly = tolerance, wholly
         self._prior, self._answers = hypotheses.prior.tolist(), hypotheses.answers.tolist()
         size = len(hypotheses.prior)
@@ -141,6 +142,7 @@ class Situations:
             situation.after[action] = self._look(situation, action)
 
     def _look(self, situation: Situation, action: int) -> tuple[dict[Group, Parts], Situation]:
+        self.count += 1
         members = sorted(itertools.chain(*situation.groups))
         apart, moment = self.hypotheses.step(situation.moment, members, action)
         linked = situation.linked & (apart <= self.resolution)

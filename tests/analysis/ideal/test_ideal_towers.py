@@ -125,6 +125,20 @@ def test_actions_of_others_are_judged_by_what_is_best_from_there_on():
         solve(MadeWorld(2, tells), "time").judge(types.SimpleNamespace(hidden=four, actions=np.array([0])))
 
 
+def test_what_is_kept_to_judge_others_is_bounded_and_judgements_stay_the_same(monkeypatch):
+    def judged(solution):
+        drawn = np.random.default_rng(0).integers(2, size=(30, 5))
+        episodes = [types.SimpleNamespace(hidden=7, actions=actions) for actions in drawn]
+        return np.array([solution.judge(episode).values for episode in episodes])
+
+    world = MadeWorld(2, lambda sequence: [min(count, len(sequence)) for count in COUNTS], step_limit=6)
+    everything = judged(solve(world))
+    all_steps, world.steps = world.steps, 0
+    monkeypatch.setattr(search, "_MOST_SITUATIONS", 3)
+    np.testing.assert_array_equal(judged(solve(world)), everything)
+    assert world.steps > all_steps  # It was simulated again.
+
+
 def test_a_place_that_is_near_to_another_is_worth_about_as_much():
     known = towers.hypotheses("fist_features")
     away = types.SimpleNamespace(hidden=np.array(6), actions=np.array([1]))
