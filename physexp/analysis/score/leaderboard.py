@@ -118,7 +118,7 @@ def markdown(rows: Sequence[Row]) -> str:
 def short(rows: Sequence[Row]) -> str:
     """Returns the first rows, as they stand in the README."""
     figure = f"![Scores of all rows of the leaderboard, by domain](results/figures/{NAME}.png)"
-    return f"{_table(rows[:SHORT], f'results/{FOLDER}', {'algorithm': _algorithm})}\n{figure}\n"
+    return f"{_table(rows[:SHORT], f'results/{FOLDER}', {'algorithm': _algorithm, 'frames': _frames})}\n{figure}\n"
 
 
 def _table(rows: Sequence[Row], folder: str, more: Mapping[str, Any]) -> str:
