@@ -8,6 +8,7 @@ import pyarrow
 
 from physexp import extras
 from physexp.analysis.export import steps
+from physexp.analysis.score import log
 
 extras.require("minari")
 
@@ -64,7 +65,7 @@ class DataSet:
         columns = {name: steps.array(table[name]) for name in table.column_names}
         starts = np.flatnonzero(columns["step"] == 0)
         first = self._storage.total_episodes
-        self._storage.update_episodes(map(self._episode, steps.split(columns)))
+        self._storage.update_episodes(map(self._episode, log.split(columns)))
         facts = [{name: columns[name][start] for name in _OF_EPISODE} for start in starts]
         self._storage.update_episode_metadata(facts, range(first, first + len(starts)))
 

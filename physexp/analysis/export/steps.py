@@ -1,15 +1,12 @@
 """The table of steps: a row for each action, with what was observed before and after it, and what is hidden."""
 
-from collections.abc import Iterator, Mapping, Sequence
-import functools
-import itertools
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pyarrow
 
 from physexp import suite
-from physexp.analysis.ideal import base as ideal_base
-from physexp.analysis.score import episodes, protocol
+from physexp.analysis.score import episodes, judging, protocol
 
 _KEYS = pyarrow.schema(
     [
@@ -28,7 +25,6 @@ _TAKEN = pyarrow.schema(
         ("truncated", pyarrow.bool_()),  # The simulation has diverged: the episode has no outcome.
     ]
 )
-_KEPT = 2**12  # Judgements; of a finite question, the same episode comes often.
 
 OBSERVED, NEXT = "observation_", "next_"
 """What the names of columns with observations begin with, and of those after the action."""
@@ -48,8 +44,8 @@ class Steps:
         self.asked, self._seed = asked, environment_seed
         self._task = suite.load_task(asked.domain, asked.task)
         self.judged_by = protocol.ideal(asked) if protocol.is_judged(asked.domain, asked.task) else None
-        self._judge = functools.lru_cache(_KEPT)(self._judge_anew)
-        self._hidden = hidden = protocol.drawn(asked, 1)[0]
+        self._judge = None if self.judged_by is None else judging.Judge(self.judged_by)
+        hidden = protocol.drawn(asked, 1)[0]
         self.schema = pyarrow.schema([*_KEYS, *self._observed(""), *_TAKEN, *self._observed(NEXT)])
         self.schema = self.schema.append(pyarrow.field("hidden", _type(hidden.dtype, hidden.shape)))
         self.schema = self.schema.append(pyarrow.field("answer", pyarrow.int16()))  # The right label.
@@ -93,17 +89,10 @@ class Steps:
         for name in self.asked.observation_spec:
             seen = np.array([timestep.observation[name] for timestep in episode.timesteps])
             found[f"{OBSERVED}{name}"], found[f"{NEXT}{OBSERVED}{name}"] = seen[:-1], seen[1:]
-        if self.judged_by is not None:
-            judged = self._judge(episode.hidden.tobytes(), tuple(episode.actions.tolist()))
+        if self._judge is not None:
+            judged = self._judge.judgement(episode)
             found |= {"belief": judged.beliefs[:-1], f"{NEXT}belief": judged.beliefs[1:], "values": judged.values}
         return found
-
-    def _judge_anew(self, hidden: bytes, actions: tuple[int, ...]) -> ideal_base.Judgement:
-        """Returns what the ideal experimenter says of an episode, which what is hidden and was done decide."""
-        assert self.judged_by is not None
-        is_hidden = np.frombuffer(hidden, self._hidden.dtype).reshape(self._hidden.shape)
-        taken = np.array(actions, np.int64)
-        return self.judged_by.judge(episodes.Episode(is_hidden, taken, np.zeros(len(taken)), []))
 
     def table(self, played: Sequence[Mapping[str, np.ndarray]]) -> pyarrow.Table:
         """Returns the table of what `rows` returned for some episodes, at least one."""
@@ -121,13 +110,6 @@ def array(column: pyarrow.ChunkedArray) -> np.ndarray:
     if not pyarrow.types.is_fixed_size_list(column.type):
         return column.to_numpy()
     return column.combine_chunks().flatten().to_numpy(zero_copy_only=False).reshape(len(column), -1)
-
-
-def split(columns: Mapping[str, np.ndarray]) -> Iterator[dict[str, np.ndarray]]:
-    """Yields the columns of each episode; it begins with step 0."""
-    starts = np.flatnonzero(columns["step"] == 0)
-    for start, end in itertools.pairwise([*starts, len(columns["step"])]):
-        yield {name: values[start:end] for name, values in columns.items()}
 
 
 def _type(dtype: np.dtype, shape: tuple[int, ...]) -> pyarrow.DataType:

@@ -35,13 +35,21 @@ class Judge:
         Raises:
           ValueError: if it cannot be known.
         """
+        return mistakes.actions(self.judgement(episode), episode.actions)
+
+    def judgement(self, episode: episodes.Episode) -> ideal_base.Judgement:
+        """Returns what could be known in an episode, and what its actions were worth.
+
+        Raises:
+          ValueError: if it cannot be known.
+        """
         hidden = np.asarray(episode.hidden)
         return self._judged(hidden.dtype.str, hidden.shape, hidden.tobytes(), tuple(episode.actions.tolist()))
 
-    def _judge(self, dtype: str, shape: tuple[int, ...], hidden: bytes, actions: tuple[int, ...]) -> mistakes.Actions:
+    def _judge(self, dtype: str, shape: tuple[int, ...], hidden: bytes, actions: tuple[int, ...]):
         taken = np.array(actions, np.int64)
         episode = episodes.Episode(np.frombuffer(hidden, dtype).reshape(shape), taken, np.zeros(len(taken)), [])
-        return mistakes.actions(self._solution.judge(episode), taken)
+        return self._solution.judge(episode)
 
 
 @dataclasses.dataclass(frozen=True)

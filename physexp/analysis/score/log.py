@@ -136,3 +136,10 @@ def of_task(found: pyarrow.Table, asked: protocol.Question) -> dict[str, np.ndar
     its = found.filter(is_its)
     kinds = np.array(its["mistake"].to_pylist(), object)  # A dictionary without words has no array.
     return {name: kinds if name == "mistake" else its[name].to_numpy() for name in its.column_names}
+
+
+def split(columns: Mapping[str, np.ndarray]) -> list[dict[str, np.ndarray]]:
+    """Returns the columns of each episode of a task; an episode begins with step 0."""
+    starts = np.flatnonzero(columns["step"] == 0)
+    bounds = [0, *starts[1:], len(columns["step"])] if len(starts) else []
+    return [{name: values[a:b] for name, values in columns.items()} for a, b in zip(bounds, bounds[1:], strict=False)]

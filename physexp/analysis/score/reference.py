@@ -53,15 +53,7 @@ def of(asked: protocol.Question, num_episodes: int) -> Reference | None:
 
 def _play(environment, actor: core.Actor, solution: ideal_base.Solution, hidden: np.ndarray) -> np.ndarray:
     """Plays an episode; returns the bits that each interaction brought."""
-    action: int | None = None
-
-    def act(step: int, timestep) -> int:
-        nonlocal action
-        episodes.show(actor, action, timestep)
-        action = int(actor.select_action(timestep.observation))
-        return action
-
-    played = episodes.play(environment, act, hidden=hidden)
+    played = episodes.play(environment, episodes.chosen_by(actor), hidden=hidden)
     return mistakes.information(solution.beliefs(played))[:-1]
 
 

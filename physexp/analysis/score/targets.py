@@ -1,6 +1,7 @@
 """What can be scored: baselines, trained agents, and anybody's own, as something that makes actors."""
 
 from collections.abc import Callable, Collection, Sequence
+import functools
 import importlib
 import inspect
 import os
@@ -57,11 +58,8 @@ def _is_usual(config) -> bool:
     """Returns whether an agent was trained on a task with its default options."""
     from physexp import suite
 
-    chosen, usual = (
-        suite.load_task(config.domain, config.task, {**kwargs, "random": 0}).options
-        for kwargs in (dict(config.task_kwargs), {})
-    )
-    return chosen == usual
+    kind = suite.options(config.domain)
+    return kind(**{**config.task_kwargs, "random": 0}) == kind(**{"random": 0})
 
 
 def _team(target: str) -> dict[str, str]:
@@ -84,6 +82,7 @@ def _team(target: str) -> dict[str, str]:
     return team
 
 
+@functools.cache  # All agents are looked at.
 def _shipped(whose: str) -> dict[str, str]:
     """Returns the agents that come with the package, by task: the best ones, or those of a learner."""
     from physexp.agents import pretrained
@@ -133,9 +132,7 @@ def maker(target: str, greedy: bool = False) -> MakeActor:
       ValueError: if there is no such target, or it is no function that can play.
     """
     if target in actors.BASELINES:
-        return {"random": actors.Random, "at_once": actors.AtOnce, "silent": actors.Silent, "ideal": actors.ideal}[
-            target
-        ]
+        return actors.BASELINES[target]
     if team := _team(target):
         return lambda asked: maker(team[asked.name], greedy)(asked)
     if _with_baseline(target):

@@ -35,7 +35,7 @@ def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dic
     done = 0
     for asked in questions:
         environment, judge = protocol.load(asked), judging.Judge(protocol.ideal(asked))
-        for number, logged in enumerate(_split(columns[asked.name])):
+        for number, logged in enumerate(log.split(columns[asked.name])):
             place = f"{path}: {asked.name}, episode {number}"
             episode = _play(environment, place, logged, number)
             _compare(place, logged, log.rows(asked, protocol.ENVIRONMENT_SEED, number, episode, judge(episode)))
@@ -71,13 +71,6 @@ def _check_counts(
         may_be_less = not written["complete"] and number >= reached
         if count > asked_for or (count < asked_for and not may_be_less):
             raise ValueError(f"{folder / log.FILE}: {asked.name} has {count} episodes instead of {asked_for}")
-
-
-def _split(columns: Mapping[str, np.ndarray]) -> list[dict[str, np.ndarray]]:
-    """Returns the columns of each episode of a task; an episode begins with step 0."""
-    starts = np.flatnonzero(columns["step"] == 0)
-    bounds = [0, *starts[1:], len(columns["step"])] if len(starts) else []
-    return [{name: values[a:b] for name, values in columns.items()} for a, b in zip(bounds, bounds[1:], strict=False)]
 
 
 def _play(

@@ -16,7 +16,7 @@ import waiting
 from physexp import suite
 from physexp.analysis.data import tables
 from physexp.analysis.export import exporting, steps
-from physexp.analysis.score import player, protocol, scoring
+from physexp.analysis.score import log, player, protocol, scoring
 
 HALVING = Path(__file__).parents[3] / "docs" / "examples" / "halving.py"
 HANGS = """
@@ -65,7 +65,7 @@ def columns_of(asked, folder="exported"):
 def test_each_row_is_what_playing_the_action_on_the_instance_brings():
     export("random", BOTH, count=5)
     for asked in BOTH:
-        episodes = list(steps.split(columns_of(asked)))
+        episodes = list(log.split(columns_of(asked)))
         assert len(episodes) == 5
         for number, played in enumerate(episodes):
             assert set(played["episode"]) == {number}
@@ -110,7 +110,7 @@ def test_a_data_set_of_minari_holds_what_the_table_holds(monkeypatch):
         data_set, table = minari.load_dataset(name), columns_of(asked)
         assert data_set.total_steps == len(table["step"]) and data_set.total_episodes == 6
         facts = data_set.storage.get_episode_metadata(range(6))
-        for loaded, played, fact in zip(data_set, steps.split(table), facts, strict=True):
+        for loaded, played, fact in zip(data_set, log.split(table), facts, strict=True):
             for seen, spec in asked.observation_spec.items():
                 array = loaded.observations[seen]
                 assert array.dtype == spec.dtype and array.shape == (len(loaded) + 1, *spec.shape)
@@ -137,7 +137,7 @@ def test_images_are_stored_bit_for_bit():
     export("random", [asked], count=2, as_minari=True)
     data_set = minari.MinariDataset("exported/minari/physexp/threshold-pixels/random-v0/data")
     environment = protocol.load(asked, exporting.SEED)
-    for loaded, played in zip(data_set, steps.split(columns_of(asked)), strict=True):
+    for loaded, played in zip(data_set, log.split(columns_of(asked)), strict=True):
         seen = [environment.reset(), *(environment.step(np.array([action])) for action in loaded.actions)]
         images = np.concatenate([timestep.observation["pixels"] for timestep in seen])
         assert images.std() > 0
@@ -199,7 +199,7 @@ def test_an_agent_that_hangs_loses_nothing_that_was_played():
         export("hanging_agent:policy", timeout=2.0)
     facts = json.loads(Path("exported/export.json").read_text())
     assert not facts["complete"] and facts["tasks"]["threshold/features"]["episodes"] == 2
-    assert len(list(steps.split(columns_of(*THRESHOLD)))) == 2
+    assert len(list(log.split(columns_of(*THRESHOLD)))) == 2
 
 
 def test_ctrl_c_keeps_what_was_played(here):
@@ -210,7 +210,7 @@ def test_ctrl_c_keeps_what_was_played(here):
         _, errors = process.communicate()
     assert process.returncode == 130
     assert errors == "the episodes that were played are in kept\nphysexp: interrupted\n"
-    assert len(list(steps.split(columns_of(*THRESHOLD, folder="kept")))) == 2
+    assert len(list(log.split(columns_of(*THRESHOLD, folder="kept")))) == 2
 
 
 def test_the_command_exports(here):

@@ -13,14 +13,7 @@ def play(target, asked, count=COUNT):
     """The score of a target on a task, played in this process."""
     actor, environment = targets.maker(target)(asked), protocol.load(asked)
     judge = judging.Judge(protocol.ideal(asked))
-    played, action = [], None
-
-    def act(step, timestep):
-        nonlocal action
-        episodes.show(actor, action if step else None, timestep)
-        action = int(actor.select_action(timestep.observation))
-        return action
-
+    act, played = episodes.chosen_by(actor), []
     for number in range(count):
         episode = episodes.play(environment, act, number)
         played.append(log.rows(asked, protocol.ENVIRONMENT_SEED, number, episode, judge(episode)))
