@@ -52,7 +52,7 @@ class Hypotheses:
         """
         options = {**(task_kwargs or {}), "random": 0}
         self.task = suite.load_task(domain_name, task_name, options)
-        self._read = suite.load_task(domain_name, read_as or task_name, options)
+        self._read = self.task if read_as in (None, task_name) else suite.load_task(domain_name, read_as, options)
         self.hidden, self.prior = np.asarray(hidden), np.asarray(prior, float)
         self.answers = self.task.answers(self.hidden)
         self.steps = 0
@@ -100,7 +100,7 @@ class Hypotheses:
 
     @functools.cached_property
     def _observing(self) -> suite.BatchEnvironment:
-        return self._begun(self.task)
+        return self._reading if self._read is self.task else self._begun(self.task)
 
     def _begun(self, task: task_lib.QuestionTask) -> suite.BatchEnvironment:
         """Returns environments in which each hypothesis is true once."""
