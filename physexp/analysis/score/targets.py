@@ -58,8 +58,8 @@ def _is_usual(config) -> bool:
     """Returns whether an agent was trained on a task with its default options."""
     from physexp import suite
 
-    kind = suite.options(config.domain)
-    return kind(**{**config.task_kwargs, "random": 0}) == kind(**{"random": 0})
+    kind: Any = suite.options(config.domain)
+    return kind(**{**config.task_kwargs, "random": 0}) == kind(random=0)
 
 
 def _team(target: str) -> dict[str, str]:
