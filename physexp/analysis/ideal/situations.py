@@ -101,7 +101,7 @@ class Situations:
         """
         self.hypotheses, self.resolution, self.count = hypotheses, resolution, 0
         self._tolerance, self._wholly = tolerance, wholly
-        self._prior, self._answers = hypotheses.prior.tolist(), hypotheses.answers.tolist()
+        self._prior = hypotheses.prior.tolist()
         size = len(hypotheses.prior)
         self.start = Situation(hypotheses.start, (tuple(range(size)),), np.ones((size, size), bool))
         self._chances: dict[Group, np.ndarray] = {}
