@@ -93,6 +93,16 @@ NO_NUMBERS = [
 ]
 
 
+@pytest.mark.parametrize("value", [*NO_NUMBERS, {}, (), 0.999, 0, -5])
+@pytest.mark.parametrize(
+    "domain_name", [name for name in suite.TASKS_BY_DOMAIN if hasattr(suite.options(name), "difficulty")]
+)
+def test_a_difficulty_that_no_domain_has_is_refused(domain_name, value):
+    with _refuses("difficulty is", repr(value)[:100], "; give ") as refused:
+        suite.load(domain_name, "features", {"difficulty": value})
+    assert "\n" not in str(refused.value) and len(str(refused.value)) < 300
+
+
 @pytest.mark.parametrize("value", [*NO_NUMBERS, 0.999, 0, -5])
 def test_a_difficulty_that_is_not_a_finite_number_from_one_up_is_refused(value):
     with _refuses("difficulty", repr(value)[:100], ">= 1") as refused:

@@ -67,9 +67,7 @@ class Options(options_lib.Options):
                 f"control_timestep is {self.control_timestep} s; give at least {_SHORTEST_STEP} s, in which the beam "
                 "comes to rest"
             )
-        if self.difficulty not in (1, 2, 3):
-            raise ValueError(f"difficulty is {checks.shown(self.difficulty)}; give 1, 2 or 3")
-        object.__setattr__(self, "difficulty", float(self.difficulty))
+        object.__setattr__(self, "difficulty", checks.one_of("difficulty", self.difficulty, (1, 2, 3)))
 
 
 def num_suspects(difficulty: float) -> int:

@@ -98,9 +98,7 @@ class Options(options_lib.Options):
 
     def __post_init__(self):
         super().__post_init__()
-        if self.difficulty not in MARKS:
-            raise ValueError(f"difficulty is {checks.shown(self.difficulty)}; give 1, 2 or 3")
-        object.__setattr__(self, "difficulty", float(self.difficulty))
+        object.__setattr__(self, "difficulty", checks.one_of("difficulty", self.difficulty, tuple(MARKS)))
 
 
 def draw_contents(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:

@@ -62,9 +62,7 @@ class Options(options_lib.Options):
 
     def __post_init__(self):
         super().__post_init__()
-        if self.difficulty not in GATES:
-            raise ValueError(f"difficulty is {checks.shown(self.difficulty)}; give 1, 2 or 3")
-        object.__setattr__(self, "difficulty", float(self.difficulty))
+        object.__setattr__(self, "difficulty", checks.one_of("difficulty", self.difficulty, tuple(GATES)))
         object.__setattr__(self, "goal_distance", checks.between("goal_distance", self.goal_distance, 0.6, 0.75, "m"))
 
 

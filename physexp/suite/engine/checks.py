@@ -1,5 +1,6 @@
 """Checks of what users give. An error is one line: what was given, and what is allowed."""
 
+from collections.abc import Sequence
 import math
 
 import numpy as np
@@ -63,6 +64,18 @@ def between(name: str, value, minimum: float, maximum: float, unit: str = "") ->
     if _is_number(value) and minimum <= value <= maximum:
         return float(value)
     raise ValueError(f"{name} is {shown(value)}; give a number from {minimum:g} to {f'{maximum:g} {unit}'.strip()}")
+
+
+def one_of(name: str, value, choices: Sequence[float]) -> float:
+    """Returns `value` as a float.
+
+    Raises:
+      ValueError: if it is none of the choices, two or more numbers.
+    """
+    if _is_number(value) and value in choices:
+        return float(value)
+    *others, last = (f"{choice:g}" for choice in choices)
+    raise ValueError(f"{name} is {shown(value)}; give {', '.join(others)} or {last}")
 
 
 def flag(name: str, value) -> bool:
