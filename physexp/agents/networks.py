@@ -121,8 +121,11 @@ class PixelTorso(nn.Module):
         )
         self.convolutions = layers.to(memory_format=torch.channels_last)  # type: ignore[call-overload]
         self.register_buffer("reference", torch.zeros(height, width, channels, dtype=torch.uint8))
-        with torch.no_grad():
-            self.num_outputs = self.convolutions(torch.zeros(1, channels, height, width)).numel()
+        sides = np.array([height, width])
+        for layer in layers:
+            if isinstance(layer, nn.Conv2d):
+                sides = (sides - layer.kernel_size) // layer.stride + 1
+        self.num_outputs = 64 * int(sides.prod())
 
     def calibrate(self, first: Observation) -> None:
         """Makes the first of these images, uint8 [N, height, width, 3], the reference."""

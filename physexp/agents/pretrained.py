@@ -137,31 +137,55 @@ def _default(candidates: Sequence[str], folder: Path) -> str | None:
     return next((base for base, card in cards.items() if isinstance(card, dict) and card.get("default") is True), None)
 
 
+def card_named(base: str, folder: Path = FOLDER) -> dict[str, Any]:
+    """Reads the card of the trained agent whose files have this name, without its network; raises as `load`."""
+    path = _path(base, folder)
+    with _explained(path):
+        return _completed(files.read_json(path), path.stem)
+
+
 def load_named(base: str, folder: Path = FOLDER) -> Pretrained:
     """Loads the trained agent whose files have this name; raises as `load`."""
-    if base not in names(folder):
-        raise _MissingError(f"no trained agent is named {base}; there are: {', '.join(names(folder)) or 'none'}")
-    path = folder / f"{base}.json"
-    if folder.is_relative_to(FOLDER):
-        path = path.resolve()  # Some installers put links in the place of a package's files.
+    path = _path(base, folder)
     card = files.read_json(path)
-    try:
-        _check(card, path.stem)
-        facts = {"kind": networks.RecurrentActorCritic.__name__, **card["network"]}  # Older cards do not say it.
+    with _explained(path):
+        facts = _completed(card, path.stem)
         with torch.device("meta"):  # Nothing is made that its weights do not fit.
-            like = _network(facts).state_dict()
-    except (KeyError, TypeError, ValueError, AttributeError, RuntimeError, ArithmeticError) as error:
-        what = "lacks " + str(error) if isinstance(error, KeyError) else " ".join(str(error).split())[:200]
-        raise ValueError(f"{path} is not what was written: {what}; publish the agent again") from None
+            like = _network(facts["network"]).state_dict()
     try:
         weights = _read_weights(path, card, like)
     except ValueError:
         if files.read_json(path) == card:
             raise
         return load_named(base, folder)  # Another has just been written.
-    network = _network(facts)
+    network = _network(facts["network"])
     network.load_state_dict(weights)
-    return Pretrained(network.eval(), {**card, "network": facts, "task_kwargs": _options(card, path.stem)})
+    return Pretrained(network.eval(), facts)
+
+
+def _path(base: str, folder: Path) -> Path:
+    """Returns the path of a card."""
+    if base not in names(folder):
+        raise _MissingError(f"no trained agent is named {base}; there are: {', '.join(names(folder)) or 'none'}")
+    path = folder / f"{base}.json"
+    return path.resolve() if folder.is_relative_to(FOLDER) else path  # Some installers put links in place of files.
+
+
+@contextlib.contextmanager
+def _explained(path: Path):
+    """Returns a context in which it is told in one line that a card is not what was written."""
+    try:
+        yield
+    except (KeyError, TypeError, ValueError, AttributeError, RuntimeError, ArithmeticError) as error:
+        what = "lacks " + str(error) if isinstance(error, KeyError) else " ".join(str(error).split())[:200]
+        raise ValueError(f"{path} is not what was written: {what}; publish the agent again") from None
+
+
+def _completed(card: dict[str, Any], base: str) -> dict[str, Any]:
+    """Returns a card with what older ones do not say; refuses one that was changed or belongs to another agent."""
+    _check(card, base)
+    facts = {"kind": networks.RecurrentActorCritic.__name__, **card["network"]}
+    return {**card, "network": facts, "task_kwargs": _options(card, base)}
 
 
 def _options(card: dict[str, Any], base: str) -> dict[str, Any]:

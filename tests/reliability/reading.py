@@ -57,7 +57,7 @@ def read_kept(folder):
 
 def read_published(folder):
     agent = pretrained.load("which_is_heavier", "features", 10.0, folder=folder / "published")
-    return agent.card, _bytes(agent.network), playing.config_of(agent)
+    return agent.card, _bytes(agent.network), playing.config_of(agent.card)
 
 
 def read_records(folder):

@@ -15,7 +15,7 @@ def figures() -> Iterator[dict]:
     targets = {name: target for domain in domains.DOMAINS.values() for name, target in domain.targets.items()}
     for name, (measured, target) in targets.items():
         agent = pretrained.load_named(name)
-        config = playing.config_of(agent)
+        config = playing.config_of(agent.card)
         drawn, greedy = (
             playing.play(agent.network, config, EPISODES, greedy=greedy).summary(config.agent.discount)
             for greedy in (False, True)

@@ -59,7 +59,7 @@ def _recording(name: str, task: measuring.Task) -> dict:
 def _replay_in_training(name: str, task: measuring.Task) -> dict:
     """Returns processor time of a replay over that of training from one to the next, on two workers."""
     agent = pretrained.load(*task)
-    config = playing.config_of(agent)
+    config = playing.config_of(agent.card)
     seconds = []
     with tempfile.TemporaryDirectory() as folder:
         for number in range(3):  # The first one imports.

@@ -60,7 +60,7 @@ def find_agent(
         return shipped_agent(domain, task, wanted)
     if target in pretrained.names():
         agent = pretrained.load_named(target)
-        _check_options(target, config_of(agent), wanted)
+        _check_options(target, config_of(agent.card), wanted)
         return _with_config(agent)
     raise ValueError(
         f"{target} holds no run (no config.json); give the folder of a run or a trained agent: "
@@ -78,7 +78,7 @@ def shipped_agent(
     """
     tell_apart = pretrained.options_of(domain, task)
     agent = pretrained.load(domain, task, **{name: value for name, value in task_kwargs.items() if name in tell_apart})
-    _check_options(f"{domain}/{task}", config_of(agent), task_kwargs)
+    _check_options(f"{domain}/{task}", config_of(agent.card), task_kwargs)
     return _with_config(agent)
 
 
@@ -95,7 +95,7 @@ def _check_options(target: str, config: config_lib.TrainConfig, wanted: Mapping[
 
 
 def _with_config(agent: pretrained.Pretrained) -> tuple[networks.RecurrentNetwork, config_lib.TrainConfig]:
-    config = config_of(agent)
+    config = config_of(agent.card)
     if agent.card["network"] != network_facts(config):
         raise ValueError(
             f"the card of the agent of {config.task_name} has a network that cannot play it; publish it again"
@@ -121,14 +121,14 @@ def network_facts(config: config_lib.TrainConfig) -> dict[str, Any]:
     }
 
 
-def config_of(agent: pretrained.Pretrained) -> config_lib.TrainConfig:
-    """What an agent that comes with the package plays, and how it was trained.
+def config_of(card: Mapping[str, Any]) -> config_lib.TrainConfig:
+    """Returns what an agent that comes with the package plays, and how it was trained, from its card.
 
     Raises:
       ValueError: if its card does not say so.
     """
     try:
-        facts = {name: agent.card[name] for name in ("domain", "task", "task_kwargs", "agent")}
+        facts = {name: card[name] for name in ("domain", "task", "task_kwargs", "agent")}
         return config_lib.TrainConfig.from_json(facts)
     except (KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"an agent's card is not what was written: {error!r}; publish the agent again") from None

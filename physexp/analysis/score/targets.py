@@ -90,7 +90,7 @@ def _shipped(whose: str) -> dict[str, str]:
 
     team: dict[str, str] = {}
     for name in pretrained.names():
-        config = playing.config_of(pretrained.load_named(name))
+        config = playing.config_of(pretrained.card_named(name))
         is_wanted = "/" not in name if whose == SHIPPED else config.agent.algorithm == whose
         if is_wanted and _is_usual(config):
             team.setdefault(f"{config.domain}/{config.task}", name)
