@@ -32,6 +32,8 @@ class Ideal(Generic[options_lib.Options]):
       options: what can be chosen of it.
       discount: the agent's gamma; by default the domain's.
       json: print JSON.
+      keep: write down what can be told apart after every sequence of actions, where physics takes long: the package
+        holds it, and it has to be written anew when the suite is changed.
     """
 
     domains_of: ClassVar = staticmethod(_domains_of)
@@ -44,9 +46,11 @@ class Ideal(Generic[options_lib.Options]):
     options: OmitArgPrefixes[options_lib.Options]
     discount: OptionalFloat = None
     json: Switch = False
+    keep: Switch = False
 
     def run(self) -> None:
         from physexp import suite
+        from physexp.analysis.ideal import kept
 
         ideal = _IDEALS[self.domain]
         defaults = {field.name: field.default for field in dataclasses.fields(ideal.options)}
@@ -59,4 +63,7 @@ class Ideal(Generic[options_lib.Options]):
         of_task = {field.name for field in dataclasses.fields(suite.options(self.domain))} & set(settings)
         task_kwargs = {name: settings.pop(name) for name in sorted(of_task)}
         discount = domains.find(self.domain).discount if self.discount is None else self.discount
-        printing.show(ideal(task, task_kwargs, discount, **settings).summary(), self.json)
+        solution = ideal(task, task_kwargs, discount, **settings)
+        printing.show(solution.summary(), self.json)
+        if self.keep:
+            kept.keep(solution)

@@ -1,0 +1,125 @@
+"""What hypotheses show, found out once and kept with the package, for questions whose physics takes long to simulate.
+
+What is kept holds for one state of the suite's code, one MuJoCo and one question; for any other it is simulated.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+import functools
+import hashlib
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from physexp import suite
+from physexp.analysis.ideal import hypotheses as hypotheses_lib
+from physexp.analysis.ideal import situations as situations_lib
+
+FOLDER = Path(__file__).with_name("kept_situations")
+_NOBODY = 255  # Who was not followed any more: the label was known.
+
+
+class Hypotheses(hypotheses_lib.Hypotheses):
+    """Hypotheses of which it may be known already which of them look alike. Every bit of what they show counts."""
+
+    def __init__(self, domain_name: str, task_name: str, *args: Any, read_as: str | None = None, **kwargs: Any):
+        """Prepares the simulations; for the arguments see `hypotheses.Hypotheses`."""
+        super().__init__(domain_name, task_name, *args, read_as=read_as, **kwargs)
+        self.path = FOLDER / f"{domain_name}-{read_as or task_name}.npz"
+        self._domain_name = domain_name
+
+    @functools.cached_property
+    def looks(self) -> Mapping[bytes, np.ndarray]:
+        """By sequence of actions, a number for each hypothesis, uint8 [H]: those that look alike have the same."""
+        if not self.path.exists():
+            return {}
+        with np.load(self.path) as file:
+            if str(file["digest"]) != self.digest:
+                return {}
+            ends = np.cumsum(file["lengths"])
+            actions, looks = file["actions"].tobytes(), file["looks"]
+        return {
+            actions[end - length : end]: row
+            for end, length, row in zip(ends.tolist(), np.diff(ends, prepend=0).tolist(), looks, strict=True)
+        }
+
+    @functools.cached_property
+    def digest(self) -> str:
+        """Returns what tells this question, simulated by this code, from others."""
+        found = hashlib.sha256(f"{mujoco.__version__} {self._domain_name} {self._read.options}".encode())
+        for values in (self.hidden, self.prior, self._nuisances):
+            found.update(b"" if values is None else np.ascontiguousarray(values).tobytes())
+        root = Path(suite.__file__).parent
+        for path in sorted(root.rglob("*.py")):
+            found.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
+        return found.hexdigest()
+
+    @functools.cached_property
+    def start(self) -> "_Place":  # type: ignore[override]
+        return _Place(b"", lambda: self._reading.save())
+
+    def step(self, moment: "_Place", members: Sequence[int], action: int):  # type: ignore[override]
+        path, simulate = moment.path + bytes([action]), super().step
+        looks = self.looks[path][list(members)] if path in self.looks else np.array([_NOBODY])
+        if (looks == _NOBODY).any():
+            apart, reached = simulate(moment.moment, members, action)
+            return apart, _Place(path, lambda: reached)
+        following = _Place(path, lambda: simulate(moment.moment, members, action)[1])
+        return np.where(looks[:, None] == looks, 0.0, np.inf), following
+
+    def observe(self, moment: "_Place", members: Sequence[int], action: int):  # type: ignore[override]
+        return super().observe(moment.moment, members, action)
+
+
+class _Place:
+    """Where hypotheses stand after a sequence of actions, simulated when that is first asked for."""
+
+    def __init__(self, path: bytes, simulate: Callable[[], Any]):
+        self.path, self._simulate = path, simulate
+
+    @functools.cached_property
+    def moment(self) -> Any:
+        """The states of the simulations, a `batch.Moment`."""
+        return self._simulate()
+
+
+def keep(solution: Any) -> None:
+    """Writes what can be told apart after every sequence of actions of an episode.
+
+    Args:
+      solution: a `search.Solution`.
+
+    Raises:
+      ValueError: if it is of hypotheses of which nothing is kept.
+    """
+    hypotheses = getattr(solution, "hypotheses", None)
+    if not isinstance(hypotheses, Hypotheses):
+        raise ValueError("nothing is kept of this ideal experimenter: it is found within seconds")
+    situations, most = solution.situations, hypotheses.task.rules.step_limit - 1
+    found = dict(_looks(situations, situations.start, b"", most))
+    paths = sorted(found, key=lambda path: (len(path), path))
+    hypotheses.path.parent.mkdir(exist_ok=True)
+    np.savez_compressed(
+        hypotheses.path,
+        digest=np.array(hypotheses.digest),
+        lengths=np.array([len(path) for path in paths]),
+        actions=np.frombuffer(b"".join(paths), np.uint8),
+        looks=np.array([found[path] for path in paths]),
+    )
+
+
+def _looks(
+    situations: situations_lib.Situations, situation: situations_lib.Situation, path: bytes, most: int
+) -> Iterator[tuple[bytes, np.ndarray]]:
+    """Yields all sequences of so many actions at most that go on from one, and who looks like whom after each."""
+    if not situation.groups or len(path) == most:
+        return
+    situations.expand(situation)
+    for action, (found, following) in situation.after.items():
+        looks = np.full(len(situations.hypotheses.prior), _NOBODY, np.uint8)
+        for number, part in enumerate(part for of_group in found.values() for _, part in of_group):
+            looks[list(part)] = number
+        further = path + bytes([action])
+        yield further, looks
+        yield from _looks(situations, following, further, most)
