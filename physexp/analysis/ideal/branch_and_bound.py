@@ -79,9 +79,8 @@ class Search:
         self._hypotheses = situations.hypotheses
         self._actions = range(self._hypotheses.task.num_interactions)
         self._closed: dict[tuple[Situation, Group, int], tuple[float, float]] = {}  # Where the bounds have met.
-        self._open: dict[
-            tuple[Situation, Group, int], tuple[float, float]
-        ] = {}  # Elsewhere, until something is simulated.
+        self._open: dict[tuple[Situation, Group, int], tuple[float, float]] = {}  # Elsewhere, by what is known so far.
+        self._known = 0  # How many situations that is.
 
     def run(
         self, situation: Situation, group: Group, left: int, max_depth: float = math.inf, max_steps: float = math.inf
@@ -99,7 +98,9 @@ class Search:
         """
         end = self._hypotheses.steps + max_steps
         while True:
-            self._open.clear()
+            if self._known != self.situations.count:
+                self._open.clear()
+                self._known = self.situations.count
             low, high = self._bounds(situation, group, left)
             if high - low < PRECISION:
                 return low, high
@@ -138,7 +139,7 @@ class Search:
 
     def _answer(self, group) -> float:
         """Returns what it is worth to answer now."""
-        return self._objective.answer(float(self.situations.chances(group).max()))
+        return self._objective.answer(self.situations.likeliest(group))
 
     def _bounds(self, situation, group, left) -> tuple[float, float]:
         """Returns what is earned at least and at most from a group, with so many actions left."""

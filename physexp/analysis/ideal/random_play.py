@@ -97,6 +97,6 @@ def _grown(
         parts = tuple(_grown(situations, following, part, actions[1:]) for _, part in left)
     return _Group(
         chance=float(situations.hypotheses.prior[list(members)].sum()),
-        likeliest=float(situations.chances(members).max()),
+        likeliest=situations.likeliest(members),
         parts=parts,
     )

@@ -105,6 +105,7 @@ class Situations:
         size = len(hypotheses.prior)
         self.start = Situation(hypotheses.start, (tuple(range(size)),), np.ones((size, size), bool))
         self._chances: dict[Group, np.ndarray] = {}
+        self._likeliest: dict[Group, float] = {}
         self._untold: dict[tuple[tuple[Group, ...], bytes], list[Situation]] = {}
         if tolerance is not None:
             self._merged(self.start)
@@ -116,9 +117,15 @@ class Situations:
             self._chances[group] = label_chances(group, known.prior, known.answers, known.task.num_labels)
         return self._chances[group]
 
+    def likeliest(self, group: Group) -> float:
+        """Returns the probability of the likeliest label, given a group."""
+        if group not in self._likeliest:
+            self._likeliest[group] = float(self.chances(group).max())
+        return self._likeliest[group]
+
     def is_known(self, group: Group) -> bool:
         """Returns whether all hypotheses of a group have the same label."""
-        return float(self.chances(group).max()) == 1
+        return self.likeliest(group) == 1
 
     def follow(self, situation: Situation, group: Group, action: int) -> tuple[Parts, Situation]:
         """Returns what a group splits into with an action, and the situation that follows."""
