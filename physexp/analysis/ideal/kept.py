@@ -31,7 +31,7 @@ class Hypotheses(hypotheses_lib.Hypotheses):
 
     @functools.cached_property
     def looks(self) -> Mapping[bytes, np.ndarray]:
-        """By sequence of actions, a number for each hypothesis, uint8 [H]: those that look alike have the same."""
+        """A number for each hypothesis, uint8 [H], by sequence of actions; those that look alike have the same number."""
         if not self.path.exists():
             return {}
         with np.load(self.path) as file:
@@ -46,7 +46,7 @@ class Hypotheses(hypotheses_lib.Hypotheses):
 
     @functools.cached_property
     def digest(self) -> str:
-        """Returns what tells this question, simulated by this code, from others."""
+        """What tells this question, simulated by this code, from others."""
         found = hashlib.sha256(f"{mujoco.__version__} {self._domain_name} {self._read.options}".encode())
         for values in (self.hidden, self.prior, self._nuisances):
             found.update(b"" if values is None else np.ascontiguousarray(values).tobytes())
