@@ -31,7 +31,7 @@ class Hypotheses(hypotheses_lib.Hypotheses):
 
     @functools.cached_property
     def looks(self) -> Mapping[bytes, np.ndarray]:
-        """A number for each hypothesis, uint8 [H], by sequence of actions; those that look alike have the same number."""
+        """A number for each hypothesis, uint8 [H], by sequence of actions; who looks alike has the same number."""
         if not self.path.exists():
             return {}
         with np.load(self.path) as file:
