@@ -98,11 +98,15 @@ def test_episodes_of_a_run_that_is_gone_are_not_taken_for_those_of_the_next(rehe
     assert played.exists()
 
 
-def test_the_report_has_every_figure_there_is_data_for_and_says_what_is_left_out(rehearsed):
+@pytest.fixture(scope="module")
+def reported(rehearsed):
+    """The report of it, as Markdown and as a page."""
     results, _ = rehearsed
-    lines = []
-    markdown = report.write(results, lines.append).read_text()
-    page = (results.path / "report.html").read_text()
+    return report.write(results).read_text(), (results.path / "report.html").read_text()
+
+
+def test_the_report_has_every_figure_there_is_data_for_and_says_what_is_left_out(rehearsed, reported):
+    (results, _), (markdown, page) = rehearsed, reported
     for name in ("mass_gap", "population", "learning_heavier"):  # The runs have curves, too.
         assert f"figures/{name}.png" in markdown and (results.path / "figures" / f"{name}.png").exists()
     assert page.count("data:image/svg+xml;base64,") == markdown.count("![")
@@ -113,9 +117,8 @@ def test_the_report_has_every_figure_there_is_data_for_and_says_what_is_left_out
     assert provenance.commit()[:10] in markdown
 
 
-def test_the_report_begins_with_the_claims_of_the_paper_failures_first_and_sanity_checks_last(rehearsed):
-    results, _ = rehearsed
-    markdown, page = report.write(results).read_text(), (results.path / "report.html").read_text()
+def test_the_report_begins_with_the_claims_of_the_paper_failures_first_and_sanity_checks_last(reported):
+    markdown, page = reported
     table = markdown[markdown.index("## Claims of the paper") : markdown.index("![")].split("## Claims of ours")[0]
     verdicts = re.findall(r"^\| \*\*(\w+)( \(sanity check\))?\*\* \|", table, re.MULTILINE)
     order = {"fails": 0, "undecided": 1, "holds": 2}
