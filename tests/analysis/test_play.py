@@ -99,7 +99,7 @@ def test_an_image_fits_the_terminal_and_keeps_its_mean(columns, lines):
     image = np.random.default_rng(fresh_seed()).integers(256, size=(84, 84, 3), dtype=np.uint8)
     rows = terminal.drawing({"pixels": image}, HEAVIER, columns, lines).splitlines()
     assert len(rows) <= lines - 2 and {row.count("▀") for row in rows} == {2 * len(rows)} and 2 * len(rows) <= columns
-    colors = np.array(re.findall(r"(\d+);(\d+);(\d+)(?:;48|m)", "\n".join(rows)), int)
+    colors = np.array(re.findall(r"8;2;(\d+);(\d+);(\d+)", "\n".join(rows)), int)
     assert len(colors) == (2 * len(rows)) ** 2
     np.testing.assert_allclose(colors.mean(axis=0), image.mean(axis=(0, 1)), atol=0.6)
 
