@@ -24,7 +24,7 @@ def _ideal(domain, task, **task_kwargs):
 @pytest.fixture
 def few_episodes(monkeypatch):
     """As many as a test has time for."""
-    monkeypatch.setattr(bounds, "NUM_EPISODES", 320)
+    monkeypatch.setattr(bounds, "NUM_EPISODES", 160)
     monkeypatch.setattr(towers, "_NUM_NUISANCES", 2)
 
 

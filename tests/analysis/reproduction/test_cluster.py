@@ -135,7 +135,7 @@ def test_whoever_dies_training_ends_as_if_nobody_had(nodes, tmp_path):
     # One after the other: a worker, the parameter server, and a node with whatever runs there.
     # However old a gradient is, it is applied: a worker that has just started may be slower than a hundred updates.
     run = trainers.create(
-        tmp_path / "run", frames=300_000, num_workers=2, max_staleness=10**9, seed=fresh_seed(), **QUICK
+        tmp_path / "run", frames=200_000, num_workers=2, max_staleness=10**9, seed=fresh_seed(), **QUICK
     )
 
     def disturb(told):
