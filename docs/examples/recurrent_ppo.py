@@ -18,33 +18,24 @@ NUM_ENVIRONMENTS = 8  # More are no faster: nearly all of its time goes into lea
 
 
 def train(task: tyro.conf.Positional[str], frames: int = 300_000, minutes: float = 15, seed: int = 0) -> None:
-    """Trains on a task until it has seen so many frames or time is over; keeps the network, and how it was made."""
+    """Trains on a task until it has seen so many frames or its time is over; what is interrupted keeps what it has."""
     torch.set_num_threads(1)  # The networks are small.
     (asked,) = protocol.named([task])
     batch = stable_baselines.VecEnv(asked.domain, asked.task, NUM_ENVIRONMENTS, random=seed)
     environments = vec_env.VecMonitor(batch)  # Tells the learner what episodes earn.
     # The discount says what a step costs, and belongs to the question; everything else is the library's.
     learner = sb3_contrib.RecurrentPPO("MultiInputLstmPolicy", environments, gamma=asked.discount, seed=seed)
-    watch = Watch(frames, 60 * minutes)
-    learner.learn(frames, watch)
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    learner.save(path_of(asked))
-    curve = list(watch.curve.values())
-    facts = {
-        "algorithm": f"RecurrentPPO of sb3-contrib {sb3_contrib.__version__}",
-        "command": f"python recurrent_ppo.py {task} --frames {frames} --minutes {minutes:g} --seed {seed}",
-        **curve[-1],
-        "curve": curve,
-    }
-    path_of(asked).with_suffix(".json").write_text(json.dumps(facts, indent=1) + "\n")
+    command = f"python recurrent_ppo.py {task} --frames {frames} --minutes {minutes:g} --seed {seed}"
+    learner.learn(frames, Watch(frames, 60 * minutes, path_of(asked), command))
 
 
 class Watch(callbacks.BaseCallback):
-    """Prints and keeps what episodes earn, and ends training when its time is over."""
+    """Prints what episodes earn, keeps the network and how it came about, and ends training when its time is over."""
 
-    def __init__(self, frames, seconds):
+    def __init__(self, frames, seconds, path, command):
         super().__init__()
-        self._frames, self._seconds, self.curve = frames, seconds, {}
+        self._frames, self._seconds, self._path, self._curve = frames, seconds, path, {}
+        self._made_by = {"algorithm": f"RecurrentPPO of sb3-contrib {sb3_contrib.__version__}", "command": command}
 
     def _on_training_start(self):
         self._start = time.process_time()  # What else the machine does takes none of it.
@@ -62,9 +53,17 @@ class Watch(callbacks.BaseCallback):
         passed, frames = time.process_time() - self._start, self.num_timesteps
         ended = self.model.ep_info_buffer  # The last 100 episodes.
         mean = float(np.mean([one["r"] * self.model.gamma ** (one["l"] - 1) for one in ended])) if ended else 0.0
-        self.curve[frames] = {"frames": frames, "seconds": round(passed, 1), "return": mean}
+        self._curve[frames] = {"frames": frames, "seconds": round(passed, 1), "return": mean}
+        self._keep()
         left = max(0, min(passed * (self._frames / frames - 1), self._seconds - passed))
         print(f"{frames:,} frames, mean return {mean:.3f}, {left / 60:.1f} minutes left", flush=True)
+
+    def _keep(self):
+        self._path.parent.mkdir(parents=True, exist_ok=True)
+        self.model.save(self._path)
+        curve = list(self._curve.values())
+        facts = self._made_by | curve[-1] | {"curve": curve}
+        self._path.with_suffix(".json").write_text(json.dumps(facts, indent=1) + "\n")
 
 
 def make(asked: protocol.Question):
