@@ -18,7 +18,7 @@ from physexp.agents import acting, pretrained
 
 FULL = "PHYSEXP_SOAK" in os.environ
 FULL_STEPS = {"features": 5_000_000, "pixels": 300_000}
-SHORT_STEPS = {"features": 4_000, "pixels": 800}
+SHORT_STEPS = {"features": 1_600, "pixels": 400}
 SIZES = {"features": 128 if FULL else 32, "pixels": 32 if FULL else 16}
 LABELS = 0.02  # How often random play gives an answer: episodes of all lengths are played.
 WARM_UP = 60  # Batched steps: all sixteen towers are compiled, every buffer is there.

@@ -6,7 +6,7 @@ import pytest
 from physexp import suite
 
 # Resets whose memory is measured; fewer of an environment that takes up another compiled model in most of them, 8 ms.
-NUM_RESETS, NUM_CHANGES = 3_000, 500
+NUM_RESETS, NUM_CHANGES = 2_000, 500
 
 # Bytes a reset. The smallest thing that a reset could lose is a few hundred bytes (a small array, a TimeStep).
 FLAT = 100

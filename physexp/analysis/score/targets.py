@@ -109,9 +109,11 @@ def chosen(target: str, tasks: Sequence[str], observations: str) -> tuple[protoc
       ValueError: if there is no such target or task, or the target does not play it.
     """
     can = suitable(target)
-    usual = protocol.observing(observations)
-    all_of_them = usual if can is None else tuple(asked for asked in can if asked in usual) or can
-    found = protocol.named(tasks) if tasks else all_of_them
+    if tasks:
+        found = protocol.named(tasks)
+    else:
+        usual = protocol.observing(observations)  # Takes seconds: it solves every one of them.
+        found = usual if can is None else tuple(asked for asked in can if asked in usual) or can
     refused = [asked.name for asked in found if can is not None and asked not in can]
     if refused:
         raise ValueError(
