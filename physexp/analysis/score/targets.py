@@ -78,7 +78,7 @@ def _team(target: str) -> dict[str, str]:
         for asked in can:
             if other := team.get(asked.name):
                 raise ValueError(f"both {other} and {member} play {asked.name}; name one of them")
-            team[asked.name] = member
+            team[asked.name] = _team(member).get(asked.name, member)  # Of a team, the one who plays it.
     return team
 
 

@@ -215,6 +215,13 @@ def test_the_command_scores_and_verifies(here):
     assert json.loads(done.stdout) == {"episodes": 3, "actions": 12, "target": "halving:policy", "score": 1.0}
 
 
+def test_of_a_team_in_a_team_each_agent_counts_once():
+    outer, inner = targets.facts("a3c,threshold/features"), targets.facts("a3c")
+    assert len(inner["agents"]) > 1
+    assert outer["agents"] == inner["agents"] | {"threshold/features": targets.facts("threshold/features")}
+    assert outer["frames"] == inner["frames"] + targets.facts("threshold/features")["frames"]
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
