@@ -10,6 +10,7 @@ import physexp
 
 _DISTRIBUTIONS = ("physexp", "mujoco", "dm-control", "torch", "numpy")
 _GIT_SECONDS = 60.0
+_DIGITS = 40  # Of a commit.
 
 
 def commit() -> str:
@@ -28,6 +29,12 @@ def commit() -> str:
     except subprocess.TimeoutExpired:  # A network's file system, for one: no reason not to train.
         return "unknown"
     return found.stdout.strip() + ("+" if changed else "")
+
+
+def shortened(commit: str) -> str:
+    """Returns ten digits of a commit, and its `+`; a word that stands for one, such as `unknown`, stays whole."""
+    digits, plus, _ = commit.partition("+")
+    return (digits[:10] if len(digits) == _DIGITS else digits) + plus
 
 
 def versions() -> dict[str, str]:

@@ -95,7 +95,7 @@ def _provenance(results: base.Results) -> list[str]:
     made = ", ".join(f"{number} by {commit}" for commit, number in counts.items())
     return [
         f"Agents: {sum(counts.values())}, trained by the source of these commits: {made}.",
-        f"Figures and verdicts: made by {provenance.commit()[:11]}.",
+        f"Figures and verdicts: made by {provenance.shortened(provenance.commit())}.",
     ]
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from physexp.agents import files
+from physexp.analysis.data import provenance
 from physexp.analysis.evaluation import figures
 from physexp.analysis.score import drawing, log, protocol, report, scores, scoring
 
@@ -168,7 +169,7 @@ def _minutes(row: Row) -> str:
 
 
 def _commit(row: Row) -> str:
-    return row.found["commit"][:10]
+    return provenance.shortened(row.found["commit"])
 
 
 def draw(rows: Sequence[Row]):

@@ -9,6 +9,7 @@ import textwrap
 from typing import Any
 
 from physexp.agents import files
+from physexp.analysis.data import provenance
 from physexp.analysis.evaluation import figures
 from physexp.analysis.ideal import mistakes
 from physexp.analysis.score import drawing, scoring
@@ -132,14 +133,16 @@ def facts(found: Mapping[str, Any]) -> dict[str, str]:
         "Agent": "; ".join([_made(agent), how] if agent else ["it was trained by nobody, or nothing is said of it"]),
         **({"Trained by": agent["command"]} if agent.get("command") else {}),
         **{f"In {task}": _made(one) for task, one in agent.get("agents", {}).items() if task in found["tasks"]},
-        "Scored": f"in {found['seconds']:,.0f} s, by commit {found['commit'][:11]}, with {used}",
+        "Scored": f"in {found['seconds']:,.0f} s, by commit {provenance.shortened(found['commit'])}, with {used}",
     }
 
 
 def _made(agent: Mapping[str, Any]) -> str:
     """Returns how an agent was trained, as far as that is known."""
-    words = {"seed": "seed {}", "frames": "{:,} frames", "seconds": "{:,.0f} s", "commit": "commit {:.10}"}
+    words = {"seed": "seed {}", "frames": "{:,} frames", "seconds": "{:,.0f} s"}
     known = [text.format(agent[name]) for name, text in words.items() if agent.get(name) is not None]
+    if agent.get("commit") is not None:
+        known.append(f"commit {provenance.shortened(agent['commit'])}")
     return ", ".join([agent["algorithm"]] * ("algorithm" in agent) + known)
 
 
