@@ -25,10 +25,13 @@ class MadeWorld:
         self.hidden, self.prior, self.answers = np.arange(PATTERNS), PRIOR, np.array(COUNTS) - 1
         self.steps, self._tells = 0, tells
 
-    def step(self, sequence, members, action):
+    def step(self, sequence, members, actions):
+        return [self._try((*sequence, action), members) for action in actions]
+
+    def _try(self, sequence, members):
         self.steps += len(members)
-        values = np.array(self._tells((*sequence, action)), float)[list(members)]
-        return abs(values[:, None] - values), (*sequence, action)
+        values = np.array(self._tells(sequence), float)[list(members)]
+        return abs(values[:, None] - values), sequence
 
     def observe(self, sequence, members, action):
         return {"positions": np.zeros((len(members), 5, 3), np.float32)}

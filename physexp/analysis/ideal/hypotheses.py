@@ -13,7 +13,7 @@ from physexp.suite.engine import task as task_lib
 
 
 class Hypotheses:
-    """H hypotheses about what is hidden, each with a simulation of its own.
+    """H hypotheses about what is hidden, each with a simulation of its own for each interaction.
 
     Physics is deterministic: a hypothesis and a sequence of actions make one trajectory.
 
@@ -61,30 +61,47 @@ class Hypotheses:
     @functools.cached_property
     def start(self) -> batch.Moment:
         """Where the hypotheses stand before the first action."""
-        return self._reading.save()
+        return self._moment(range(len(self.hidden)))
 
-    def step(self, moment: batch.Moment, members: Sequence[int], action: int) -> tuple[np.ndarray, batch.Moment]:
-        """Takes an interaction.
+    def step(
+        self, moment: batch.Moment, members: Sequence[int], actions: Sequence[int]
+    ) -> list[tuple[np.ndarray, batch.Moment]]:
+        """Tries interactions, each from the same moment.
 
         Args:
           moment: where some hypotheses stand, as `start` or this method returned it.
-          members: those that take the action, indices in increasing order, n of them.
-          action: the interaction.
+          members: those that act, indices in increasing order, n of them.
+          actions: the interactions.
 
         Returns:
-          How far apart they look then, float64 [n, n], as `distances` has it, and where they stand.
+          For each action, how far apart they look after it, float64 [n, n], as `distances` has it, and where they
+          stand.
         """
-        seen = self._step(self._reading, moment, members, action)
-        return distances(seen, self._read.readings), self._reading.save(np.asarray(members))
+        seen, size = self._step(self._reading, moment, members, actions), len(members)
+        found = []
+        for number in range(len(actions)):
+            rows = slice(number * size, (number + 1) * size)
+            apart = distances({name: values[rows] for name, values in seen.items()}, self._read.readings)
+            found.append((apart, self._moment(members, number)))
+        return found
+
+    def _moment(self, members: Sequence[int], copy: int = 0) -> batch.Moment:
+        """Returns where hypotheses stand in one of their simulations."""
+        saved = self._reading.save(copy * len(self.hidden) + np.asarray(members))
+        return dataclasses.replace(saved, environments=np.asarray(members))
 
     def observe(self, moment: batch.Moment, members: Sequence[int], action: int) -> Mapping[str, np.ndarray]:
         """Returns what is observed after an interaction, arrays with a leading axis [n]; arguments as for `step`."""
-        return self._step(self._observing, dataclasses.replace(moment, observed={}), members, action)
+        return self._step(self._observing, dataclasses.replace(moment, observed={}), members, [action])
 
-    def _step(self, environments: suite.BatchEnvironment, moment, members, action) -> Mapping[str, np.ndarray]:
-        environments.restore(moment.at_step(0))  # However long an episode was, its time does not run out here.
-        timestep = environments.step(np.full(len(members), action), np.asarray(members))
-        self.steps += len(members)
+    def _step(self, environments: suite.BatchEnvironment, moment, members, actions) -> Mapping[str, np.ndarray]:
+        """Returns what is observed after each of the actions, arrays with a leading axis [number of them * n]."""
+        size = len(self.hidden)
+        # However long an episode was, its time does not run out here.
+        environments.restore(moment.at_step(0).repeated(len(actions), size))
+        acting = (size * np.arange(len(actions))[:, None] + np.asarray(members)).ravel()
+        timestep = environments.step(np.repeat(actions, len(members)), acting)
+        self.steps += len(acting)
         if environments.num_divergences:
             raise RuntimeError("the simulation diverged; nothing can be said about what can be told apart")
         return timestep.observation
@@ -103,11 +120,11 @@ class Hypotheses:
         return self._reading if self._read is self.task else self._begun(self.task)
 
     def _begun(self, task: task_lib.QuestionTask) -> suite.BatchEnvironment:
-        """Returns environments in which each hypothesis is true once."""
-        size = len(self.hidden)
-        environments = suite.BatchEnvironment(task, size, self._num_threads)
-        nuisances = None if self._nuisances is None else np.repeat(self._nuisances[None], size, axis=0)
-        environments.reset(hidden=self.hidden, nuisances=nuisances)
+        """Returns environments in which each hypothesis is true once for each interaction."""
+        hidden = np.concatenate([self.hidden] * task.num_interactions)
+        environments = suite.BatchEnvironment(task, len(hidden), self._num_threads)
+        nuisances = None if self._nuisances is None else np.repeat(self._nuisances[None], len(hidden), axis=0)
+        environments.reset(hidden=hidden, nuisances=nuisances)
         return environments
 
 

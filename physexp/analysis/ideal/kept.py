@@ -57,15 +57,24 @@ class Hypotheses(hypotheses_lib.Hypotheses):
 
     @functools.cached_property
     def start(self) -> "_Place":  # type: ignore[override]
-        return _Place(b"", lambda: self._reading.save())
+        return _Place(b"", lambda: self._moment(range(len(self.hidden))))
 
-    def step(self, moment: "_Place", members: Sequence[int], action: int):  # type: ignore[override]
+    def step(self, moment: "_Place", members: Sequence[int], actions: Sequence[int]):  # type: ignore[override]
+        found = {action: self._known(moment, members, action) for action in actions}
+        unknown = [action for action in actions if found[action] is None]
+        if unknown:
+            simulated = super().step(moment.moment, members, unknown)
+            for action, (apart, reached) in zip(unknown, simulated, strict=True):
+                found[action] = apart, _reached(moment.path + bytes([action]), reached)
+        return [found[action] for action in actions]
+
+    def _known(self, moment: "_Place", members: Sequence[int], action: int) -> "tuple[np.ndarray, _Place] | None":
+        """Returns what `step` does for one action, without a simulation, or None where nothing is kept."""
         path, simulate = moment.path + bytes([action]), super().step
         looks = self.looks[path][list(members)] if path in self.looks else np.array([_NOBODY])
         if (looks == _NOBODY).any():
-            apart, reached = simulate(moment.moment, members, action)
-            return apart, _Place(path, lambda: reached)
-        following = _Place(path, lambda: simulate(moment.moment, members, action)[1])
+            return None
+        following = _Place(path, lambda: simulate(moment.moment, members, [action])[0][1])
         return np.where(looks[:, None] == looks, 0.0, np.inf), following
 
     def observe(self, moment: "_Place", members: Sequence[int], action: int):  # type: ignore[override]
@@ -82,6 +91,11 @@ class _Place:
     def moment(self) -> Any:
         """The states of the simulations, a `batch.Moment`."""
         return self._simulate()
+
+
+def _reached(path: bytes, moment: Any) -> _Place:
+    """Returns a place whose moment has been simulated."""
+    return _Place(path, lambda: moment)
 
 
 def keep(solution: Any) -> None:

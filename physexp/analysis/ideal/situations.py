@@ -4,7 +4,7 @@ An observer of some resolution can tell two hypotheses apart once what they show
 knows is a group of hypotheses that it cannot tell apart.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 import dataclasses
 import itertools
 
@@ -131,7 +131,7 @@ class Situations:
         """Returns what a group splits into with an action, and the situation that follows."""
         if not self._wholly and self.is_known(group):
             return [(1.0, group)], situation
-        self._look_at(situation, action)
+        self._look_at(situation, [action])
         parts, following = situation.after[action]
         return parts[group], following
 
@@ -141,17 +141,29 @@ class Situations:
 
     def expand(self, situation: Situation) -> None:
         """Looks at every action."""
-        for action in range(self.hypotheses.task.num_interactions):
-            self._look_at(situation, action)
+        self._look_at(situation, range(self.hypotheses.task.num_interactions))
 
-    def _look_at(self, situation: Situation, action: int) -> None:
-        if action not in situation.after:
-            situation.after[action] = self._look(situation, action)
-
-    def _look(self, situation: Situation, action: int) -> tuple[dict[Group, Parts], Situation]:
-        self.count += 1
+    def _look_at(self, situation: Situation, actions: Iterable[int]) -> None:
+        new = [action for action in actions if action not in situation.after]
+        if not new:
+            return
         members = sorted(itertools.chain(*situation.groups))
-        apart, moment = self.hypotheses.step(situation.moment, members, action)
+        seen = self.hypotheses.step(situation.moment, members, new)
+        for action, (apart, moment) in zip(new, seen, strict=True):
+            situation.after[action] = self._following(situation, members, apart, moment)
+
+    def _following(
+        self, situation: Situation, members: list[int], apart: np.ndarray, moment: batch.Moment
+    ) -> tuple[dict[Group, Parts], Situation]:
+        """Returns what the groups of a situation, with these members, split into, and the situation that follows.
+
+        Args:
+          situation: before the action.
+          members: of its groups.
+          apart: how far apart they look after it.
+          moment: where they stand after it.
+        """
+        self.count += 1
         linked = situation.linked & (apart <= self.resolution)
         found = split(situation.groups, linked, self._prior)
         parts = [part for of_group in found.values() for _, part in of_group]

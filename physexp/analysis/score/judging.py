@@ -4,12 +4,13 @@ The tasks are judged in processes of their own while others are played: to find 
 longer than to take them.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent import futures
 import dataclasses
 import functools
 import multiprocessing
 import os
+from typing import Any
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from physexp.analysis.ideal import mistakes
 from physexp.analysis.score import episodes, protocol, reference
 
 _KEPT = 8192  # Judgements; of a finite question, the same episode comes often.
+_WAIT_SECONDS = 0.2  # Between two looks at how far the judges are.
 
 
 class Judge:
@@ -68,33 +70,86 @@ class Judged:
 class Judges:
     """Judge tasks, one on each processor core; a context that leaves no process behind."""
 
-    def __init__(self, num_tasks: int):
-        """Prepares to judge so many tasks; a single one is judged in this process."""
-        self._pool = None
+    def __init__(self, num_tasks: int, show: Callable[[], None] = lambda: None):
+        """Prepares to judge.
+
+        Args:
+          num_tasks: how many tasks; a single one is judged in this process.
+          show: called again and again while episodes are judged that others wait for.
+        """
+        self._show, self._pool = show, None
+        self._workers: set[multiprocessing.process.BaseProcess] = set()
+        context = multiprocessing.get_context("spawn")
+        self._counter = context.Value("q", 0)
         if num_tasks > 1:
             cores = len(os.sched_getaffinity(0))
-            context = multiprocessing.get_context("spawn")
-            self._pool = futures.ProcessPoolExecutor(min(cores, num_tasks), context, initializer=processes.begin)
+            self._pool = futures.ProcessPoolExecutor(
+                min(cores, num_tasks), context, initializer=_begin, initargs=(self._counter,)
+            )
 
     def __enter__(self):
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, kind, *_):
+        if kind is not None:  # Nobody waits any more for what is being judged.
+            for worker in self._workers:
+                processes.kill(worker)
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)
+
+    @property
+    def count(self) -> int:
+        """How many episodes have been judged so far."""
+        return self._counter.value
+
+    def wait(self, judged: "Sequence[futures.Future[Judged]]") -> None:
+        """Waits until tasks are judged."""
+        while futures.wait(judged, _WAIT_SECONDS).not_done:
+            self._show()
+        self._show()
 
     def begin(self, asked: protocol.Question, played: Sequence[episodes.Episode]) -> "futures.Future[Judged]":
         """Begins to judge the episodes of a task, by what is hidden and was done; returns what will be said."""
         if self._pool is not None:
+            others = set(multiprocessing.active_children())
             with processes.inherited_by_workers():
-                return self._pool.submit(_judged, asked.name, played)
+                judged = self._pool.submit(_judged_by_worker, asked.name, played)
+            self._workers |= set(multiprocessing.active_children()) - others
+            return judged
         done: futures.Future[Judged] = futures.Future()
-        done.set_result(_judged(asked.name, played))
+        done.set_result(_judged(asked, played, self._count_and_show))
         return done
 
+    def _count_and_show(self) -> None:
+        _count(self._counter)
+        self._show()
 
-def _judged(name: str, played: Sequence[episodes.Episode]) -> Judged:
-    """Judges episodes; a name, since a question is the same only within a process."""
+
+def _judged(asked: protocol.Question, played: Sequence[episodes.Episode], count: Callable[[], None]) -> Judged:
+    """Judges episodes; calls `count` after each of them."""
+    judge, found = Judge(protocol.ideal(asked)), []
+    for episode in played:
+        found.append(judge(episode))
+        count()
+    return Judged(found, reference.of(asked, len(played)))
+
+
+def _begin(counter) -> None:
+    """Begins a worker's process, which counts the episodes that it judges."""
+    global _counter
+    processes.begin()
+    _counter = counter
+
+
+_counter: Any = None
+
+
+def _judged_by_worker(name: str, played: Sequence[episodes.Episode]) -> Judged:
+    """Judges episodes in a worker's process; a name, since a question is the same only within a process."""
     (asked,) = protocol.named([name])
-    judge = Judge(protocol.ideal(asked))
-    return Judged([judge(episode) for episode in played], reference.of(asked, len(played)))
+    return _judged(asked, played, functools.partial(_count, _counter))
+
+
+def _count(counter) -> None:
+    with counter.get_lock():
+        counter.value += 1

@@ -31,7 +31,8 @@ def score(
 ) -> dict[str, Any]:
     """Plays the protocol with a target; returns what `score.json` holds.
 
-    Whole episodes that were played are kept, also where the actor fails or the user ends it.
+    Whole episodes that were played are kept, also where the actor fails or the user ends it, once they have been
+    judged; where the user does not wait for that and ends it again, it leaves nothing.
 
     Args:
       target, greedy: as for `targets.maker`.
@@ -40,7 +41,7 @@ def score(
       folder: where everything goes; it is made, or is empty.
       timeout: for each call of the actor, s.
       made: what else is to be said of how it was made: `algorithm`, `frames`, `seconds`.
-      show: called with how many episodes have been played.
+      show: called with how many episodes are done; one that has been played, but not been judged, counts half.
 
     Raises:
       OSError: if it cannot be written.
@@ -65,13 +66,20 @@ def score(
     }
     begun, problem = time.monotonic(), "it was ended early"
     parts: list[_Part] = []
-    with judging.Judges(len(questions)) as judges:
+    num_played = 0
+
+    def show_done(new: int = 0) -> None:
+        nonlocal num_played
+        num_played += new
+        show((num_played + judges.count) // 2)
+
+    with judging.Judges(len(questions), show_done) as judges:
         try:
             with player.Player(target, greedy, timeout) as actor:
                 for asked in questions:
-                    _play(actor, asked, num_episodes, judges, parts, show)
-            futures.wait([part.judged for part in parts])
+                    _play(actor, asked, num_episodes, judges, parts, lambda: show_done(1))
             problem = ""
+            judges.wait([part.judged for part in parts])
         except player.PlayerError as error:
             problem = str(error)
             count = sum(len(part.rows) for part in parts)
@@ -79,6 +87,7 @@ def score(
             raise player.PlayerError(f"{problem}{kept}") from None
         finally:
             if parts:
+                judges.wait([part.judged for part in parts])
                 ended = {"complete": not problem, "problem": problem}
                 written = _write(folder, parts, begun, {**facts, **ended})
     return written
@@ -99,17 +108,16 @@ def _play(
     num_episodes: int,
     judges: judging.Judges,
     parts: list[_Part],
-    show: Callable[[int], None],
+    show: Callable[[], None],
 ) -> None:
     """Plays a task and has it judged; adds whole episodes to the parts, also where it is ended early."""
-    before = sum(len(part.rows) for part in parts)
     rows: list[dict[str, Any]] = []
     played: list[episodes.Episode] = []
     try:
         for number, episode in enumerate(actor.play(asked, num_episodes)):
             rows.append(log.played(asked, protocol.ENVIRONMENT_SEED, number, episode))
             played.append(dataclasses.replace(episode, timesteps=[]))  # Images of many episodes are large.
-            show(before + len(rows))
+            show()
     finally:
         if played:
             parts.append(_Part(asked, rows[: len(played)], judges.begin(asked, played)))

@@ -44,6 +44,23 @@ class Moment:
         """Returns the same, as if this many control steps had been taken."""
         return dataclasses.replace(self, steps=np.full_like(self.steps, step))
 
+    def repeated(self, times: int, stride: int) -> "Moment":
+        """Returns the same of so many copies of the environments, whose indices are `stride` apart."""
+
+        def tiled(values: np.ndarray) -> np.ndarray:
+            return np.tile(values, (times, *[1] * (values.ndim - 1)))
+
+        shifts = np.repeat(stride * np.arange(times), len(self.environments))
+        return Moment(
+            environments=tiled(self.environments) + shifts,
+            episodes=tiled(self.episodes),
+            steps=tiled(self.steps),
+            touched=tiled(self.touched),
+            observed={name: tiled(values) for name, values in self.observed.items()},
+            states=tuple(map(tiled, self.states)),
+            coordinates=tuple(map(tiled, self.coordinates)),
+        )
+
 
 class BatchEnvironment:
     """Environments that share a task but no randomness: each has its own seed and episodes.

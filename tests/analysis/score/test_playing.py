@@ -1,5 +1,6 @@
 """Anything that acts is scored; what fails is told in one line, and what was played before is kept."""
 
+from concurrent import futures
 import json
 import multiprocessing
 from pathlib import Path
@@ -13,7 +14,7 @@ import pytest
 import waiting
 
 from physexp import suite
-from physexp.analysis.score import log, player, protocol, scoring, targets, verifying
+from physexp.analysis.score import episodes, judging, log, player, protocol, scoring, targets, verifying
 
 THRESHOLD = protocol.named(["threshold/features"])
 BOTH = protocol.named(["threshold/features", "strings/features"])
@@ -87,9 +88,9 @@ def test_an_agent_that_hangs_is_ended():
 
 def test_an_agent_whose_process_is_killed_is_told():
     def kill(done):
-        if done == 2:
-            (process,) = [child for child in multiprocessing.active_children() if child.name.startswith("actor")]
-            process.kill()
+        for process in multiprocessing.active_children():
+            if done == 1 and process.name.startswith("actor"):  # Two have been played, and none judged.
+                process.kill()
 
     assert "ended its process, exit code -9" in failure_of("halving:policy", show=kill)
 
@@ -248,3 +249,22 @@ def test_ctrl_c_keeps_what_was_played(here):
     assert errors == "the episodes that were played are in kept\nphysexp: interrupted\n"
     kept = scoring.read(here / "kept")
     assert not kept["complete"] and kept["tasks"]["threshold/features"]["episodes"] == 2
+
+
+def test_judges_that_nobody_waits_for_are_ended():
+    (asked,) = protocol.named(["sealed_box/features"])
+    hidden, ways = protocol.drawn(asked, 100), np.random.default_rng(0).integers(asked.num_interactions, size=(100, 20))
+    # A hundred wanderers take half a minute to judge.
+    played = [episodes.Episode(one, way, np.zeros(20), []) for one, way in zip(hidden, ways, strict=True)]
+    with pytest.raises(KeyboardInterrupt), judging.Judges(num_tasks=2) as judges:
+        judged = judges.begin(asked, played)
+        waiting.wait_until(judged.running, "a judge")
+        raise KeyboardInterrupt
+    assert isinstance(judged.exception(), futures.BrokenExecutor)
+    assert not multiprocessing.active_children()
+
+
+def test_an_episode_is_done_once_it_is_judged():
+    done = []
+    score("at_once", BOTH, count=4, show=done.append)
+    assert done == sorted(done) and done[0] == 0 and done[-1] == 8
