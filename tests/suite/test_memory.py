@@ -6,7 +6,7 @@ import pytest
 from physexp import suite
 
 # Resets whose memory is measured; fewer of an environment that takes up another compiled model in most of them, 8 ms.
-NUM_RESETS, NUM_CHANGES = 2_000, 500
+NUM_RESETS, NUM_CHANGES = 1_000, 250
 
 # Bytes a reset. The smallest thing that a reset could lose is a few hundred bytes (a small array, a TimeStep).
 FLAT = 100
@@ -25,15 +25,15 @@ def _assert_memory_is_flat(reset, num_resets: int, num_warm_up: int) -> None:
 @every_feature_task
 def test_resets_of_one_environment_leave_memory_as_it_is(seed, domain_name, task_name):
     env = suite.load(domain_name, task_name, {"random": seed})
-    num_resets = NUM_RESETS if env.task.num_structures == 1 else NUM_CHANGES
+    is_one = env.task.num_structures == 1
     # Meanwhile the sixteen towers are compiled: each comes up with a probability of 1/30 at least.
-    _assert_memory_is_flat(env.reset, num_resets, num_warm_up=400)
+    _assert_memory_is_flat(env.reset, NUM_RESETS if is_one else NUM_CHANGES, num_warm_up=100 if is_one else 400)
 
 
 @every_feature_task
 def test_resets_of_a_batch_leave_memory_as_it_is(seed, domain_name, task_name):
     batch = suite.load_batch(domain_name, task_name, 4, {"random": seed})
-    _assert_memory_is_flat(batch.reset, NUM_RESETS, num_warm_up=300)
+    _assert_memory_is_flat(batch.reset, NUM_RESETS, num_warm_up=100 if batch.task.num_structures == 1 else 300)
 
 
 @pytest.mark.parametrize("domain_name, task_name", [("which_is_heavier", "features"), ("towers", "fist_features")])

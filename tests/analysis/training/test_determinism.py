@@ -15,7 +15,7 @@ from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
 
 CHECKPOINT_SECONDS = 0.1
-FRAMES = 8_000  # Some seconds, with several checkpoints in each.
+FRAMES = 5_000  # Some seconds, with several checkpoints in each.
 
 
 @pytest.fixture(scope="module", params=trainers.SMALL)
