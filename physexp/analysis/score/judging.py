@@ -21,6 +21,7 @@ from physexp.analysis.score import episodes, protocol, reference
 
 _KEPT = 8192  # Judgements; of a finite question, the same episode comes often.
 _WAIT_SECONDS = 0.2  # Between two looks at how far the judges are.
+_counter: Any = None  # In a worker's process, of the episodes that all workers have judged.
 
 
 class Judge:
@@ -100,7 +101,7 @@ class Judges:
     @property
     def count(self) -> int:
         """How many episodes have been judged so far."""
-        return self._counter.value
+        return self._counter.get_obj().value  # Without its lock, which a worker that was killed may hold.
 
     def wait(self, judged: "Sequence[futures.Future[Judged]]") -> None:
         """Waits until tasks are judged."""
@@ -139,9 +140,6 @@ def _begin(counter) -> None:
     global _counter
     processes.begin()
     _counter = counter
-
-
-_counter: Any = None
 
 
 def _judged_by_worker(name: str, played: Sequence[episodes.Episode]) -> Judged:
