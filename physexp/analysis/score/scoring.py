@@ -79,7 +79,7 @@ def score(
                 for asked in questions:
                     _play(actor, asked, num_episodes, judges, parts, lambda: show_done(1))
             problem = ""
-            judges.wait([part.judged for part in parts])
+            judges.wait([part.judged for part in parts])  # Ended here, it goes on to wait below: a second time ends it.
         except player.PlayerError as error:
             problem = str(error)
             count = sum(len(part.rows) for part in parts)
