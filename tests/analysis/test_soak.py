@@ -1,6 +1,6 @@
 """An hour of play: nothing diverges, no episode is lost, memory stays flat and nothing slows down.
 
-`make soak` plays the full length, with PHYSEXP_SOAK set; `make test` seconds of it.
+`make soak` plays the full length, with PHYSEXP_SOAK set; `make test-long` seconds of it.
 """
 
 import os
@@ -15,6 +15,8 @@ from trainers import fresh_seed
 
 from physexp import suite
 from physexp.agents import acting, pretrained
+
+pytestmark = pytest.mark.long
 
 FULL = "PHYSEXP_SOAK" in os.environ
 FULL_STEPS = {"features": 5_000_000, "pixels": 300_000}

@@ -5,6 +5,8 @@ import pytest
 
 from physexp import suite
 
+pytestmark = pytest.mark.long
+
 # Resets whose memory is measured; fewer of an environment that takes up another compiled model in most of them, 8 ms.
 NUM_RESETS, NUM_CHANGES = 1_000, 250
 

@@ -54,6 +54,7 @@ def test_what_is_earned_with_noise_is_what_a_computation_without_physics_says(fe
     assert solution.bound == usual.value
 
 
+@pytest.mark.long
 def test_bounds_with_noise_or_variation_are_near_each_other(few_episodes):
     for domain, task, task_kwargs in (
         ("which_is_heavier", "features", {"variation": 1.0}),

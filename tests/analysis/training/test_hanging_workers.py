@@ -100,6 +100,7 @@ def stop_while_it_holds_the_lock(agent):
         time.sleep(0.001)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("waiting, is_killed", [("for updates", False), ("to save", False), ("to save", True)])
 def test_a_worker_that_dies_or_is_stopped_with_the_shared_variables_ends_training(waiting, is_killed, tmp_path):
     agent, patience = make_agent(tmp_path, 1, pytest.fail)
