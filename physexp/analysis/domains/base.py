@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from physexp.agents import config as agent_config
 from physexp.agents.a3c import config as a3c
+from physexp.agents.belief import config as belief
 from physexp.agents.ppo import config as ppo
 
 if TYPE_CHECKING:
@@ -147,3 +148,9 @@ PPO_OF_BITS = ppo_like(A3C_OF_BITS, frames=1_200_000, num_environments=512)
 # cheaper.
 A3C_OF_FEW_IMAGES = A3C_OF_BITS.replace(frames=1_500_000, envs_per_worker=64, learning_rate=1e-3, observation_scale=8.0)
 PPO_OF_FEW_IMAGES = ppo_like(A3C_OF_FEW_IMAGES, num_environments=1024)
+
+PRESETS_OF_BITS = {
+    "features": {"a3c": A3C_OF_BITS, "ppo": PPO_OF_BITS},
+    "pixels": {"a3c": A3C_OF_FEW_IMAGES, "ppo": PPO_OF_FEW_IMAGES, "belief": belief.FROM_IMAGES},
+}
+"""The presets of a domain whose readings are bits, by task and algorithm."""

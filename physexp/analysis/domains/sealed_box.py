@@ -4,7 +4,6 @@ from collections.abc import Mapping
 import dataclasses
 from typing import Any
 
-from physexp.agents.belief import config as belief
 from physexp.analysis.domains import base
 
 _NAME = "sealed_box"
@@ -47,9 +46,8 @@ DOMAIN = base.Domain(
             "ppo": base.PPO_OF_BITS.replace(frames=_FRAMES, trace=1.0),
         },
         "pixels": {
-            "a3c": base.A3C_OF_FEW_IMAGES,
-            "ppo": base.PPO_OF_FEW_IMAGES,
-            "belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT),
+            **base.PRESETS_OF_BITS["pixels"],
+            "ppo": base.PPO_OF_FEW_IMAGES.replace(frames=_FRAMES, trace=1.0),
         },
     },
     targets={"sealed_box-features": ("mean_return", 0.78)},

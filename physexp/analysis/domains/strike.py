@@ -4,7 +4,6 @@ from collections.abc import Mapping
 import dataclasses
 from typing import Any
 
-from physexp.agents.belief import config as belief
 from physexp.analysis.domains import base
 
 _NAME = "strike"
@@ -44,12 +43,8 @@ DOMAIN = base.Domain(
     skill="learn for a goal",
     discount=_DISCOUNT,
     presets={
-        "features": {"a3c": base.A3C_OF_BITS, "ppo": base.PPO_OF_BITS},
-        "pixels": {
-            "a3c": base.A3C_OF_FEW_IMAGES,
-            "ppo": base.PPO_OF_FEW_IMAGES,
-            "belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT),
-        },
+        **base.PRESETS_OF_BITS,
+        "pixels": {**base.PRESETS_OF_BITS["pixels"], "ppo": base.PPO_OF_FEW_IMAGES.replace(frames=3_000_000)},
     },
     targets={"strike-features": ("mean_return", 0.66)},
     ideal=base.Ideal(_NAME, _solve, IdealOptions),

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 import dataclasses
 from typing import Any
 
-from physexp.agents.belief import config as belief
 from physexp.analysis.domains import base
 
 _NAME = "strings"
@@ -42,14 +41,7 @@ DOMAIN = base.Domain(
     name=_NAME,
     skill="control confounds",
     discount=_DISCOUNT,
-    presets={
-        "features": {"a3c": base.A3C_OF_BITS, "ppo": base.PPO_OF_BITS},
-        "pixels": {
-            "a3c": base.A3C_OF_FEW_IMAGES,
-            "ppo": base.PPO_OF_FEW_IMAGES,
-            "belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT),
-        },
-    },
+    presets=base.PRESETS_OF_BITS,
     targets={"strings-features": ("mean_return", 0.82)},
     ideal=base.Ideal(_NAME, _solve, IdealOptions),
     columns=(base.Column("slacks", "float32", is_list=True, is_varied=True),),  # m; 0 where there is no band
