@@ -149,7 +149,7 @@ PPO_OF_BITS = ppo_like(A3C_OF_BITS, frames=1_200_000, num_environments=512)
 A3C_OF_FEW_IMAGES = A3C_OF_BITS.replace(frames=1_500_000, envs_per_worker=64, learning_rate=1e-3, observation_scale=8.0)
 PPO_OF_FEW_IMAGES = ppo_like(A3C_OF_FEW_IMAGES, num_environments=1024)
 
-PRESETS_OF_BITS = {
+PRESETS_OF_BITS: Mapping[str, Mapping[str, agent_config.AgentConfig]] = {
     "features": {"a3c": A3C_OF_BITS, "ppo": PPO_OF_BITS},
     "pixels": {"a3c": A3C_OF_FEW_IMAGES, "ppo": PPO_OF_FEW_IMAGES, "belief": belief.FROM_IMAGES},
 }

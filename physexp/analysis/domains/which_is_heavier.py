@@ -39,11 +39,12 @@ class IdealOptions:
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks: int | None = None):
     """Returns the ideal experimenter; with another number of blocks than the task's it cannot play.
 
-    With noise or variation, it is what the one without earns who takes all readings for those of a usual episode; and
-    nobody earns more than where there is neither, since the force of all pokes, once known, tells each mass exactly.
+    With noise it is a policy that counts with it; with variation, the ideal one without, which takes all readings for
+    those of a usual episode. Nobody earns more than where there is neither, since the force of all pokes, once known,
+    tells each mass exactly.
     """
     from physexp import suite
-    from physexp.analysis.ideal import bounds, calibration, odd_one_out
+    from physexp.analysis.ideal import bounds, calibration, noisy, odd_one_out
     from physexp.suite.domains import which_is_heavier
     from physexp.suite.engine import checks
 
@@ -53,7 +54,10 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks
                 f"blocks is {blocks}; give none where there is noise or variation, since it has to be played"
             )
         usual = _solve(task, bounds.made_certain(task_kwargs), discount)
-        return bounds.Solution(_NAME, task, task_kwargs, discount, usual.actor, [usual.value])
+        make_actor = usual.actor
+        if not task_kwargs.get("variation"):
+            make_actor = noisy.players(usual, _NAME, task, "heights", task_kwargs)
+        return bounds.Solution(_NAME, task, task_kwargs, discount, make_actor, [usual.value])
     played = suite.load_task(_NAME, task, dict(task_kwargs))
     prior = which_is_heavier.prior(played.options.difficulty)
     if blocks is not None:

@@ -10,7 +10,6 @@ from physexp import suite
 from physexp.analysis import domains
 from physexp.analysis.domains import towers
 from physexp.analysis.ideal import bounds
-from physexp.suite.domains import which_is_heavier
 from physexp.suite.engine import seeding
 
 _DISCOUNT = 0.95
@@ -26,32 +25,6 @@ def few_episodes(monkeypatch):
     """As many as a test has time for."""
     monkeypatch.setattr(bounds, "NUM_EPISODES", 160)
     monkeypatch.setattr(towers, "_NUM_NUISANCES", 2)
-
-
-def _heights(masses):
-    """The heights that pokes show of masses, [N]."""
-    batch = suite.load_batch("which_is_heavier", "features", len(masses))
-    batch.reset(hidden=np.repeat(masses[:, None], which_is_heavier.NUM_BLOCKS, axis=1))
-    return batch.step(np.zeros(len(masses), np.int64)).observation["heights"][:, 0].astype(float)
-
-
-@pytest.mark.parametrize("noise", [0.01])
-def test_what_is_earned_with_noise_is_what_a_computation_without_physics_says(few_episodes, noise):
-    """Masses are drawn and misread by noise on a curve of heights; the rest is Bayes' rule."""
-    generator = np.random.default_rng(fresh_seed())
-    solution, usual = (_ideal("which_is_heavier", "features", **kwargs) for kwargs in ({"noise": noise}, {}))
-    nodes = np.linspace(0, 1, 1001)
-    heights = _heights(nodes)
-    odd = generator.integers(4, size=50_000)
-    masses = generator.beta(1, 5, (50_000, 4))
-    masses[np.arange(50_000), odd] = generator.beta(5, 1, 50_000)
-    shown = np.interp(masses, nodes, heights) + generator.normal(0, noise, masses.shape)
-    read = np.interp(-shown, -heights, nodes).clip(1e-9, 1 - 1e-9)
-    pokes, right = usual.play(masses, read)
-    returns = np.where(right, 1, -1) * _DISCOUNT**pokes
-    error = np.hypot(returns.std() / len(returns) ** 0.5, solution.summary()["value_error"])
-    assert abs(solution.value - returns.mean()) < 5 * error
-    assert solution.bound == usual.value
 
 
 @pytest.mark.long

@@ -1,0 +1,160 @@
+"""An experimenter of K things of which one is different, who reads noisily what touches show: a policy, for a bound.
+
+Things are alike and do not disturb each other, so that what is read of one tells of its own value alone. Its belief is
+exact (Bayes' rule, on a grid of values): all readings count, those of things that still move too. It looks one touch
+ahead (the value of information; Howard, 1966), and expects of what is unknown what one expects who reads exactly.
+"""
+
+from collections.abc import Callable, Mapping
+import functools
+from typing import Any
+
+import numpy as np
+from scipy import special
+from scipy.stats import qmc
+
+from physexp import suite
+from physexp.agents import core
+from physexp.analysis.ideal import bounds, odd_one_out
+from physexp.suite.engine import priors
+
+_NODES = 257  # Of the values.
+_OUTCOMES = 32  # Of a touch, that are thought of; drawn evenly (Sobol).
+_MOST_TOUCHES = 12  # Then it answers.
+
+
+class Responses:
+    """What is read of a thing, without noise, after it was touched at some steps; simulated when first asked."""
+
+    def __init__(self, domain_name: str, task_name: str, feature: str, task_kwargs: Mapping[str, Any]):
+        """Builds the simulations.
+
+        Args:
+          domain_name, task_name, task_kwargs: as for `suite.load`; the hidden property is K values in [0, 1], and
+            interaction k touches thing k.
+          feature: name of the observation, of K readings.
+        """
+        task = suite.load_task(domain_name, task_name, {**bounds.made_certain(task_kwargs), "random": 0})
+        self.values = (np.arange(_NODES) + 0.5) / _NODES
+        self._hidden = np.repeat(self.values[:, None], task.num_interactions, axis=1)
+        self._batch, self._feature = suite.BatchEnvironment(task, _NODES), feature
+        self._found: dict[tuple[bool, ...], np.ndarray] = {}
+
+    def after(self, touched: tuple[bool, ...]) -> np.ndarray:
+        """Returns the reading for each of `values`, float64 [G].
+
+        Args:
+          touched: for each step since the thing was touched first, whether it was.
+        """
+        if touched not in self._found:
+            self._batch.reset(hidden=self._hidden)
+            for step, is_touch in enumerate(touched, start=1):
+                read = self._batch.step(np.full(_NODES, 0 if is_touch else 1)).observation[self._feature]
+                self._found[touched[:step]] = read[:, 0].astype(float)
+        return self._found[touched]
+
+
+def posterior(likelihoods: np.ndarray, values: np.ndarray, prior: priors.OddOneOut) -> tuple[np.ndarray, np.ndarray]:
+    """Returns how likely each thing is to have the largest value, and how likely its values are.
+
+    Args:
+      likelihoods: of what was read of each thing, for each value, up to a factor for each thing; float64 [N, K, G].
+      values: the middles of G equal parts of [0, 1].
+      prior: of the values.
+
+    Returns:
+      Probabilities, float64 [N, K] and [N, K, G]. Values in one part are as likely in either order.
+    """
+    edges = np.linspace(0, 1, len(values) + 1)
+    common, odd = (np.diff(cdf(edges)) * likelihoods for cdf in (prior.common_cdf, prior.odd_cdf))
+    of_common, of_odd = common.sum(-1, keepdims=True), odd.sum(-1, keepdims=True)
+    is_odd = of_odd[..., 0] / of_common[..., 0]
+    is_odd = is_odd / is_odd.sum(1, keepdims=True)
+    common, odd = common / of_common, odd / of_odd
+    smaller, odd_smaller = (density.cumsum(-1) - density / 2 for density in (common, odd))
+    largest = np.zeros(likelihoods.shape[:2])
+    for one in range(prior.num_things):  # The odd one.
+        densities, below = common.copy(), smaller.copy()
+        densities[:, one], below[:, one] = odd[:, one], odd_smaller[:, one]
+        for k in range(prior.num_things):
+            others = np.delete(below, k, axis=1).prod(1)
+            largest[:, k] += is_odd[:, one] * (densities[:, k] * others).sum(-1)
+    mixed = is_odd[..., None] * odd + (1 - is_odd[..., None]) * common
+    return largest / largest.sum(1, keepdims=True), mixed
+
+
+def players(
+    exact: odd_one_out.Solution, domain_name: str, task_name: str, feature: str, task_kwargs: Mapping[str, Any]
+) -> Callable[[], core.Actor]:
+    """Returns what makes actors that play the policy, which simulate together.
+
+    Args:
+      exact: the ideal experimenter of the task without noise.
+      domain_name, task_name, feature, task_kwargs: as for `Responses`, with the `noise`, m.
+    """
+    responses = Responses(domain_name, task_name, feature, task_kwargs)
+    return functools.partial(Player, exact, responses, feature, task_kwargs["noise"])
+
+
+class Player(core.Actor):
+    """Plays the policy; what it has of an episode is what was read of each thing, and when it was touched."""
+
+    def __init__(self, exact: odd_one_out.Solution, responses: Responses, feature: str, noise: float):
+        self._exact, self._responses, self._feature, self._noise = exact, responses, feature, noise
+        self._prior = exact.prior
+        draws = qmc.Sobol(2, seed=0).random(_OUTCOMES)
+        self._levels, self._errors = draws[:, 0], noise * special.ndtri(draws[:, 1])
+
+    def beliefs(self) -> np.ndarray:
+        """Returns how likely each thing is to have the largest value, float64 [K]."""
+        return self._posterior(self._logs[None])[0][0]
+
+    def observe_first(self, timestep):
+        self._touched: list[tuple[bool, ...]] = [()] * self._prior.num_things
+        self._logs = np.zeros((self._prior.num_things, _NODES))
+        self._num_touches = 0
+
+    def select_action(self, observation) -> int:
+        beliefs, densities = self._posterior(self._logs[None])
+        answer, label = 2 * beliefs[0].max() - 1, self._prior.num_things + int(beliefs[0].argmax())
+        if self._num_touches == _MOST_TOUCHES:
+            return label
+        means = densities[0] @ self._responses.values
+        unknown = [k for k, touched in enumerate(self._touched) if not touched]
+        means[unknown] = np.nan
+        if unknown and self._exact.values(means[None])[1][0] > answer:
+            return unknown[0]
+        candidates = [k for k in range(self._prior.num_things) if k not in unknown[1:]]  # Unknown ones are alike.
+        worths = [self._worth_of_touching(k, densities[0, k]) for k in candidates]
+        best = int(np.argmax(worths))
+        return candidates[best] if worths[best] > answer else label
+
+    def observe(self, action, next_timestep):
+        if action >= self._prior.num_things or next_timestep.last():
+            return
+        self._num_touches += 1
+        read = next_timestep.observation[self._feature]
+        for k, touched in enumerate(self._touched):
+            if touched or k == action:
+                self._touched[k] = (*touched, k == action)
+                self._logs[k] += self._log_likelihoods(read[k], self._touched[k])
+
+    def update(self):
+        """Does nothing: it knows all that can be known."""
+
+    def _log_likelihoods(self, read, touched: tuple[bool, ...]) -> np.ndarray:
+        """Returns them for each of the values, up to a constant: [G], or [N, G] of readings [N, 1]."""
+        return -0.5 * ((read - self._responses.after(touched)) / self._noise) ** 2
+
+    def _posterior(self, logs: np.ndarray):
+        return posterior(np.exp(logs - logs.max(-1, keepdims=True)), self._responses.values, self._prior)
+
+    def _worth_of_touching(self, thing: int, density: np.ndarray) -> float:
+        """Returns what it earns to touch a thing once more and to answer then."""
+        touched = (*self._touched[thing], True)
+        nodes = np.searchsorted(density.cumsum(), self._levels).clip(max=_NODES - 1)
+        read = self._responses.after(touched)[nodes] + self._errors
+        logs = np.repeat(self._logs[None], _OUTCOMES, axis=0)
+        logs[:, thing] += self._log_likelihoods(read[:, None], touched)
+        beliefs, _ = self._posterior(logs)
+        return self._exact.discount * float(2 * beliefs.max(1).mean() - 1)

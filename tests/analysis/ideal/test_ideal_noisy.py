@@ -1,0 +1,96 @@
+"""Who reads noisily knows what it can know, and touches again what it cannot tell apart."""
+
+import numpy as np
+import pytest
+from trainers import fresh_seed
+
+from physexp import suite
+from physexp.analysis import domains
+from physexp.analysis.ideal import rollouts
+from physexp.suite.domains import which_is_heavier
+
+_DISCOUNT, _NUM_ACTORS, _NUM_ROUNDS = 0.95, 64, 10
+NOISE = 0.03  # m; a poke shows the lightest and the heaviest block 0.16 m apart.
+
+
+def ideal(**task_kwargs):
+    return domains.find("which_is_heavier").ideal("features", task_kwargs, _DISCOUNT)
+
+
+@pytest.fixture(scope="module")
+def played():
+    """Episodes: masses, what was done, the reward, and what was believed when it was answered."""
+    seed = fresh_seed()
+    solution = ideal(noise=NOISE)
+    actors = [solution.actor() for _ in range(_NUM_ACTORS)]
+    batch = suite.load_batch("which_is_heavier", "features", _NUM_ACTORS, {"noise": NOISE, "random": seed})
+    found = []
+    for episode in range(_NUM_ROUNDS):
+        actions = [[] for _ in actors]
+        for step in rollouts.play_round(actors, batch, episode):
+            for row, action, reward in zip(step.rows, step.actions, step.after.reward, strict=True):
+                actions[row].append(int(action))
+                if action >= which_is_heavier.NUM_BLOCKS:
+                    found.append((batch.hidden[row].copy(), actions[row], reward, actors[row].beliefs()))
+    assert len(found) == _NUM_ACTORS * _NUM_ROUNDS
+    return found
+
+
+def touches_again(actions):
+    *touches, _ = actions
+    return len(set(touches)) < len(touches)
+
+
+def test_it_is_as_often_right_as_it_believes(played):
+    surprises = np.array([reward - (2 * beliefs.max() - 1) for _, _, reward, beliefs in played])
+    assert abs(surprises.mean()) < 5 * surprises.std() / len(surprises) ** 0.5
+
+
+def test_it_believes_what_weighted_draws_say():
+    """The other way: masses are drawn, and each draw counts by how likely it makes what was read."""
+    seed = fresh_seed()
+    actions = np.random.default_rng(seed).integers(4, size=4)
+    environment = suite.load("which_is_heavier", "features", {"noise": NOISE, "random": seed})
+    actor = ideal(noise=NOISE).actor()
+    actor.observe_first(environment.reset())
+    count = 60_000
+    masses = which_is_heavier.draw_masses(np.full(count, seed + 1), np.arange(count), difficulty=5.0)
+    draws = suite.load_batch("which_is_heavier", "features", count)
+    draws.reset(hidden=masses)
+    logs = np.zeros(count)
+    for action in actions:
+        timestep = environment.step(action)
+        actor.observe(action, timestep)
+        exact = draws.step(np.full(count, action)).observation["heights"]
+        logs -= 0.5 * (((timestep.observation["heights"] - exact) / NOISE) ** 2).sum(1)
+    weights = np.exp(logs - logs.max())
+    weights /= weights.sum()
+    expected = np.bincount(masses.argmax(1), weights=weights, minlength=4)
+    error = np.sqrt((weights**2).sum())  # That of a share among so many effective draws, at most.
+    np.testing.assert_allclose(actor.beliefs(), expected, atol=5 * error)
+
+
+def test_it_touches_again_where_a_gap_is_small(played):
+    gaps = which_is_heavier.mass_gaps(np.array([masses for masses, *_ in played]))
+    is_again = np.array([touches_again(actions) for _, actions, *_ in played])
+    again, once = gaps[is_again], gaps[~is_again]
+    error = np.hypot(again.std() / len(again) ** 0.5, once.std() / len(once) ** 0.5)
+    assert once.mean() - again.mean() > 5 * error
+
+
+def test_it_earns_more_than_who_takes_readings_for_exact(played):
+    """What the other earns is computed without physics: masses are misread by noise on a curve of heights."""
+    worths = [(2 * beliefs.max() - 1) * _DISCOUNT ** (len(actions) - 1) for _, actions, _, beliefs in played]
+    expected = np.array(worths)
+    seed = fresh_seed()
+    nodes, count = np.linspace(0, 1, 1001), 50_000
+    batch = suite.load_batch("which_is_heavier", "features", len(nodes))
+    batch.reset(hidden=np.repeat(nodes[:, None], which_is_heavier.NUM_BLOCKS, axis=1))
+    heights = batch.step(np.zeros(len(nodes), np.int64)).observation["heights"][:, 0].astype(float)
+    masses = which_is_heavier.draw_masses(np.full(count, seed), np.arange(count), difficulty=5.0)
+    shown = np.interp(masses, nodes, heights) + np.random.default_rng(seed).normal(0, NOISE, masses.shape)
+    read = np.interp(-shown, -heights, nodes).clip(1e-9, 1 - 1e-9)
+    pokes, right = ideal().play(masses, read)
+    others = np.where(right, 1, -1) * _DISCOUNT**pokes
+    error = np.hypot(expected.std() / len(expected) ** 0.5, others.std() / count**0.5)
+    assert expected.mean() - others.mean() > 5 * error
