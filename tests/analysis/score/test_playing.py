@@ -6,6 +6,7 @@ import multiprocessing
 from pathlib import Path
 import re
 import signal
+import sys
 
 import commands
 import made_agents
@@ -53,6 +54,12 @@ def test_the_policy_of_the_documentation_is_as_good_as_the_ideal():
     assert figures["mean_interactions"] == figures["ideal_interactions"] == 3
     assert figures["bits_per_interaction"] == pytest.approx(1)
     assert figures["success_rate"] == 1
+
+
+def test_who_reads_and_writes_words_is_scored(monkeypatch):
+    monkeypatch.setenv("EXPERIMENTER", f"{sys.executable} reads.py")
+    figures = score("in_words:make", count=2)["tasks"]["threshold/features"]
+    assert figures["score"] == 1 and figures["mean_interactions"] == 3
 
 
 def test_an_actor_is_told_what_a_dm_env_environment_tells_and_what_it_prints_is_no_output(capfd):
