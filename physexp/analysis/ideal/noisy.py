@@ -20,7 +20,7 @@ from physexp.suite.engine import priors
 
 _NODES = 257  # Of the values.
 _OUTCOMES = 32  # Of a touch, that are thought of; drawn evenly (Sobol).
-_MOST_TOUCHES = 12  # Then it answers.
+_MOST_TOUCHES = 12  # Then it answers, or puts it off.
 
 
 class Responses:
@@ -66,7 +66,9 @@ def posterior(likelihoods: np.ndarray, values: np.ndarray, prior: priors.OddOneO
       Probabilities, float64 [N, K] and [N, K, G]. Values in one part are as likely in either order.
     """
     edges = np.linspace(0, 1, len(values) + 1)
-    common, odd = (np.diff(cdf(edges)) * likelihoods for cdf in (prior.common_cdf, prior.odd_cdf))
+    # Nothing is impossible, so that what is read is possible somewhere.
+    chances = (np.diff(cdf(edges)) + np.finfo(float).tiny for cdf in (prior.common_cdf, prior.odd_cdf))
+    common, odd = (chance * likelihoods for chance in chances)
     of_common, of_odd = common.sum(-1, keepdims=True), odd.sum(-1, keepdims=True)
     is_odd = of_odd[..., 0] / of_common[..., 0]
     is_odd = is_odd / is_odd.sum(1, keepdims=True)
@@ -117,8 +119,9 @@ class Player(core.Actor):
     def select_action(self, observation) -> int:
         beliefs, densities = self._posterior(self._logs[None])
         answer, label = 2 * beliefs[0].max() - 1, self._prior.num_things + int(beliefs[0].argmax())
-        if self._num_touches == _MOST_TOUCHES:
-            return label
+        silence = -(self._exact.discount ** (self._exact.step_limit - 1 - self._num_touches))
+        if self._num_touches >= _MOST_TOUCHES:
+            return label if answer > silence else 0
         means = densities[0] @ self._responses.values
         unknown = [k for k, touched in enumerate(self._touched) if not touched]
         means[unknown] = np.nan
@@ -127,12 +130,14 @@ class Player(core.Actor):
         candidates = [k for k in range(self._prior.num_things) if k not in unknown[1:]]  # Unknown ones are alike.
         worths = [self._worth_of_touching(k, densities[0, k]) for k in candidates]
         best = int(np.argmax(worths))
-        return candidates[best] if worths[best] > answer else label
+        return candidates[best] if max(worths[best], silence) > answer else label
 
     def observe(self, action, next_timestep):
         if action >= self._prior.num_things or next_timestep.last():
             return
         self._num_touches += 1
+        if self._num_touches > _MOST_TOUCHES:
+            return  # It puts the answer off, for good or until it guesses.
         read = next_timestep.observation[self._feature]
         for k, touched in enumerate(self._touched):
             if touched or k == action:

@@ -94,3 +94,11 @@ def test_it_earns_more_than_who_takes_readings_for_exact(played):
     others = np.where(right, 1, -1) * _DISCOUNT**pokes
     error = np.hypot(expected.std() / len(expected) ** 0.5, others.std() / count**0.5)
     assert expected.mean() - others.mean() > 5 * error
+
+
+def test_it_puts_the_answer_off_where_nothing_can_be_read():
+    """To guess costs 0.5 of what is left, and to be silent until step 100 the rest of it: less, as long as that is far."""
+    actors = [ideal(noise=100.0).actor() for _ in range(4)]
+    _, lengths = rollouts.play(actors, "which_is_heavier", "features", {"noise": 100.0}, 1, fresh_seed())
+    steps = next(step for step in range(100) if _DISCOUNT ** (99 - step) > 0.5)
+    assert (lengths - 1 == steps).all()
