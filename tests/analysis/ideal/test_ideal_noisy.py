@@ -97,7 +97,7 @@ def test_it_earns_more_than_who_takes_readings_for_exact(played):
 
 
 def test_it_puts_the_answer_off_where_nothing_can_be_read():
-    """To guess costs 0.5 of what is left, and to be silent until step 100 the rest of it: less, as long as that is far."""
+    """To guess costs half of what is left then, and to be silent until step 100 the rest: less, while that is far."""
     actors = [ideal(noise=100.0).actor() for _ in range(4)]
     _, lengths = rollouts.play(actors, "which_is_heavier", "features", {"noise": 100.0}, 1, fresh_seed())
     steps = next(step for step in range(100) if _DISCOUNT ** (99 - step) > 0.5)
