@@ -115,7 +115,7 @@ def test_the_picture_is_not_blank_and_nothing_is_cut_off(draw, name):
         assert (border == 1).all()
 
 
-@pytest.mark.parametrize("name", ["mass_gap", "laboratory"])  # One writer writes all of them.
+@pytest.mark.parametrize("name", EXPERIMENTS)
 def test_the_same_data_make_the_same_vector_file(draw, name, tmp_path):
     again, _ = figures.save(EXPERIMENTS[name].figure(made(name)), tmp_path, name)
     assert again.read_bytes() == draw(name).svg.read_bytes()

@@ -6,7 +6,7 @@ from trainers import fresh_seed
 
 from physexp import suite
 from physexp.analysis import domains
-from physexp.analysis.ideal import rollouts
+from physexp.analysis.ideal import bounds, rollouts
 from physexp.suite.domains import which_is_heavier
 
 _DISCOUNT, _NUM_ACTORS, _NUM_ROUNDS = 0.95, 64, 10
@@ -41,6 +41,11 @@ def touches_again(actions):
     return len(set(touches)) < len(touches)
 
 
+def expected_returns(played):
+    """What each episode was expected to return, at its answer."""
+    return np.array([(2 * beliefs.max() - 1) * _DISCOUNT ** (len(actions) - 1) for _, actions, _, beliefs in played])
+
+
 def test_it_is_as_often_right_as_it_believes(played):
     surprises = np.array([reward - (2 * beliefs.max() - 1) for _, _, reward, beliefs in played])
     assert abs(surprises.mean()) < 5 * surprises.std() / len(surprises) ** 0.5
@@ -70,6 +75,15 @@ def test_it_believes_what_weighted_draws_say():
     np.testing.assert_allclose(actor.beliefs(), expected, atol=5 * error)
 
 
+def test_its_value_is_what_its_beliefs_expect_and_the_bound_is_who_reads_exactly(played, monkeypatch):
+    monkeypatch.setattr(bounds, "NUM_EPISODES", 160)
+    solution = ideal(noise=NOISE)
+    expected = expected_returns(played)
+    error = np.hypot(solution.summary()["value_error"], expected.std() / len(expected) ** 0.5)
+    assert abs(solution.value - expected.mean()) < 5 * error
+    assert solution.bound == ideal().value
+
+
 def test_it_touches_again_where_a_gap_is_small(played):
     gaps = which_is_heavier.mass_gaps(np.array([masses for masses, *_ in played]))
     is_again = np.array([touches_again(actions) for _, actions, *_ in played])
@@ -80,8 +94,7 @@ def test_it_touches_again_where_a_gap_is_small(played):
 
 def test_it_earns_more_than_who_takes_readings_for_exact(played):
     """What the other earns is computed without physics: masses are misread by noise on a curve of heights."""
-    worths = [(2 * beliefs.max() - 1) * _DISCOUNT ** (len(actions) - 1) for _, actions, _, beliefs in played]
-    expected = np.array(worths)
+    expected = expected_returns(played)
     seed = fresh_seed()
     nodes, count = np.linspace(0, 1, 1001), 50_000
     batch = suite.load_batch("which_is_heavier", "features", len(nodes))
