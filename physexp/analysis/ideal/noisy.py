@@ -13,45 +13,13 @@ import numpy as np
 from scipy import special
 from scipy.stats import qmc
 
-from physexp import suite
 from physexp.agents import core
-from physexp.analysis.ideal import bounds, odd_one_out
+from physexp.analysis.ideal import bounds, calibration, odd_one_out
 from physexp.suite.engine import priors
 
 _NODES = 257  # Of the values.
 _OUTCOMES = 32  # Of a touch, that are thought of; drawn evenly (Sobol).
 _MOST_TOUCHES = 12  # Then it answers, or puts it off.
-
-
-class Responses:
-    """What is read of a thing, without noise, after it was touched at some steps; simulated when first asked."""
-
-    def __init__(self, domain_name: str, task_name: str, feature: str, task_kwargs: Mapping[str, Any]):
-        """Builds the simulations.
-
-        Args:
-          domain_name, task_name, task_kwargs: as for `suite.load`; the hidden property is K values in [0, 1], and
-            interaction k touches thing k.
-          feature: name of the observation, of K readings.
-        """
-        task = suite.load_task(domain_name, task_name, {**bounds.made_certain(task_kwargs), "random": 0})
-        self.values = (np.arange(_NODES) + 0.5) / _NODES
-        self._hidden = np.repeat(self.values[:, None], task.num_interactions, axis=1)
-        self._batch, self._feature = suite.BatchEnvironment(task, _NODES), feature
-        self._found: dict[tuple[bool, ...], np.ndarray] = {}
-
-    def after(self, touched: tuple[bool, ...]) -> np.ndarray:
-        """Returns the reading for each of `values`, float64 [G].
-
-        Args:
-          touched: for each step since the thing was touched first, whether it was.
-        """
-        if touched not in self._found:
-            self._batch.reset(hidden=self._hidden)
-            for step, is_touch in enumerate(touched, start=1):
-                read = self._batch.step(np.full(_NODES, 0 if is_touch else 1)).observation[self._feature]
-                self._found[touched[:step]] = read[:, 0].astype(float)
-        return self._found[touched]
 
 
 def posterior(likelihoods: np.ndarray, values: np.ndarray, prior: priors.OddOneOut) -> tuple[np.ndarray, np.ndarray]:
@@ -92,17 +60,19 @@ def players(
 
     Args:
       exact: the ideal experimenter of the task without noise.
-      domain_name, task_name, feature, task_kwargs: as for `Responses`, with the `noise`, m.
+      domain_name, task_name, feature, task_kwargs: as for `calibration.Responses`, with the `noise`, m.
     """
-    responses = Responses(domain_name, task_name, feature, task_kwargs)
-    return functools.partial(Player, exact, responses, feature, task_kwargs["noise"])
+    values = (np.arange(_NODES) + 0.5) / _NODES
+    certain = bounds.made_certain(task_kwargs)
+    responses = calibration.Responses(domain_name, task_name, feature, certain, values)
+    return functools.partial(Player, exact, responses, task_kwargs["noise"])
 
 
 class Player(core.Actor):
     """Plays the policy; what it has of an episode is what was read of each thing, and when it was touched."""
 
-    def __init__(self, exact: odd_one_out.Solution, responses: Responses, feature: str, noise: float):
-        self._exact, self._responses, self._feature, self._noise = exact, responses, feature, noise
+    def __init__(self, exact: odd_one_out.Solution, responses: calibration.Responses, noise: float):
+        self._exact, self._responses, self._noise = exact, responses, noise
         self._prior = exact.prior
         draws = qmc.Sobol(2, seed=0).random(_OUTCOMES)
         self._levels, self._errors = draws[:, 0], noise * special.ndtri(draws[:, 1])
@@ -138,7 +108,7 @@ class Player(core.Actor):
         self._num_touches += 1
         if self._num_touches > _MOST_TOUCHES:
             return  # It puts the answer off, for good or until it guesses.
-        read = next_timestep.observation[self._feature]
+        read = next_timestep.observation[self._responses.feature]
         for k, touched in enumerate(self._touched):
             if touched or k == action:
                 self._touched[k] = (*touched, k == action)
