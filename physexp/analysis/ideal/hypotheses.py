@@ -81,7 +81,8 @@ class Hypotheses:
         found = []
         for number in range(len(actions)):
             rows = slice(number * size, (number + 1) * size)
-            apart = distances({name: values[rows] for name, values in seen.items()}, self._read.readings)
+            these = {name: values[rows] for name, values in seen.items()}
+            apart = distances(these, these, self._read.readings)
             found.append((apart, self._moment(members, number)))
         return found
 
@@ -108,8 +109,8 @@ class Hypotheses:
 
     def nearest(self, observation: Mapping[str, np.ndarray], seen: Mapping[str, np.ndarray]) -> int:
         """Returns which of what was seen, arrays [n, ...], is nearest to an observation."""
-        both = {name: np.concatenate([observation[name][None], values]) for name, values in seen.items()}
-        return int(distances(both, self.task.readings)[0, 1:].argmin())
+        one = {name: values[None] for name, values in observation.items()}
+        return int(distances(one, seen, self.task.readings)[0].argmin())
 
     @functools.cached_property
     def _reading(self) -> suite.BatchEnvironment:
@@ -128,21 +129,27 @@ class Hypotheses:
         return environments
 
 
-def distances(observation: Mapping[str, np.ndarray], readings: Mapping[str, declarations.Reading]) -> np.ndarray:
-    """Returns how far apart observations are, pairwise: [N, N] for arrays with a leading axis N.
+def distances(
+    seen: Mapping[str, np.ndarray], others: Mapping[str, np.ndarray], readings: Mapping[str, declarations.Reading]
+) -> np.ndarray:
+    """Returns how far each of what was seen is from each of others, [N, M].
 
     Features: the largest distance between what was read of the same thing, in the reading's unit. Images: how many
     pixels differ.
 
     Args:
-      observation: arrays by name, [N, ...].
+      seen, others: arrays by name, [N, ...] and [M, ...].
       readings: the task's; what is not among them is an image.
     """
     found = []
-    for name, values in observation.items():
+    for name, values in seen.items():
+        theirs = others[name]
         if name in readings:
-            points = values.reshape(len(values), -1, max(1, len(readings[name].components))).astype(float)
-            found.append(np.linalg.norm(points[:, None] - points, axis=-1).max(axis=-1))
+            points, their_points = (
+                each.reshape(len(each), -1, max(1, len(readings[name].components))).astype(float)
+                for each in (values, theirs)
+            )
+            found.append(np.linalg.norm(points[:, None] - their_points, axis=-1).max(axis=-1))
         else:
-            found.append(np.array([(image != values).any(axis=-1).sum(axis=(1, 2)) for image in values], float))
+            found.append(np.array([(image != theirs).any(axis=-1).sum(axis=(1, 2)) for image in values], float))
     return np.max(found, axis=0)

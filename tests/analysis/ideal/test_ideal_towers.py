@@ -205,13 +205,19 @@ def test_distances_are_the_largest_of_positions_or_the_number_of_pixels():
         "fist_position": declarations.Reading([], (3,), components=("x", "y", "z")),
         "angles": declarations.Reading([], (3,), unit="rad"),
     }
-    seen = {"positions": positions, "fist_position": fist}
-    np.testing.assert_allclose(hypotheses.distances(seen, readings), [[0, 0.05], [0.05, 0]])
-    np.testing.assert_allclose(hypotheses.distances({"angles": fist * [3, 3, 3]}, readings), [[0, 0.03], [0.03, 0]])
+
+    def apart(**seen):
+        first = {name: values[:1] for name, values in seen.items()}
+        found = hypotheses.distances(seen, seen, readings)
+        np.testing.assert_array_equal(hypotheses.distances(first, seen, readings), found[:1])
+        return found
+
+    np.testing.assert_allclose(apart(positions=positions, fist_position=fist), [[0, 0.05], [0.05, 0]])
+    np.testing.assert_allclose(apart(angles=fist * [3, 3, 3]), [[0, 0.03], [0.03, 0]])
     pixels = np.zeros((2, 84, 84, 3), np.uint8)
     pixels[1, 3, 4] = 7
     pixels[1, 9, 9, 2] = 1
-    np.testing.assert_array_equal(hypotheses.distances({"pixels": pixels}, readings), [[0, 2], [2, 0]])
+    np.testing.assert_array_equal(apart(pixels=pixels), [[0, 2], [2, 0]])
 
 
 def test_from_pixels_the_first_touch_tells_as_well():
