@@ -40,6 +40,14 @@ QUICK = {"envs_per_worker": 64, "entropy_cost": 0.15, "final_entropy_cost": 0.03
 LEARNED = 0.6  # Chance is 0.25: 1000 guesses stay below 0.33.
 
 
+@pytest.fixture(scope="module", autouse=True)
+def not_nice():
+    """Lets Ray's workers compete with other tests on equal terms; by default they wait until nobody else computes."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("RAY_worker_niceness", "0")
+        yield
+
+
 class Nodes:
     """A cluster of two nodes with one processor each."""
 
@@ -79,7 +87,7 @@ class Nodes:
 
 
 @pytest.fixture(scope="module")
-def made_nodes():
+def made_nodes(not_nice):
     made = Nodes()
     yield made
     made.cluster.shutdown()
@@ -97,7 +105,10 @@ def nodes(made_nodes):
 
 
 def train_meanwhile(run, disturb):
-    """Trains on the cluster while something happens; returns what training told."""
+    """Trains on the cluster while something happens; returns what training told.
+
+    `disturb` is given what training tells, and a way to wait until training has come so far.
+    """
     told, failed = [], []
 
     def train():
@@ -106,9 +117,13 @@ def train_meanwhile(run, disturb):
         except BaseException as error:
             failed.append(error)
 
+    def wait_for(condition, what):
+        wait_until(lambda: condition() or not training.is_alive(), what)
+        assert training.is_alive(), f"training was over before {what}: {failed or told}"
+
     training = threading.Thread(target=train, daemon=True)
     training.start()
-    disturb(told)
+    disturb(told, wait_for)
     wait_until(lambda: not training.is_alive(), "the end of training", busy_seconds=3600.0)
     assert not failed, failed
     return told
@@ -138,18 +153,19 @@ def test_whoever_dies_training_ends_as_if_nobody_had(nodes, tmp_path):
         tmp_path / "run", frames=200_000, num_workers=2, max_staleness=10**9, seed=fresh_seed(), **QUICK
     )
 
-    def disturb(told):
-        wait_until(lambda: has_trained(run, 0), "a checkpoint")
+    def disturb(told, wait_for):
+        wait_for(lambda: has_trained(run, 0), "a checkpoint")
+        wait_for(lambda: len(nodes.processes("Worker")) == 2, "two workers")
         (victim, other) = nodes.processes("Worker")
         os.kill(victim, signal.SIGKILL)
         killed = time.monotonic()
-        wait_until(lambda: len(set(nodes.processes("Worker")) - {victim, other}) == 1 and told, "another worker")
+        wait_for(lambda: len(set(nodes.processes("Worker")) - {victim, other}) == 1 and told, "another worker")
         print("another worker after", time.monotonic() - killed, "s")
         (server,) = nodes.processes("ParameterServer")
         os.kill(server, signal.SIGKILL)
-        wait_until(lambda: nodes.processes("ParameterServer") not in ([], [server]), "another server")
+        wait_for(lambda: nodes.processes("ParameterServer") not in ([], [server]), "another server")
         killed = int(run.checkpointer.paths()[-1].stem)
-        wait_until(lambda: has_trained(run, killed), "a checkpoint after the server was killed")
+        wait_for(lambda: has_trained(run, killed), "a checkpoint after the server was killed")
         nodes.cluster.remove_node(nodes.other, allow_graceful=False)
         nodes.cluster.add_node(num_cpus=1)
 
