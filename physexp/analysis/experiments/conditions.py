@@ -43,6 +43,7 @@ _BELIEF_FRAMES = {
     "sealed_box features": 200_000,
     "strike features": 300_000,
 }
+_NOISY_FRAMES = {"5-F": 120_000}  # The same, with noise.
 _VARIED_FRAMES = {"D-F": 150_000, "F-F": 150_000, "D-P": 200_000, "F-P": 250_000}  # The same, with variation.
 
 
@@ -99,6 +100,12 @@ def with_variation(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
     """Returns a condition of Towers with full variation, and the belief learner's budget for that."""
     agent = config.agent.replace(frames=_VARIED_FRAMES[config.label])
     return dataclasses.replace(config, task_kwargs={**config.task_kwargs, "variation": 1.0}, agent=agent)
+
+
+def with_noise(config: config_lib.TrainConfig, noise: float) -> config_lib.TrainConfig:
+    """Returns a condition with noise of a standard deviation, m, and the belief learner's budget for that."""
+    agent = config.agent.replace(frames=_NOISY_FRAMES[config.label])
+    return dataclasses.replace(config, task_kwargs={**config.task_kwargs, "noise": noise}, agent=agent)
 
 
 def observations(config: config_lib.TrainConfig) -> str:

@@ -23,6 +23,7 @@ from physexp.analysis.experiments import (
     generalization,
     laboratory,
     learners,
+    noise,
     population,
     shaking,
     waiting,
@@ -413,6 +414,35 @@ def waiting_fists(num_agents, generator, slowdown=10.0, gain=0.07, loss=0.0, los
     return table(agents)
 
 
+# Episodes of Which is Heavier with noise.
+
+
+def second_pokes(num_agents, generator, noisy=0.6, exact=0.0, widest=0.3, slope=-4.0, share=0.98):
+    """Pokes of blocks again, with noise and without, in these shares of the episodes with gaps of up to the widest.
+
+    All pokes have this slope on the mass gap; and what is earned.
+    """
+    agents = []
+    for seed in range(num_agents):
+        gaps = generator.random(_EPISODES)
+        for readings, again in ((noise.EXACT, exact), (noise.NOISY, noisy)):
+            pokes = (gaps < widest) & (generator.random(_EPISODES) < again - 0.02 * generator.random())
+            agents.append(
+                pandas.DataFrame(
+                    {
+                        "condition": label(noise.CONDITIONS[readings]),
+                        "training_seed": seed,
+                        "readings": readings,
+                        "mass_gap": gaps,
+                        "again": pokes.astype(int),
+                        "interactions": 4 + slope * (gaps - 0.5) + generator.normal(0, 1, _EPISODES),
+                        "share": share + generator.normal(0, 0.01, _EPISODES) if readings == noise.NOISY else np.nan,
+                    }
+                )
+            )
+    return pandas.concat(agents, ignore_index=True)
+
+
 # Episodes of Balance.
 
 
@@ -656,6 +686,13 @@ WORLDS: dict[str, dict[str, _World]] = {
         "sixteen are enough": functools.partial(other_towers, usual=1.0),
         "nobody has a rule": functools.partial(other_towers, rule=0.9),
         "agents who dawdle": functools.partial(other_towers, share=0.8),
+    },
+    "noise": {
+        "paper": second_pokes,
+        "known blocks all the time": functools.partial(second_pokes, exact=0.9, noisy=0.3),
+        "whatever the gap": functools.partial(second_pokes, widest=1.0),
+        "hard ones are quick": functools.partial(second_pokes, slope=4.0),
+        "clumsy agents": functools.partial(second_pokes, share=0.9),
     },
     "weighing": {
         "paper": weighings,

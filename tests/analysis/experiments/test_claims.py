@@ -114,6 +114,12 @@ FALSE_IN = {
         "A rule of one line is right wherever towers vary": {"nobody has a rule"},
         "Agents trained with variation earn nearly what the rule earns": {"agents who dawdle"},
     },
+    "noise": {
+        "With noise, agents poke a block again where the mass gap is small": {"whatever the gap"},
+        "With noise, the smaller the mass gap, the longer an agent experiments": {"hard ones are quick"},
+        "Noise makes agents poke blocks again": {"known blocks all the time"},
+        "Agents earn nearly what an experimenter earns who knows of the noise": {"clumsy agents"},
+    },
     "weighing": {
         "Where each placing costs a step, one block is weighed against one first": {"as with coins"},
         "Agents who are told the answers come near the optimum of Balance": {"clumsy agents"},

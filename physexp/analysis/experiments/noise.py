@@ -1,0 +1,174 @@
+"""Noise: whether small mass gaps make agents poke a block again where one poke does not tell all. Ours."""
+
+from collections.abc import Callable
+import json
+from typing import Any
+
+import numpy as np
+
+from physexp.agents import files
+from physexp.analysis import domains
+from physexp.analysis.data import estimates
+from physexp.analysis.evaluation import figures, records
+from physexp.analysis.experiments import base, blocks, claims, conditions, scores
+
+EXACT, NOISY = "exact", "noisy"
+_NOISE = 0.03  # m, of each reading.
+_TASK = next(task for task in scores.TASKS if task.label == "5-F")
+CONDITIONS = {
+    EXACT: conditions.with_belief(_TASK),
+    NOISY: conditions.with_noise(conditions.with_belief(_TASK), _NOISE),
+}
+"""The agents, by the readings that they were trained with and are tested with."""
+
+# Written down before any agent was trained with noise.
+SMALLER, CLEAR, LEAST_SHARE = -0.1, -0.3, 0.95
+
+_WORDS = {EXACT: "exact readings", NOISY: f"readings with noise of {1000 * _NOISE:g} mm"}
+_BINS = np.linspace(0, 1, 11)
+_FEWEST = 20  # Episodes that a mean is drawn of.
+
+
+def prepare(results: base.Results, report: Callable[[str], None]) -> None:
+    """Lets the experimenter who counts with noise play, where it has not; `report` is told so."""
+    path = _path(results)
+    if path.exists():
+        return
+    report("an experimenter who counts with noise plays")
+    task = CONDITIONS[NOISY]
+    find = domains.find(task.domain).ideal
+    assert find is not None
+    solution = find(task.task, task.task_kwargs, task.agent.discount)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    files.write_atomically(path, (json.dumps({"value": solution.value}, indent=1) + "\n").encode())
+
+
+def _path(results: base.Results):
+    return results.path / "noise" / f"{CONDITIONS[NOISY].label}.json"
+
+
+def _is_value(found: Any) -> bool:
+    return isinstance(found, dict) and set(found) == {"value"} and isinstance(found["value"], float)
+
+
+def load(results: base.Results):
+    """Episodes with their `readings`, and how often a block was poked `again`.
+
+    `share` is that of the return of the experimenter who counts with noise; NaN where readings are exact.
+
+    Raises:
+      ValueError: if no agent has played.
+    """
+    import pandas
+
+    frames = []
+    for readings, config in CONDITIONS.items():
+        if not results.has_played(base.EVALUATION, config):
+            continue
+        columns = ["mass_gap", "interactions", "label", "actions", "reward", "length"]
+        frame = blocks.counted(results.episodes([base.EVALUATION], [config], columns))
+        share = np.nan
+        if readings == NOISY:
+            share = records.discounted_return(frame) / base.read_made(_path(results), "noise", _is_value)["value"]
+        frames.append(frame.assign(readings=readings, again=frame.interactions - frame.blocks, share=share))
+    if not any((frame.readings == NOISY).any() for frame in frames):
+        raise ValueError(f"{results.path} holds no episodes of this experiment; `physexp reproduce` it first")
+    return pandas.concat(frames, ignore_index=True)
+
+
+def find_claims(frame) -> list[claims.Claim]:
+    """Noise makes agents poke a block again, above all where the mass gap is small."""
+    noisy = [agent for _, agent in frame[frame.readings == NOISY].groupby("training_seed")]
+    if not noisy:
+        return []
+    gaps = [_mean_gap(agent, agent.again > 0) - _mean_gap(agent, agent.again == 0) for agent in noisy]
+    correlations = [estimates.correlation(*agent[["mass_gap", "interactions"]].to_numpy(float).T) for agent in noisy]
+    again = frame.groupby(["training_seed", "readings"]).again.mean().unstack("readings").dropna()
+    common: dict[str, Any] = dict(condition=CONDITIONS[NOISY].label)
+    found = [
+        claims.Claim(
+            **common,
+            text="With noise, agents poke a block again where the mass gap is small",
+            statistic="mean mass gap of episodes in which a block is poked again less that of others, mean of agents",
+            estimate=estimates.mean(gaps),
+            below=SMALLER,
+        ),
+        claims.Claim(
+            **common,
+            text="With noise, the smaller the mass gap, the longer an agent experiments",
+            statistic="correlation of pokes and mass gap, mean of agents",
+            estimate=estimates.mean([each.value for each in correlations]),
+            below=CLEAR,
+            words="a clear correlation",
+        ),
+        claims.Claim(
+            **common,
+            text="Agents earn nearly what an experimenter earns who knows of the noise",
+            statistic="share of its return, median of agents",
+            estimate=estimates.median([agent.share.mean() for agent in noisy]),
+            above=LEAST_SHARE,
+        ),
+    ]
+    if EXACT in again and len(again):
+        found.append(
+            claims.Claim(
+                **common,
+                text="Noise makes agents poke blocks again",
+                statistic="pokes of blocks that were poked before, in an episode, with noise less without, mean "
+                "difference",
+                estimate=estimates.mean(again[NOISY] - again[EXACT]),
+                above=0,
+            )
+        )
+    return found
+
+
+def _mean_gap(agent, are_meant) -> float:
+    """Returns NaN where no episode is meant."""
+    return float(agent.mass_gap[are_meant].mean())
+
+
+def draw(frame):
+    """Pokes of blocks that were poked before, and all pokes, against the mass gap."""
+    figure, panels = figures.new(columns=2, width=3.0, height=2.3)
+    centers = (_BINS[1:] + _BINS[:-1]) / 2
+    words = {"again": "pokes of blocks poked before", "interactions": "pokes before the answer"}
+    for axes, (column, label) in zip(panels, words.items(), strict=True):
+        for number, readings in enumerate(_WORDS):
+            lines = [
+                _means(agent.mass_gap.to_numpy(), agent[column].to_numpy())
+                for _, agent in frame[frame.readings == readings].groupby("training_seed")
+            ]
+            if not lines:
+                continue
+            style = dict(color=figures.COLORS[number + 1], marker=figures.MARKERS[number], markersize=3)
+            axes.fill_between(centers, np.min(lines, axis=0), np.max(lines, axis=0), alpha=0.2, color=style["color"])
+            axes.plot(centers, np.median(lines, axis=0), label=_WORDS[readings], **style)
+        axes.set(xlabel="mass gap", ylabel=label, xlim=(0, 1), ylim=(0, None))
+    panels[0].legend()
+    figure.suptitle(figures.seeds(frame[frame.readings == NOISY]), fontsize=7, x=0.99, ha="right")
+    return figure
+
+
+def _means(gaps: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Returns the mean of values in each bin of gaps; NaN where there are few."""
+    bins = np.digitize(gaps, _BINS[1:-1])
+    chosen = [values[bins == number] for number in range(len(_BINS) - 1)]
+    return np.array([each.mean() if len(each) >= _FEWEST else np.nan for each in chosen])
+
+
+EXPERIMENT = base.Experiment(
+    name="noise",
+    title="Noise that pays for a second poke",
+    section=claims.OURS,
+    caption="Which is Heavier where each reading has noise: how often a block is poked that was poked before (left), "
+    "and all pokes (right), against the mass gap; agents of the belief learner, greedy play. Beside them its agents "
+    "where readings are exact, to whom a second poke tells nothing. Dark: the median of agents; light: from the least "
+    "to the most.",
+    conditions=tuple(CONDITIONS.values()),
+    trials=(base.EVALUATION,),
+    prepare=prepare,
+    load=load,
+    claims=find_claims,
+    draw=draw,
+)
