@@ -32,11 +32,12 @@ class Variables(Generic[Network]):
             Hutter, 2019).
         """
         self.network = network
-        biases = [parameter for name, parameter in network.named_parameters() if "bias" in name]
-        weights = [parameter for name, parameter in network.named_parameters() if "bias" not in name]
+        self._trained = {name: each for name, each in network.named_parameters() if each.requires_grad}
+        biases = [parameter for name, parameter in self._trained.items() if "bias" in name]
+        weights = [parameter for name, parameter in self._trained.items() if "bias" not in name]
         groups = [{"params": weights, "weight_decay": weight_decay}, {"params": biases, "weight_decay": 0.0}]
         self.optimizer = torch.optim.AdamW(groups, eps=1e-5, foreach=False)
-        for parameter in network.parameters():  # At once, so that they are there to be shared or restored.
+        for parameter in self._trained.values():  # At once, so that they are there to be shared or restored.
             self.optimizer.state[parameter] = {
                 "step": torch.zeros(()),
                 "exp_avg": torch.zeros_like(parameter.data),
@@ -56,7 +57,7 @@ class Variables(Generic[Network]):
     def tensors(self) -> dict[str, torch.Tensor]:
         """Returns everything, by name; not copies."""
         named = {f"network/{name}": value for name, value in self.network.state_dict().items()}
-        for name, parameter in self.network.named_parameters():
+        for name, parameter in self._trained.items():
             for statistic, value in self.optimizer.state[parameter].items():
                 named[f"optimizer/{name}/{statistic}"] = value
         return {**named, "frames": self.frames, "updates": self.updates, "rounds": self.rounds}
@@ -89,7 +90,7 @@ class Variables(Generic[Network]):
 
     def apply(self, gradients: Sequence[torch.Tensor], learning_rate: float) -> None:
         """Moves the parameters by one step of Adam; the counters stay."""
-        for parameter, gradient in zip(self.network.parameters(), gradients, strict=True):
+        for parameter, gradient in zip(self._trained.values(), gradients, strict=True):
             parameter.grad = gradient.to(parameter.device)
         for group in self.optimizer.param_groups:
             group["lr"] = learning_rate

@@ -34,10 +34,13 @@ class Belief(synchronous.SynchronousAgent):
         network.calibrate(acting.as_tensors(self._environment.reset().observation))
         network.to(devices.choose(config.device, network.sees_images))
         num_rounds = config.replay_episodes // config.num_environments
-        episodes = replay.Replay(self._environment, num_rounds, config.most_interactions + 1)
+        dtype = np.float16 if network.sees_images else np.float32
+        episodes = replay.Replay(
+            num_rounds, config.most_interactions + 1, config.num_environments, network.num_inputs, dtype
+        )
         learner = learning.BeliefLearner(learning.Variables(network, episodes, config.weight_decay), self._play, config)
         super().__init__(learner, config.frames, seed, config.num_threads)
 
     def _play(self, network: networks.BeliefNetwork, number: int, choose: acting.Choose) -> rounds.Round:
         unused = np.random.default_rng()  # Whoever chooses draws.
-        return acting.play_round(network, self._environment, number, unused, keep_behaviour=True, choose=choose)
+        return acting.play_round(network, self._environment, number, unused, differentiable=True, choose=choose)

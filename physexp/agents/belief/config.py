@@ -115,7 +115,3 @@ class BeliefConfig(config.AgentConfig):
                 f"replay_episodes is {self.replay_episodes}; give at least num_environments, {self.num_environments}: "
                 "what has been played is kept until it has been learned from"
             )
-
-
-FROM_IMAGES = BeliefConfig(replay_episodes=20_000)
-"""The configuration for all tasks that show images, of which fewer are kept, since they take far more memory."""

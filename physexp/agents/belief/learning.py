@@ -111,9 +111,10 @@ class BeliefLearner(synchronous.SynchronousLearner):
         config, network, averaged = self._config, self.variables.network, self.variables.averaged
         played, actions, lengths = episodes.played, episodes.actions, episodes.lengths
         done = actions.to(network.device)
-        outputs = network.unroll(_padded(network.encode(episodes.observation), played), done, config.dropout)
+        inputs = _padded(episodes.inputs.to(network.device).float(), played)
+        outputs = network.unroll(inputs, done, config.dropout)
         with torch.no_grad():
-            judgement = averaged.judge(_padded(averaged.encode(episodes.observation), played), done)
+            judgement = averaged.judge(inputs, done)
         (logits, shares), (their_logits, their_shares) = (
             [part.cpu() for part in parts] for parts in (outputs, judgement)
         )
@@ -162,11 +163,9 @@ class BeliefLearner(synchronous.SynchronousLearner):
     def _measure_features(self, played: rounds.Round) -> None:
         """Notes how far features are from where they were at the start of their episode: the unit they are taken in."""
         variables = self.variables
-        if variables.network.sees_images:
-            return
-        assert played.behaviour is not None
+        assert played.inputs is not None
         were_played = torch.from_numpy(played.played)
-        seen = _padded(variables.averaged.encode(played.behaviour.observation), were_played)
+        seen = _padded(played.inputs.cpu(), were_played)
         moved = (seen - seen[:1])[were_played].double()
         variables.moments += torch.stack([moved.square().sum(), (moved != 0).sum()])
         squares, count = variables.moments.tolist()

@@ -70,12 +70,16 @@ class BeliefNetwork(networks.RecurrentNetwork):
         else:
             self.torso = networks.FeatureTorso(observation_spec, 1.0)
         width = _NUM_HEADS * units
-        self._num_inputs = self.torso.num_outputs
+        self.torso.requires_grad_(False)
+        self.num_inputs = self._num_seen = self.torso.num_outputs
+        self.projection: nn.Module = nn.Identity()
         if self.sees_images:
-            self.projection = nn.Linear(self.torso.num_outputs, width)
-            self._num_inputs = width
-        num_seen = 3 * self._num_inputs + num_interactions + 1
-        self.members = Members(num_members, num_seen, num_actions - num_interactions, num_interactions, width, memory)
+            self._num_seen = width
+            self.projection = nn.Linear(self.num_inputs, width)
+        num_looked_at = 3 * self._num_seen + num_interactions + 1
+        self.members = Members(
+            num_members, num_looked_at, num_actions - num_interactions, num_interactions, width, memory
+        )
         self.register_buffer("log_scale", torch.zeros(()))
 
     @staticmethod
@@ -91,7 +95,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
 
     def initial_state(self, batch_size):
         """Returns the state at the start of episodes: all that was seen, and what was done before each of it."""
-        seen = torch.zeros(1, batch_size, 0, self._num_inputs, device=self.device)
+        seen = torch.zeros(1, batch_size, 0, self._num_seen, device=self.device)
         return seen, torch.zeros(1, batch_size, 1, self.num_interactions, device=self.device)
 
     def calibrate(self, first: networks.Observation) -> None:
@@ -101,15 +105,12 @@ class BeliefNetwork(networks.RecurrentNetwork):
     def encode(self, observation):
         with devices.autocast(self.device) if self.sees_images else contextlib.nullcontext():
             inputs, places = self.torso.distinct(observation)
-            inputs = inputs.to(self.device)
-            if self.sees_images:
-                inputs = self.projection(inputs)
-        inputs = inputs.float()
+        inputs = inputs.to(self.device).float()
         return inputs if places is None else inputs[places]
 
     def step(self, inputs, state):
         seen, done = state
-        seen = torch.cat([seen, inputs[None, :, None]], dim=2)
+        seen = torch.cat([seen, self.projection(inputs)[None, :, None]], dim=2)
         logits, shares = self._opinions(self._history(seen[0], done[0]))
         beliefs = logits[:, :, -1].softmax(-1).mean(0)
         values = self.values(beliefs, shares[:, :, -1].mean(0))
@@ -169,12 +170,11 @@ class BeliefNetwork(networks.RecurrentNetwork):
     def _histories(self, inputs, actions):
         """Returns what members look at, [B, T, H], in whole episodes."""
         done = functional.pad(self._one_hot(actions[:-1]), (0, 0, 0, 0, 1, 0))
-        return self._history(inputs.transpose(0, 1), done.transpose(0, 1))
+        return self._history(self.projection(inputs).transpose(0, 1), done.transpose(0, 1))
 
     def _history(self, seen, done):
         """Returns what members look at, [B, T, H], of inputs [B, T, F] and of what was done before them, [B, T, I]."""
-        first = seen[:, :1]
-        unit = 1.0 if self.sees_images else torch.exp(self.log_scale)
+        first, unit = seen[:, :1], torch.exp(self.log_scale)
         change, moved = (seen - first) / unit, torch.diff(seen, dim=1, prepend=first) / unit
         direction = moved / (moved.norm(dim=-1, keepdim=True) + _STILL)
         times = torch.arange(seen.shape[1], device=seen.device)[:, None] / self.most_interactions

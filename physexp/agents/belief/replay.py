@@ -5,12 +5,11 @@ import dataclasses
 import functools
 import math
 import os
-from typing import Any
 
 import numpy as np
 import torch
 
-from physexp.agents import acting, core, rounds
+from physexp.agents import acting, rounds
 
 _LARGEST_SHARE = 0.5  # Of the machine's memory.
 
@@ -20,8 +19,8 @@ class Episodes:
     """Episodes to learn from, B of them, padded to the longest.
 
     Attributes:
-      observation: what was seen before each action, arrays [N, ...] by name, of the steps that were played: all first
-        steps, then all second steps, and so on.
+      inputs: the network's encoding of what was seen before each action, [N, F], of the steps that were played: all
+        first steps, then all second steps, and so on.
       actions: int64 [T, B].
       rewards: of the last actions, float32 [B].
       lengths: actions in each episode, int64 [B].
@@ -29,7 +28,7 @@ class Episodes:
       judges: the member of the network that judges each episode and does not learn from it, int64 [B], ascending.
     """
 
-    observation: dict[str, torch.Tensor]
+    inputs: torch.Tensor
     actions: torch.Tensor
     rewards: torch.Tensor
     lengths: torch.Tensor
@@ -43,9 +42,7 @@ class Episodes:
 
     def arrays(self) -> dict[str, np.ndarray]:
         """Returns everything as plain arrays by name."""
-        named: dict[str, Any] = {**vars(self), **self.observation}
-        del named["observation"]
-        return {name: value.numpy() for name, value in named.items()}
+        return {name: value.numpy() for name, value in vars(self).items()}
 
 
 class Replay:
@@ -58,36 +55,34 @@ class Replay:
       actions: what was done, int16 [R, T, B], for the last R rounds; -1 where nothing was.
     """
 
-    def __init__(self, environment: core.Batch, num_rounds: int, longest: int):
-        """Makes room for as many rounds of episodes of at most `longest` actions.
+    def __init__(self, num_rounds: int, longest: int, num_environments: int, num_inputs: int, dtype: type):
+        """Makes room for rounds of episodes of at most `longest` actions, and for what was seen, as numbers of a type.
 
         Raises:
           ValueError: if they would take more than half of the machine's memory.
         """
-        spec = environment.observation_spec()
-        steps = num_rounds, longest, environment.num_environments
-        num_bytes = math.prod(steps) * sum(math.prod(array.shape) * array.dtype.itemsize for array in spec.values())
+        steps = num_rounds, longest, num_environments
+        num_bytes = math.prod(steps) * num_inputs * np.dtype(dtype).itemsize
         memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
         if num_bytes > _LARGEST_SHARE * memory:
-            fitting = int(num_rounds * environment.num_environments * _LARGEST_SHARE * memory / num_bytes)
+            fitting = int(num_rounds * num_environments * _LARGEST_SHARE * memory / num_bytes)
             raise ValueError(
-                f"{num_rounds * environment.num_environments:,} episodes to learn from take {num_bytes / 1e9:.1f} GB, "
+                f"{num_rounds * num_environments:,} episodes to learn from take {num_bytes / 1e9:.1f} GB, "
                 f"and this machine has {memory / 1e9:.1f} GB; give replay_episodes at most {fitting}"
             )
         # Memory is taken when something is written to it.
-        self._observation = {name: np.zeros((*steps, *array.shape), array.dtype) for name, array in spec.items()}
+        self._inputs: np.ndarray = np.zeros((*steps, num_inputs), dtype)
         self.actions = torch.full(steps, -1, dtype=torch.int16)
-        self._rewards = np.zeros((num_rounds, environment.num_environments), np.float32)
+        self._rewards = np.zeros((num_rounds, num_environments), np.float32)
         self._answers = np.zeros(self._rewards.shape, np.int64)
 
     def add(self, played: rounds.Round, number: int) -> None:
-        """Keeps the round `number`, whose behaviour has what was observed, in place of the one R rounds before."""
-        assert played.behaviour is not None
+        """Keeps the round `number`, with its inputs, in place of the one R rounds before."""
+        assert played.inputs is not None
         slot, length = number % len(self.actions), len(played.actions)
         self.actions[slot] = -1
         self.actions[slot, :length] = torch.from_numpy(np.where(played.played, played.actions, -1))
-        for name, array in played.behaviour.observation.items():
-            self._observation[name][slot, :length][played.played] = array.numpy()
+        self._inputs[slot, :length][played.played] = played.inputs.cpu().numpy()
         self._rewards[slot] = played.rewards.sum(axis=0)
         self._answers[slot] = played.answers
 
@@ -95,7 +90,7 @@ class Replay:
         """Plays the rounds in `actions` again, to get back what was observed.
 
         Args:
-          play: plays the round of a number, and keeps the behaviour.
+          play: plays the round of a number, and keeps its inputs.
           num_rounds: how many rounds were played in all.
         """
         actions = self.actions.numpy().astype(np.int64)
@@ -115,10 +110,7 @@ class Replay:
         longest = lengths.max()
         steps, columns = np.nonzero(np.arange(longest)[:, None] < lengths)
         return Episodes(
-            {
-                name: torch.from_numpy(array[slots[columns], steps, environments[columns]])
-                for name, array in self._observation.items()
-            },
+            torch.from_numpy(self._inputs[slots[columns], steps, environments[columns]]),
             self.actions[slots, :, environments].T[:longest].long().clamp(min=0),
             torch.from_numpy(self._rewards[slots, environments]),
             torch.from_numpy(lengths),

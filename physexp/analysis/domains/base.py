@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 from physexp.agents import config as agent_config
 from physexp.agents.a3c import config as a3c
-from physexp.agents.belief import config as belief
 from physexp.agents.ppo import config as ppo
 
 if TYPE_CHECKING:
@@ -151,6 +150,6 @@ PPO_OF_FEW_IMAGES = ppo_like(A3C_OF_FEW_IMAGES, num_environments=1024)
 
 PRESETS_OF_BITS: Mapping[str, Mapping[str, agent_config.AgentConfig]] = {
     "features": {"a3c": A3C_OF_BITS, "ppo": PPO_OF_BITS},
-    "pixels": {"a3c": A3C_OF_FEW_IMAGES, "ppo": PPO_OF_FEW_IMAGES, "belief": belief.FROM_IMAGES},
+    "pixels": {"a3c": A3C_OF_FEW_IMAGES, "ppo": PPO_OF_FEW_IMAGES},
 }
 """The presets of a domain whose readings are bits, by task and algorithm."""

@@ -6,7 +6,6 @@ import functools
 from typing import TYPE_CHECKING, Any
 
 from physexp.agents.a3c import config as a3c
-from physexp.agents.belief import config as belief
 from physexp.agents.ppo import config as ppo
 from physexp.analysis.domains import base
 
@@ -177,14 +176,12 @@ _BASELINES = {
     task: {"rule": functools.partial(_rule, task), "lookup": functools.partial(_lookup, task)} for task in _RULES
 }
 
-_FROM_IMAGES = {"belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT)}
-_BELIEF = {"direct_pixels": _FROM_IMAGES, "fist_pixels": _FROM_IMAGES}
 
 DOMAIN = base.Domain(
     name=_NAME,
     skill="look for motion",
     discount=_DISCOUNT,
-    presets={task: {"a3c": _A3C[task], "ppo": _PPO[task], **_BELIEF.get(task, {})} for task in _A3C},
+    presets={task: {"a3c": _A3C[task], "ppo": _PPO[task]} for task in _A3C},
     labels={"direct_features": "D-F", "direct_pixels": "D-P", "fist_features": "F-F", "fist_pixels": "F-P"},
     targets={
         "towers-direct_features": ("mean_return", 0.97),

@@ -6,7 +6,6 @@ import functools
 from typing import Any
 
 from physexp.agents.a3c import config as a3c
-from physexp.agents.belief import config as belief
 from physexp.analysis.domains import base
 
 _NAME = "which_is_heavier"
@@ -83,7 +82,6 @@ DOMAIN = base.Domain(
         "pixels": {
             "a3c": _PIXELS,
             "ppo": base.ppo_like(_PIXELS, learning_rate=5e-4, num_environments=64),
-            "belief": belief.FROM_IMAGES.replace(discount=_DISCOUNT),
         },
     },
     labels={"features": "{difficulty:g}-F", "pixels": "{difficulty:g}-P"},
