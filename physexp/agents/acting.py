@@ -48,8 +48,8 @@ def play_round(
       generator: source of the actions.
       greedy: take the likeliest action instead of drawing one.
       action_override: changes the chosen actions on their way to the environment.
-      differentiable: keep the inputs of the LSTM and their graph, to learn with the parameters that the round is played
-        with: what is seen then passes the torso only once.
+      differentiable: keep the network's inputs, with the graph that made them where it is learned from, so that what is
+        seen passes the torso only once.
       keep_behaviour: keep observations, probabilities and values, to learn with other parameters, too.
       choose: chooses the actions, instead of drawing them from the policy.
     """

@@ -38,8 +38,8 @@ class Round:
       rewards: rewards that followed, float32 [T, B].
       lengths: actions in each episode, int64 [B].
       answers: the right labels, int64 [B]: for records, not for learning.
-      inputs: the network's encoding of what was seen before each action, packed, [N, F], with the graph that made it;
-        None where the round is not to be learned from with the parameters that it was played with.
+      inputs: the network's encoding of what was seen before each action, packed, [N, F], with the graph that made it
+        where parameters did that are learned; None where it is not kept.
       behaviour: data of the policy that acted; None where the round is not to be learned from with other parameters.
     """
 

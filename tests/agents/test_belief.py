@@ -37,7 +37,14 @@ def make_network(environment, seed, config=SMALL):
 def play(network, environment, number, config=SMALL):
     explorer = belief_acting.Explorer(network, config, number)
     unused = np.random.default_rng()
-    return acting.play_round(network, environment, number, unused, keep_behaviour=True, choose=explorer.choose)
+    return acting.play_round(network, environment, number, unused, differentiable=True, choose=explorer.choose)
+
+
+def room(network, environment, num_rounds):
+    """Room for rounds of episodes."""
+    return replay.Replay(
+        num_rounds, SMALL.most_interactions + 1, environment.num_environments, network.num_inputs, np.float32
+    )
 
 
 # What it is trained towards.
@@ -90,7 +97,7 @@ def test_the_belief_is_learned_at_every_step_or_where_the_answer_was_given(every
     drawn = learner.variables.episodes.sample(np.random.default_rng(config.seed), 16, config.num_members, 1)
     network = learner.variables.network
     with torch.no_grad():
-        inputs = learning_lib._padded(network.encode(drawn.observation), drawn.played)
+        inputs = learning_lib._padded(drawn.inputs, drawn.played)
         likelihoods = network.unroll(inputs, drawn.actions)[0].log_softmax(-1)
     means = []
     for member in range(config.num_members):
@@ -157,11 +164,11 @@ def test_acting_and_training_compute_the_same(domain, task, memory):
     environment = load(domain, task, seed)
     network = make_network(environment, seed, SMALL.replace(memory=memory))
     played = play(network, environment, 0)
-    episodes = replay.Replay(environment, 1, SMALL.most_interactions + 1)
+    episodes = room(network, environment, 1)
     episodes.add(played, 0)
     drawn = episodes.sample(np.random.default_rng(seed), 32, SMALL.num_members, 1)
     with torch.no_grad():
-        packed = network.encode(drawn.observation)
+        packed = drawn.inputs
         inputs = torch.zeros(*drawn.played.shape, packed.shape[1])
         inputs[drawn.played] = packed
         logits, shares = network.unroll(inputs, drawn.actions)
@@ -217,7 +224,7 @@ def test_an_episode_is_judged_by_the_member_that_does_not_learn_from_it():
         assert gradients[0][0] == gradients[1][1] == 0 < min(gradients[0][1], gradients[1][0])
         # What the judges of the first half think of it changes its targets, and nothing else of them does.
         losses_of = [learner._learn(drawn, 0.0)["value_loss"]]
-        inputs = learning_lib._padded(variables.averaged.encode(drawn.observation), drawn.played)
+        inputs = learning_lib._padded(drawn.inputs, drawn.played)
         before = variables.averaged.judge(inputs, drawn.actions)[0]
         for parameter in variables.averaged.members.parameters():
             parameter.data[0].normal_()
@@ -232,7 +239,7 @@ def test_each_member_judges_as_many_episodes_as_another_and_each_environment_has
     seed = fresh_seed()
     environment = load("which_is_heavier", "features", seed, 7)
     network = make_network(environment, seed)
-    kept = replay.Replay(environment, 1, SMALL.most_interactions + 1)
+    kept = room(network, environment, 1)
     played = play(network, environment, 0, SMALL.replace(num_environments=7))
     kept.add(played, 0)
     drawn = kept.sample(np.random.default_rng(seed), 300, 3, 1)
@@ -319,15 +326,15 @@ def test_what_was_played_is_played_again_from_its_actions_to_the_last_bit(domain
     seed = fresh_seed()
     environment = load(domain, task, seed)
     network = make_network(environment, seed)
-    kept = replay.Replay(environment, 2, SMALL.most_interactions + 1)
+    kept = room(network, environment, 2)
     for number in range(3):  # The first is forgotten.
         kept.add(play(network, environment, number), number)
-    again = replay.Replay(environment, 2, SMALL.most_interactions + 1)
+    again = room(network, environment, 2)
     again.actions.copy_(kept.actions)
 
     def play_again(number, choose):
         return acting.play_round(
-            network, environment, number, np.random.default_rng(), keep_behaviour=True, choose=choose
+            network, environment, number, np.random.default_rng(), differentiable=True, choose=choose
         )
 
     again.restore(play_again, 3)
@@ -337,6 +344,23 @@ def test_what_was_played_is_played_again_from_its_actions_to_the_last_bit(domain
     for name, array in expected.items():
         np.testing.assert_array_equal(drawn[name], array)
     environment.close()
+
+
+def test_convolutions_stay_as_they_were_drawn_and_what_they_make_of_images_is_kept_in_half_precision():
+    config = SMALL.replace(seed=fresh_seed())
+    agent = belief.Belief(lambda seed, size, threads: load("strike", "pixels", seed, size), config)
+    before = agent.save()
+    learner = agent._learner
+    while not int(learner.variables.optimizer.state[learner.variables.network.projection.weight]["step"]):
+        learner.step()
+    after = agent.save()
+    are_same = {name: torch.equal(value, after[name]) for name, value in before.items() if name.startswith("trained/")}
+    assert {name for name in are_same if "torso" in name} == {name for name in are_same if are_same[name]}
+    played = learner.last_round
+    drawn = learner.variables.episodes.sample(np.random.default_rng(0), 16, config.num_members, learner.next_episode)
+    assert drawn.inputs.dtype == torch.float16 and played.inputs.abs().max() > 0
+    kept = {row.numpy().tobytes() for row in drawn.inputs}
+    assert {row.numpy().tobytes() for row in played.inputs.half()} & kept  # Some of the last round's are among them.
 
 
 def test_more_than_fits_into_memory_is_refused_with_a_number_that_fits():
