@@ -75,7 +75,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         self.projection: nn.Module = nn.Identity()
         if self.sees_images:
             self._num_seen = width
-            self.projection = nn.Linear(self.num_inputs, width)
+            self.projection = Projection(self.num_inputs, width)
         num_looked_at = 3 * self._num_seen + num_interactions + 1
         self.members = Members(
             num_members, num_looked_at, num_actions - num_interactions, num_interactions, width, memory
@@ -184,6 +184,20 @@ class BeliefNetwork(networks.RecurrentNetwork):
         """Maps actions to one number for each interaction, all 0 for a label."""
         num_interactions = self.num_interactions
         return functional.one_hot(actions.clamp(max=num_interactions), num_interactions + 1)[..., :-1].float()
+
+
+class Projection(nn.Module):
+    """A linear map of very many inputs, whose outputs change as much in a step of Adam however many there are."""
+
+    def __init__(self, num_inputs: int, num_outputs: int):
+        """Draws weights."""
+        super().__init__()
+        self.weight = nn.Parameter(torch.empty(num_outputs, num_inputs).uniform_(-1, 1))
+        self._scale = num_inputs**-0.5
+
+    def forward(self, inputs: torch.Tensor) -> torch.Tensor:
+        """Maps inputs [..., num_inputs] to outputs [..., num_outputs]."""
+        return functional.linear(self._scale * inputs, self.weight)
 
 
 class Members(nn.Module):
