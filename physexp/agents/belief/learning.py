@@ -30,7 +30,7 @@ class Variables(learning.Variables[networks.BeliefNetwork]):
       best: the averaged network when it played best.
       handed_out: the averaged network; but the best one, once the averaged one has become worse.
       episodes: what was played last.
-      moments: how far features have moved: the sum of squares and the count, float64 [2].
+      moments: how far inputs have moved: the sum of squares and the count, float64 [2].
       outcomes: of the last greedy answers, the belief in them and whether they were right, float32 [N, 2]; -1 for none.
       scores: of the best window of greedy episodes, mean return and its variance; of the window that is being played,
         count, sum of returns and of their squares; and whether the last window was worse than the best, float64 [6].
@@ -79,7 +79,7 @@ class BeliefLearner(synchronous.SynchronousLearner):
         explorer = acting.Explorer(variables.averaged, config, number)
         self.last_round = played = self._play(variables.averaged, number, explorer.choose)
         variables.episodes.add(played, number)
-        self._measure_features(played)
+        self._measure_movement(played)
         self._measure_answers(explorer, played)
         returns = played.rewards.sum(axis=0) * config.discount ** (played.lengths - 1.0)
         greedy_returns = torch.from_numpy(returns[explorer.are_greedy])
@@ -160,8 +160,8 @@ class BeliefLearner(synchronous.SynchronousLearner):
             "gradient_norm": norm,
         }
 
-    def _measure_features(self, played: rounds.Round) -> None:
-        """Notes how far features are from where they were at the start of their episode: the unit they are taken in."""
+    def _measure_movement(self, played: rounds.Round) -> None:
+        """Notes how far inputs are from where they were at the start of their episode: the unit they are taken in."""
         variables = self.variables
         assert played.inputs is not None
         were_played = torch.from_numpy(played.played)

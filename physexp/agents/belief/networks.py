@@ -26,9 +26,15 @@ class BeliefNetwork(networks.RecurrentNetwork):
     Howard, 1966), so `gamma S <= Q <= gamma`, and the members say where in between: `Q = gamma (S + (1 - S) x)` with
     the mean of their shares `x` in [0, 1]. The best action is the greatest of `S` and `Q`.
 
-    What is observed is taken relative to the start of the episode and to the step before: features in units of how far
-    they move, which the learner measures, and images as the convolutions encode them. The direction of the last
-    movement tells what moved along with what, however far.
+    What is seen, features or what convolutions make of an image, is taken relative to the start of the episode and to
+    the step before, in units of how far it moves, which the learner measures. The direction of the last movement tells
+    what moved along with what, however far.
+
+    The convolutions stay as they were drawn: random ones keep what an image shows (Saxe et al., 2011), so that each
+    image passes them once, when it is played. A projection, which all members share, learns what of it matters.
+
+    Attributes:
+      num_inputs: how many numbers `encode` makes of what is observed.
     """
 
     log_scale: torch.Tensor
