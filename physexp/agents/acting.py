@@ -35,7 +35,7 @@ def play_round(
     generator: np.random.Generator,
     greedy: bool = False,
     action_override: ActionOverride | None = None,
-    differentiable: bool = False,
+    keep_inputs: bool = False,
     keep_behaviour: bool = False,
     choose: Choose | None = None,
 ) -> rounds.Round:
@@ -48,7 +48,7 @@ def play_round(
       generator: source of the actions.
       greedy: take the likeliest action instead of drawing one.
       action_override: changes the chosen actions on their way to the environment.
-      differentiable: keep the network's inputs, with the graph that made them where it is learned from, so that what is
+      keep_inputs: keep the network's inputs, with the graph that made them where it is learned from, so that what is
         seen passes the torso only once.
       keep_behaviour: keep observations, probabilities and values, to learn with other parameters, too.
       choose: chooses the actions, instead of drawing them from the policy.
@@ -61,7 +61,7 @@ def play_round(
     lengths = np.zeros(len(active), np.int64)
     while len(active):
         observation = timestep.observation
-        with torch.set_grad_enabled(differentiable):
+        with torch.set_grad_enabled(keep_inputs):
             inputs = network.encode(as_tensors(observation))
         logits, values, state = network.step(inputs, state)
         if choose is not None:
@@ -73,7 +73,7 @@ def play_round(
         state = network.note(torch.from_numpy(actions), state)
         timestep = environment.step(actions, active)
         steps.append((active, actions, timestep.reward))
-        if differentiable:
+        if keep_inputs:
             encoded.append(inputs)
         if keep_behaviour:
             chosen = torch.log_softmax(logits.cpu(), dim=-1).gather(1, torch.from_numpy(actions)[:, None])[:, 0]
@@ -87,10 +87,10 @@ def play_round(
     actions, rewards = (np.zeros((len(steps), len(lengths)), dtype) for dtype in (np.int64, np.float32))
     for t, (active, taken, reward) in enumerate(steps):
         actions[t, active], rewards[t, active] = taken, reward
-    with torch.set_grad_enabled(differentiable):
-        graph = torch.cat(encoded) if differentiable else None
+    with torch.set_grad_enabled(keep_inputs):
+        kept_inputs = torch.cat(encoded) if keep_inputs else None
     joined = _joined(behaviour) if keep_behaviour else None
-    return rounds.Round(actions, rewards, lengths, environment.correct_answers, graph, joined)
+    return rounds.Round(actions, rewards, lengths, environment.correct_answers, kept_inputs, joined)
 
 
 def _joined(parts: Sequence[rounds.BehaviourData]) -> rounds.BehaviourData:

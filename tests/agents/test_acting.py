@@ -50,7 +50,7 @@ def test_acting_logits_and_values_equal_those_of_training(domain, task):
         return np.where(drawn < 0, actions, drawn)
 
     episodes = acting.play_round(
-        network, batch, 0, np.random.default_rng(seed), action_override=vary_lengths, differentiable=True
+        network, batch, 0, np.random.default_rng(seed), action_override=vary_lengths, keep_inputs=True
     )
     batch.close()
     lengths = episodes.lengths
@@ -85,7 +85,7 @@ def test_what_was_encoded_to_act_is_what_there_is_to_learn_from(task, monkeypatc
     seed = fresh_seed()
     batch = suite.load_batch("which_is_heavier", task, 6, {"random": seed})
     network = make_network(batch, seed)
-    episodes = acting.play_round(network, batch, 3, np.random.default_rng(seed), differentiable=True)
+    episodes = acting.play_round(network, batch, 3, np.random.default_rng(seed), keep_inputs=True)
     batch.close()
     order = np.argsort(-episodes.lengths, kind="stable")
     seen = [[] for _ in episodes.lengths]
@@ -180,7 +180,7 @@ def test_a_round_depends_on_its_number_and_its_generator_but_not_on_earlier_roun
         network = make_network(batch, seed)
         for number in earlier:
             acting.play_round(network, batch, number, np.random.default_rng(number))
-        episodes = acting.play_round(network, batch, 2, np.random.default_rng([seed, 2]), differentiable=True)
+        episodes = acting.play_round(network, batch, 2, np.random.default_rng([seed, 2]), keep_inputs=True)
         batch.close()
         return episodes
 

@@ -37,7 +37,7 @@ def make_network(environment, seed, config=SMALL):
 def play(network, environment, number, config=SMALL):
     explorer = belief_acting.Explorer(network, config, number)
     unused = np.random.default_rng()
-    return acting.play_round(network, environment, number, unused, differentiable=True, choose=explorer.choose)
+    return acting.play_round(network, environment, number, unused, keep_inputs=True, choose=explorer.choose)
 
 
 def room(network, environment, num_rounds):
@@ -333,9 +333,7 @@ def test_what_was_played_is_played_again_from_its_actions_to_the_last_bit(domain
     again.actions.copy_(kept.actions)
 
     def play_again(number, choose):
-        return acting.play_round(
-            network, environment, number, np.random.default_rng(), differentiable=True, choose=choose
-        )
+        return acting.play_round(network, environment, number, np.random.default_rng(), keep_inputs=True, choose=choose)
 
     again.restore(play_again, 3)
     drawn, expected = (

@@ -43,4 +43,4 @@ class Belief(synchronous.SynchronousAgent):
 
     def _play(self, network: networks.BeliefNetwork, number: int, choose: acting.Choose) -> rounds.Round:
         unused = np.random.default_rng()  # Whoever chooses draws.
-        return acting.play_round(network, self._environment, number, unused, differentiable=True, choose=choose)
+        return acting.play_round(network, self._environment, number, unused, keep_inputs=True, choose=choose)

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 import dataclasses
 import functools
+import json
 import math
 from pathlib import Path
 from typing import Any
@@ -127,6 +128,12 @@ def _labels(frame) -> list[str]:
     """Returns the names of the conditions of rows, of which many have the same."""
     keys = zip(frame.domain, frame.task, frame.difficulty, strict=True)
     return [_label(domain, task, None if value is None or math.isnan(value) else value) for domain, task, value in keys]
+
+
+def keep_made(path: Path, made: Any) -> None:
+    """Writes what the preparation of an experiment has made into a JSON file, for `read_made`."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    files.write_atomically(path, (json.dumps(made, indent=1) + "\n").encode())
 
 
 def read_made(path: Path, experiment: str, is_as_written: Callable[[Any], bool]) -> Any:

@@ -1,13 +1,11 @@
 """Generalization: how agents fare with towers that differ from those they were trained with. Ours."""
 
 from collections.abc import Callable
-import json
 import textwrap
 from typing import Any
 
 import numpy as np
 
-from physexp.agents import files
 from physexp.analysis import domains
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures, playing, records
@@ -72,8 +70,7 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
                         "return": float((rewards * task.agent.discount ** (lengths - 1)).mean()),
                     }
                 )
-        path.parent.mkdir(parents=True, exist_ok=True)
-        files.write_atomically(path, (json.dumps(rows, indent=1) + "\n").encode())
+        base.keep_made(path, rows)
 
 
 def _path(results: base.Results, task: str):

@@ -1,10 +1,8 @@
 """The ideal experimenters of Towers, computed once and kept with the results."""
 
 from collections.abc import Callable
-import json
 from typing import Any
 
-from physexp.agents import files
 from physexp.analysis.domains import towers
 from physexp.analysis.experiments import base, conditions
 from physexp.analysis.ideal import search
@@ -19,10 +17,9 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
         path = _path(results, condition.task)
         if not path.exists():
             report(f"searching for the ideal experimenter of {condition.task}")
-            path.parent.mkdir(parents=True, exist_ok=True)
             resolutions = RESOLUTIONS[conditions.observations(condition)]
             rows = search.curve(towers.hypotheses(condition.task), resolutions, condition.agent.discount)
-            files.write_atomically(path, (json.dumps(rows, indent=1) + "\n").encode())
+            base.keep_made(path, rows)
 
 
 def read(results: base.Results) -> dict[str, list[dict]]:

@@ -10,9 +10,7 @@ from physexp.analysis.experiments import base, blocks, claims, conditions
 from physexp.suite.domains import which_is_heavier
 
 _SHOWN = 4000  # Episodes drawn as dots.
-_FEWEST = 20  # Episodes that a mean is drawn of.
 _CLEAR = -0.3  # Of correlations.
-_BINS = np.linspace(0, 1, 11)
 
 
 def load(results: base.Results):
@@ -84,7 +82,6 @@ def draw(frame):
     """One agent of each difficulty: dots, trend, spread, and the ideal experimenter's mean."""
     present = [beta for beta in conditions.DIFFICULTIES if (frame.difficulty == beta).any()]
     figure, panels = figures.new(columns=len(present), width=2.3, height=2.3, sharey=True, squeeze=False)
-    centers = (_BINS[1:] + _BINS[:-1]) / 2
     for axes, beta in zip(panels[0], present, strict=True):
         rows = frame[(frame.difficulty == beta) & (frame.label >= 0)]
         rows = rows[rows.training_seed == rows.training_seed.min()]
@@ -94,13 +91,9 @@ def draw(frame):
         axes.scatter(
             gaps[:_SHOWN], pokes[:_SHOWN] + spread, s=1, color="black", alpha=0.25, linewidths=0, rasterized=True
         )
-        bins = np.digitize(gaps, _BINS[1:-1])
-        means, deviations = (
-            [function(pokes[bins == b]) if (bins == b).sum() >= _FEWEST else np.nan for b in range(len(centers))]
-            for function in (np.mean, np.std)
-        )
+        means, deviations = (blocks.by_gap(gaps, pokes, statistic) for statistic in (np.mean, np.std))
         axes.errorbar(
-            centers,
+            blocks.GAPS,
             means,
             deviations,
             fmt="s",
@@ -125,8 +118,7 @@ def _ideal_means(beta: float):
     seeds, episodes = np.full(50_000, 1), np.arange(50_000)
     masses = which_is_heavier.draw_masses(seeds, episodes, beta)
     pokes, _ = conditions.heavier_ideal(beta, conditions.PATIENT_DISCOUNT).play(masses)
-    bins = np.digitize(which_is_heavier.mass_gaps(masses), _BINS[1:-1])
-    return (_BINS[1:] + _BINS[:-1]) / 2, [pokes[bins == b].mean() for b in range(len(_BINS) - 1)]
+    return blocks.GAPS, blocks.by_gap(which_is_heavier.mass_gaps(masses), pokes, fewest=1)
 
 
 EXPERIMENT = base.Experiment(

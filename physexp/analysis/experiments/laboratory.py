@@ -1,12 +1,10 @@
 """The laboratory: what each learner earns of the ideal's return in every domain. Ours."""
 
 from collections.abc import Callable
-import json
 from typing import Any
 
 import numpy as np
 
-from physexp.agents import files
 from physexp.analysis import domains
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
@@ -63,8 +61,7 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
         observer = known.observer.get(task.task, {})
         summary = known.ideal(task.task, task.task_kwargs, task.agent.discount, **observer).summary()
         found[task.label] = {name: summary[name] for name in _UNTRAINED}
-    path.parent.mkdir(parents=True, exist_ok=True)
-    files.write_atomically(path, (json.dumps(found, indent=1) + "\n").encode())
+    base.keep_made(path, found)
 
 
 def _path(results: base.Results):

@@ -1,20 +1,18 @@
 """Noise: whether small mass gaps make agents poke a block again where one poke does not tell all. Ours."""
 
 from collections.abc import Callable
-import json
 from typing import Any
 
 import numpy as np
 
-from physexp.agents import files
 from physexp.analysis import domains
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures, records
-from physexp.analysis.experiments import base, blocks, claims, conditions, scores
+from physexp.analysis.experiments import base, blocks, claims, conditions
 
 EXACT, NOISY = "exact", "noisy"
 _NOISE = 0.03  # m, of each reading.
-_TASK = next(task for task in scores.TASKS if task.label == "5-F")
+_TASK = next(task for task in conditions.HEAVIER if task.label == "5-F")
 CONDITIONS = {
     EXACT: conditions.with_belief(_TASK),
     NOISY: conditions.with_noise(conditions.with_belief(_TASK), _NOISE),
@@ -25,8 +23,6 @@ CONDITIONS = {
 SMALLER, CLEAR, LEAST_SHARE = -0.1, -0.3, 0.95
 
 _WORDS = {EXACT: "exact readings", NOISY: f"readings with noise of {1000 * _NOISE:g} mm"}
-_BINS = np.linspace(0, 1, 11)
-_FEWEST = 20  # Episodes that a mean is drawn of.
 
 
 def prepare(results: base.Results, report: Callable[[str], None]) -> None:
@@ -39,8 +35,7 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
     find = domains.find(task.domain).ideal
     assert find is not None
     solution = find(task.task, task.task_kwargs, task.agent.discount)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    files.write_atomically(path, (json.dumps({"value": solution.value}, indent=1) + "\n").encode())
+    base.keep_made(path, {"value": solution.value})
 
 
 def _path(results: base.Results):
@@ -131,30 +126,24 @@ def _mean_gap(agent, are_meant) -> float:
 def draw(frame):
     """Pokes of blocks that were poked before, and all pokes, against the mass gap."""
     figure, panels = figures.new(columns=2, width=3.0, height=2.3)
-    centers = (_BINS[1:] + _BINS[:-1]) / 2
     words = {"again": "pokes of blocks poked before", "interactions": "pokes before the answer"}
     for axes, (column, label) in zip(panels, words.items(), strict=True):
         for number, readings in enumerate(_WORDS):
             lines = [
-                _means(agent.mass_gap.to_numpy(), agent[column].to_numpy())
+                blocks.by_gap(agent.mass_gap.to_numpy(), agent[column].to_numpy())
                 for _, agent in frame[frame.readings == readings].groupby("training_seed")
             ]
             if not lines:
                 continue
             style = dict(color=figures.COLORS[number + 1], marker=figures.MARKERS[number], markersize=3)
-            axes.fill_between(centers, np.min(lines, axis=0), np.max(lines, axis=0), alpha=0.2, color=style["color"])
-            axes.plot(centers, np.median(lines, axis=0), label=_WORDS[readings], **style)
+            axes.fill_between(
+                blocks.GAPS, np.min(lines, axis=0), np.max(lines, axis=0), alpha=0.2, color=style["color"]
+            )
+            axes.plot(blocks.GAPS, np.median(lines, axis=0), label=_WORDS[readings], **style)
         axes.set(xlabel="mass gap", ylabel=label, xlim=(0, 1), ylim=(0, None))
     panels[0].legend()
     figure.suptitle(figures.seeds(frame[frame.readings == NOISY]), fontsize=7, x=0.99, ha="right")
     return figure
-
-
-def _means(gaps: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Returns the mean of values in each bin of gaps; NaN where there are few."""
-    bins = np.digitize(gaps, _BINS[1:-1])
-    chosen = [values[bins == number] for number in range(len(_BINS) - 1)]
-    return np.array([each.mean() if len(each) >= _FEWEST else np.nan for each in chosen])
 
 
 EXPERIMENT = base.Experiment(
