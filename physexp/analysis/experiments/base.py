@@ -44,12 +44,14 @@ EVALUATION = Trial(name="evaluation", num_episodes=10_000)
 class Results:
     """The folder with the data of all experiments.
 
-    runs/NAME/                     a run: configuration, metrics, the agent in half precision
-    episodes/TRIAL/NAME.parquet    what the run's agent played, a row an episode
-    ideal/, generalization/, noise/
-                                   what experimenters earn that nobody trained
-    figures/EXPERIMENT.{svg,png}
-    report.md, report.html
+    It holds::
+
+        runs/NAME/                     a run: configuration, metrics, the agent in half precision
+        episodes/TRIAL/NAME.parquet    what the run's agent played, a row an episode
+        ideal/, generalization/, noise/
+                                       what experimenters earn that nobody trained
+        figures/EXPERIMENT.{svg,png}
+        report.md, report.html
     """
 
     path: Path
