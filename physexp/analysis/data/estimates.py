@@ -130,6 +130,11 @@ def median(values: Sequence[float] | np.ndarray) -> Estimate:
     )
 
 
+def geometric_mean(values: Sequence[float] | np.ndarray) -> Estimate:
+    """Returns the geometric mean of independent positive values, [N], with Student's interval of their logarithms."""
+    return _exponential(mean(np.log(values)))
+
+
 def ratio_of_means(numerators: Sequence[float] | np.ndarray, denominators: Sequence[float] | np.ndarray) -> Estimate:
     """Returns how many times as large the values of one group are as those of another, by their geometric means.
 
@@ -176,7 +181,7 @@ def ratio_of_pairs(numerators: Sequence[float] | np.ndarray, denominators: Seque
     top, bottom = np.asarray(numerators, float), np.asarray(denominators, float)
     if not np.all((np.minimum(top, bottom) > 0) & (np.maximum(top, bottom) < math.inf)):
         return Estimate(math.nan, 0.0, math.inf)
-    return _exponential(mean(np.log(top / bottom)))
+    return geometric_mean(top / bottom)
 
 
 def normal(value: float, standard_error: float) -> Estimate:

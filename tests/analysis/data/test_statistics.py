@@ -281,6 +281,13 @@ def test_the_ratio_of_pairs_is_the_geometric_mean_with_students_interval_of_the_
     assert estimate.high == pytest.approx(4 * 2**12.7062, rel=1e-4)
 
 
+def test_a_geometric_mean_has_students_interval_of_the_logarithms():
+    # Logarithms log 2 and 3 log 2, as above.
+    estimate = estimates.geometric_mean([2.0, 8.0])
+    assert estimate.value == pytest.approx(4)
+    assert (estimate.low, estimate.high) == pytest.approx((4 / 2**12.7062, 4 * 2**12.7062), rel=1e-4)
+
+
 def test_pairs_that_differ_from_one_another_more_than_within_are_told_apart_only_as_pairs():
     bottom = np.array([1.0, 3.0, 9.0, 27.0])
     assert estimates.ratio_of_pairs(1.1 * bottom, bottom).low == pytest.approx(1.1)
