@@ -41,14 +41,12 @@ def write(path: Path, table: pyarrow.Table, **options: Any) -> None:
     files.write_atomically(path, content[:end] + mark + content[end:])
 
 
-def read(
-    path: Path, schema: pyarrow.Schema | Sequence[pyarrow.Schema], columns: Sequence[str] | None = None
-) -> pyarrow.Table:
+def read(path: Path, schema: pyarrow.Schema, columns: Sequence[str] | None = None) -> pyarrow.Table:
     """Reads a table.
 
     Args:
       path: the file.
-      schema: names and types that its columns have; or several schemas, of which it has one.
+      schema: names and types that its columns have.
       columns: which ones to read; all by default.
 
     Raises:
@@ -66,9 +64,7 @@ def read(
             thrift_container_size_limit=_LONGEST,
         ) as file:
             _check_size(file.metadata)
-            allowed = [schema] if isinstance(schema, pyarrow.Schema) else list(schema)
-            alike = [each for each in allowed if each.names == file.schema_arrow.names]
-            _check_schema(file.schema_arrow, (alike or allowed)[0])
+            _check_schema(file.schema_arrow, schema)
             return file.read(None if columns is None else list(columns), use_threads=False)
     except (ValueError, OSError, KeyError, pyarrow.ArrowException) as error:
         reason = ascii(" ".join(str(error).split()))[1:200]

@@ -44,6 +44,5 @@ DOMAIN = base.Domain(
     presets=base.PRESETS_OF_BITS,
     targets={"balance-features": ("mean_return", 0.72)},
     ideal=base.Ideal(_NAME, _solve, IdealOptions),
-    columns=(base.Column("weights", "float32", is_list=True, is_varied=True),),  # kg
-    fill=lambda hidden: {"weights": hidden},
+    hidden_columns=lambda hidden: {"weights": hidden},  # kg
 )

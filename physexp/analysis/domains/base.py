@@ -16,26 +16,6 @@ if TYPE_CHECKING:
 
 
 @dataclasses.dataclass(frozen=True)
-class Column:
-    """A column of stored episodes, which a domain has for what is hidden.
-
-    Attributes:
-      name: the column's name.
-      type: Arrow's name of the type of its values.
-      is_list: whether each episode has a list of values.
-      is_varied: whether almost all values differ; the file packs such a column in another way.
-      is_everywhere: whether files with episodes of other domains have the column too, null, before the reward. It is
-        kept for files that were written so; a column of a new domain is only in its own files, as the last.
-    """
-
-    name: str
-    type: str
-    is_list: bool = False
-    is_varied: bool = False
-    is_everywhere: bool = False
-
-
-@dataclasses.dataclass(frozen=True)
 class Ideal:
     """How to find the ideal experimenter of a domain's tasks. Calling it solves, once for each question.
 
@@ -91,8 +71,7 @@ class Domain:
       observer: by task, further options of the ideal experimenter that agents are compared with: what it can tell
         apart.
       baselines: by task, experimenters that nobody trained, by name, as functions that make their actors.
-      columns: the domain's own columns of stored episodes.
-      fill: returns these columns by name, [N] or [N, K] for lists, of hidden properties, [N, ...].
+      hidden_columns: returns columns for tables of episodes, by name, [N, ...], of hidden properties, [N, ...].
     """
 
     name: str
@@ -104,8 +83,7 @@ class Domain:
     ideal: Ideal | None = None
     observer: Mapping[str, Mapping[str, Any]] = dataclasses.field(default_factory=dict)
     baselines: "Mapping[str, Mapping[str, Callable[[], core.Actor]]]" = dataclasses.field(default_factory=dict)
-    columns: tuple[Column, ...] = ()
-    fill: "Callable[[np.ndarray], Mapping[str, np.ndarray]]" = nothing
+    hidden_columns: "Callable[[np.ndarray], Mapping[str, np.ndarray]]" = nothing
 
     def ideal_with(self, task_kwargs: Mapping[str, Any]) -> Ideal | None:
         """Returns how to find the ideal experimenter of tasks with these options.

@@ -52,6 +52,5 @@ DOMAIN = base.Domain(
     },
     targets={"sealed_box-features": ("mean_return", 0.78), "sealed_box-pixels": ("mean_return", 0.76)},
     ideal=base.Ideal(_NAME, _solve, IdealOptions),
-    columns=(base.Column("content", "int8"),),  # An index in `sealed_box.ALL_CONTENTS`.
-    fill=lambda hidden: {"content": hidden},
+    hidden_columns=lambda hidden: {"content": hidden},  # An index in `sealed_box.ALL_CONTENTS`.
 )

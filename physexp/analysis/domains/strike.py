@@ -48,6 +48,5 @@ DOMAIN = base.Domain(
     },
     targets={"strike-features": ("mean_return", 0.66), "strike-pixels": ("mean_return", 0.70)},
     ideal=base.Ideal(_NAME, _solve, IdealOptions),
-    columns=(base.Column("puck", "int16"),),  # An index in `strike.PUCKS`.
-    fill=lambda hidden: {"puck": hidden},
+    hidden_columns=lambda hidden: {"puck": hidden},  # An index in `strike.PUCKS`.
 )

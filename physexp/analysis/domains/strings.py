@@ -44,6 +44,5 @@ DOMAIN = base.Domain(
     presets=base.PRESETS_OF_BITS,
     targets={"strings-features": ("mean_return", 0.82), "strings-pixels": ("mean_return", 0.82)},
     ideal=base.Ideal(_NAME, _solve, IdealOptions),
-    columns=(base.Column("slacks", "float32", is_list=True, is_varied=True),),  # m; 0 where there is no band
-    fill=lambda hidden: {"slacks": hidden},
+    hidden_columns=lambda hidden: {"slacks": hidden},  # m; 0 where there is no band
 )

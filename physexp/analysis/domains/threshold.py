@@ -43,6 +43,5 @@ DOMAIN = base.Domain(
     presets=base.PRESETS_OF_BITS,
     targets={"threshold-features": ("mean_return", 0.84), "threshold-pixels": ("mean_return", 0.76)},
     ideal=base.Ideal(_NAME, _solve, IdealOptions),
-    columns=(base.Column("friction", "float32", is_varied=True),),  # N
-    fill=lambda hidden: {"friction": hidden},
+    hidden_columns=lambda hidden: {"friction": hidden},  # N
 )

@@ -192,6 +192,5 @@ DOMAIN = base.Domain(
     ideal=base.Ideal(_NAME, _solve, IdealOptions),
     observer=dict.fromkeys(_RULES, {"resolution": _FINE}),
     baselines=_BASELINES,
-    columns=(base.Column("pattern", "int8", is_everywhere=True),),  # An index in `tower.PATTERNS`.
-    fill=lambda hidden: {"pattern": hidden},
+    hidden_columns=lambda hidden: {"pattern": hidden},  # An index in `tower.PATTERNS`.
 )

@@ -66,7 +66,7 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks
     return odd_one_out.solve(prior, discount, played.rules.step_limit, find_read if can_read else None)
 
 
-def _fill(hidden):
+def _hidden_columns(hidden):
     """Returns masses, on the paper's scale, and by how much the heaviest block is heavier than the second."""
     from physexp.suite.domains import which_is_heavier
 
@@ -94,9 +94,5 @@ DOMAIN = base.Domain(
         "which_is_heavier-pixels-difficulty10": ("success_rate", 0.97),
     },
     ideal=base.Ideal(_NAME, _solve, IdealOptions),
-    columns=(
-        base.Column("masses", "float32", is_list=True, is_varied=True, is_everywhere=True),
-        base.Column("mass_gap", "float32", is_varied=True, is_everywhere=True),
-    ),
-    fill=_fill,
+    hidden_columns=_hidden_columns,
 )

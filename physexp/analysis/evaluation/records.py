@@ -1,62 +1,46 @@
 """Records of played episodes: tidy tables, one row an episode, in Parquet files."""
 
+from collections.abc import Mapping, Sequence
+import functools
 from pathlib import Path
 
 import numpy as np
 import pyarrow
 
+from physexp import suite
 from physexp.analysis import domains
 from physexp.analysis.data import episodes, provenance, tables
-from physexp.analysis.domains import base
 from physexp.analysis.training import config as config_lib
 
-_HEAD = [
-    ("domain", pyarrow.string()),
-    ("task", pyarrow.string()),
-    ("difficulty", pyarrow.float32()),  # Null where none was chosen.
-    ("discount", pyarrow.float32()),  # That the agent was trained with.
-    ("training_seed", pyarrow.int64()),
-    ("interaction", pyarrow.string()),  # Learned or random.
-    ("control_timestep", pyarrow.float32()),  # s
-    ("seed", pyarrow.int64()),  # Of the environment: with `episode`, it rebuilds the episode.
-    ("episode", pyarrow.int64()),
-]
-_TAIL = [
-    ("actions", pyarrow.list_(pyarrow.int8())),
-    ("answer", pyarrow.int8()),  # The right label.
-    ("label", pyarrow.int8()),  # The label given, -1 when time ran out.
-    ("reward", pyarrow.float32()),
-    ("length", pyarrow.int16()),  # Actions, the label among them.
-    ("interactions", pyarrow.int16()),
-    ("time", pyarrow.float32()),  # Of interaction before the label, s.
-]
+SCHEMA = pyarrow.schema(
+    [
+        ("domain", pyarrow.string()),
+        ("task", pyarrow.string()),
+        ("difficulty", pyarrow.float32()),  # Null where none was chosen.
+        ("discount", pyarrow.float32()),  # That the agent was trained with.
+        ("training_seed", pyarrow.int64()),
+        ("interaction", pyarrow.string()),  # Learned or random.
+        ("control_timestep", pyarrow.float32()),  # s
+        ("seed", pyarrow.int64()),  # Of the environment: with `episode`, it rebuilds the episode.
+        ("episode", pyarrow.int64()),
+        ("actions", pyarrow.list_(pyarrow.int8())),
+        ("answer", pyarrow.int8()),  # The right label.
+        ("label", pyarrow.int8()),  # The label given, -1 when time ran out.
+        ("reward", pyarrow.float32()),
+        ("length", pyarrow.int16()),  # Actions, the label among them.
+        ("interactions", pyarrow.int16()),
+        ("time", pyarrow.float32()),  # Of interaction before the label, s.
+    ]
+)
+"""The columns of every file. What was hidden is drawn again when it is asked for."""
 
-
-def _field(column: base.Column) -> tuple[str, pyarrow.DataType]:
-    kind = pyarrow.type_for_alias(column.type)
-    return column.name, pyarrow.list_(kind) if column.is_list else kind
-
-
-_COLUMNS = {column.name: column for domain in domains.DOMAINS.values() for column in domain.columns}
-_EVERYWHERE = [column for column in _COLUMNS.values() if column.is_everywhere]
-
-SCHEMA = pyarrow.schema([*_HEAD, *map(_field, _EVERYWHERE), *_TAIL])
-"""The columns of every file; those of domains are null for others."""
-
-
-def schema(domain_name: str) -> pyarrow.Schema:
-    """Returns the columns of a file with episodes of a domain: those of every file, and then its own."""
-    own = [pyarrow.field(*_field(column)) for column in domains.find(domain_name).columns if not column.is_everywhere]
-    return pyarrow.schema([*SCHEMA, *own])
-
-
-_SCHEMAS = [SCHEMA, *map(schema, domains.DOMAINS)]
+_DRAWN_BY = ("domain", "task", "difficulty", "seed", "episode", "answer")  # Columns that tell what was hidden.
 
 
 def table(
     played: episodes.Episodes, config: config_lib.TrainConfig, interaction: str, control_timestep: float
 ) -> pyarrow.Table:
-    """Returns the rows of some episodes, as `schema` has them.
+    """Returns the rows of some episodes, as `SCHEMA` has them.
 
     Args:
       played: the episodes.
@@ -65,7 +49,7 @@ def table(
       control_timestep: time between actions, s.
     """
     return played.table(
-        schema(config.domain),
+        SCHEMA,
         domain=config.domain,
         task=config.task,
         difficulty=config.task_kwargs.get("difficulty"),
@@ -74,19 +58,7 @@ def table(
         interaction=interaction,
         control_timestep=control_timestep,
         time=played.interactions * control_timestep,
-        **{column.name: None for column in _EVERYWHERE} | _filled(domains.find(config.domain), played.hidden),
     )
-
-
-def _filled(domain: base.Domain, hidden: np.ndarray) -> dict[str, np.ndarray | pyarrow.Array]:
-    """Returns the domain's own columns, of hidden properties, [N, ...]."""
-    filled = domain.fill(hidden)
-    found: dict[str, np.ndarray | pyarrow.Array] = {}
-    for column in domain.columns:
-        values = np.asarray(filled[column.name]).astype(pyarrow.type_for_alias(column.type).to_pandas_dtype())
-        is_list = column.is_list
-        found[column.name] = episodes.lists(values.ravel(), np.full(*values.shape)) if is_list else values
-    return found
 
 
 def write(path: Path, rows: pyarrow.Table) -> None:
@@ -97,40 +69,50 @@ def write(path: Path, rows: pyarrow.Table) -> None:
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     stamped = rows.replace_schema_metadata({"commit": provenance.commit()})
-    # Of what hardly comes twice, bytes of one rank side by side, without a dictionary, are a third smaller.
-    packed: dict[bool, list[str]] = {True: [], False: []}
-    for field in rows.schema:
-        is_varied = field.name in _COLUMNS and _COLUMNS[field.name].is_varied
-        packed[is_varied].append(f"{field.name}.list.element" if pyarrow.types.is_list(field.type) else field.name)
-    tables.write(
-        path,
-        stamped,
-        compression="zstd",
-        compression_level=9,
-        use_dictionary=packed[False],
-        use_byte_stream_split=packed[True],
-    )
+    tables.write(path, stamped, compression="zstd", compression_level=9)
 
 
-def read(paths: list[Path], columns: list[str] | None = None):
+def read(paths: list[Path], columns: Sequence[str] = SCHEMA.names):
     """Returns the rows of some files as a pandas DataFrame; `commit` is what made them.
 
     Args:
-      paths: files that `write` has written.
-      columns: which columns; all by default.
+      paths: files that `write` has written, each with the episodes of one agent.
+      columns: which columns: of `SCHEMA`, and of what was hidden, as `hidden_columns` of the domain has them.
 
     Raises:
       OSError: if a file cannot be opened.
-      ValueError: if a file is damaged; it names the file.
+      ValueError: if a file is damaged, or other properties are hidden today than when it was played; it names the file.
     """
     import pandas
 
+    stored = [name for name in columns if name in SCHEMA.names]
+    hidden = [name for name in columns if name not in SCHEMA.names]
     frames = []
     for path in paths:
-        rows = tables.read(path, _SCHEMAS, columns)
+        rows = tables.read(path, SCHEMA, [*dict.fromkeys([*stored, *(_DRAWN_BY if hidden else ())])])
         commit = (rows.schema.metadata or {}).get(b"commit", b"unknown").decode("ascii", "replace")
-        frames.append(rows.to_pandas().assign(commit=commit))
+        frame = rows.to_pandas()
+        if hidden:
+            drawn = _draw_again(frame, path)
+            frame = frame[stored].assign(**{name: drawn[name] for name in hidden})
+        frames.append(frame.assign(commit=commit))
     return pandas.concat(frames, ignore_index=True)
+
+
+def _draw_again(frame, path: Path) -> Mapping[str, Sequence]:
+    """Returns the columns of what was hidden in the episodes of a file; what has several values each is a list."""
+    [(domain, task, difficulty)] = frame[["domain", "task", "difficulty"]].drop_duplicates().to_numpy()
+    # What was chosen has the fewest digits of all that single precision does not tell apart.
+    played = _load_task(domain, task, None if np.isnan(difficulty) else float(str(np.float32(difficulty))))
+    hidden = played.draw(frame.seed.to_numpy(), frame.episode.to_numpy())
+    if (played.answers(hidden) != frame.answer).any():
+        raise ValueError(f"{path} has episodes that are drawn otherwise today; remove it, and its agent plays again")
+    return {name: list(values) for name, values in domains.find(domain).hidden_columns(hidden).items()}
+
+
+@functools.cache
+def _load_task(domain: str, task: str, difficulty: float | None):
+    return suite.load_task(domain, task, {} if difficulty is None else {"difficulty": difficulty})
 
 
 def discounted_return(frame) -> np.ndarray:

@@ -69,7 +69,7 @@ class Results:
     def episodes(
         self, trials: Sequence[Trial], configs: Sequence[config_lib.TrainConfig], columns: Sequence[str] = ()
     ) -> Any:
-        """What agents of these conditions have played: a DataFrame with columns of `records.SCHEMA` and `condition`.
+        """What agents of these conditions have played: a DataFrame with `condition` and columns that `records` reads.
 
         Args:
           trials: what was played; of every seed that has played all of it.

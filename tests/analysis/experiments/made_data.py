@@ -69,8 +69,11 @@ def table(agents: list[dict[str, np.ndarray]]) -> pandas.DataFrame:
     """The episodes of all agents, with the types they have when read from files."""
     columns = {name: np.concatenate([agent[name] for agent in agents]) for name in agents[0]}
     conditions_of_rows = columns.pop("condition")
-    schema = pyarrow.schema([records.SCHEMA.field(name) for name in columns])
-    return pyarrow.table(columns, schema).to_pandas().assign(commit="made", condition=conditions_of_rows)
+    rows = pyarrow.table(columns)
+    for number, name in enumerate(rows.schema.names):
+        if name in records.SCHEMA.names:
+            rows = rows.set_column(number, name, rows[name].cast(records.SCHEMA.field(name).type))
+    return rows.to_pandas().assign(commit="made", condition=conditions_of_rows)
 
 
 def answers(success: float, count: int) -> dict[str, np.ndarray]:
