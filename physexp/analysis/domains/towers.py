@@ -186,8 +186,8 @@ DOMAIN = base.Domain(
     targets={
         "towers-direct_features": ("mean_return", 0.97),
         "towers-fist_features": ("mean_return", 0.93),
-        "towers-direct_pixels": ("success_rate", 0.93),
-        "towers-fist_pixels": ("success_rate", 0.97),
+        "towers-direct_pixels": ("mean_return", 0.97),
+        "towers-fist_pixels": ("mean_return", 0.93),
     },
     ideal=base.Ideal(_NAME, _solve, IdealOptions),
     observer=dict.fromkeys(_RULES, {"resolution": _FINE}),
