@@ -25,11 +25,12 @@ def load(results: base.Results):
     import pandas
 
     rows = []
-    columns = ["masses", "actions", "label", "reward", "length", "interactions"]
+    columns = ["actions", "label", "reward", "length", "interactions"]
     towers = ideal_towers.read(results)
     for condition in CONDITIONS:
+        hidden = [] if condition.task in towers else ["masses"]
         try:
-            frame = results.episodes([base.EVALUATION], [condition], columns)
+            frame = results.episodes([base.EVALUATION], [condition], [*columns, *hidden])
         except ValueError:
             continue  # Not trained (yet): the figure shows those that are.
         for seed, episodes in frame.groupby("training_seed"):
@@ -61,7 +62,7 @@ def _ideal_of(condition, episodes, stored: dict[str, list[dict]]) -> dict[str, f
     else:
         solution = conditions.ideal(condition)
         summary = solution.summary()
-        masses = np.stack(episodes.masses.to_numpy()).astype(float)
+        masses = np.stack(episodes.masses.to_numpy())
         actions = list(episodes.actions)
         costs = mistakes.of_episodes(solution.judge_all(masses, actions), actions, condition.agent.discount)
     return {
