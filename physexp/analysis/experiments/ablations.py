@@ -18,7 +18,7 @@ VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
 """What the variants of the learner are called, and how they are configured, by title."""
 WORDS = {_WHOLE: "belief learner", **{title: words for title, (words, _) in VARIANTS.items()}}
 
-_TASKS = tuple(task for task in scores.TASKS if task.label in ("5-F", "D-F"))
+_TASKS = (conditions.BY_LABEL["5-F"], conditions.BY_LABEL["D-F"])
 CONDITIONS = tuple(
     conditions.with_belief(task, **changes)
     for task in _TASKS

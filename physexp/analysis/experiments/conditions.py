@@ -75,6 +75,9 @@ PATIENT = tuple(heavier(beta, "features", _PATIENT_FRAMES[beta], discount=PATIEN
 
 TOWERS = tuple(towers(actuator, kind) for actuator in ACTUATORS for kind in OBSERVATIONS)
 
+BY_LABEL = {config.label: config for config in (*HEAVIER, *TOWERS)}
+"""The paper's tasks by the names of their conditions, as 10-F and D-P; see `label`."""
+
 THRESHOLD, BALANCE, STRINGS, SEALED_BOX, STRIKE = (
     config_lib.TrainConfig(
         domain=domain, task="features", agent=config_lib.preset(domain, "features").replace(num_workers=1)

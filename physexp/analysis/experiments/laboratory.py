@@ -11,7 +11,7 @@ from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions, scores
 
 TASKS = (
-    *(task for task in scores.TASKS if task.label in ("5-F", "D-F", "F-F")),
+    *(conditions.BY_LABEL[label] for label in ("5-F", "D-F", "F-F")),
     conditions.THRESHOLD,
     conditions.BALANCE,
     conditions.STRINGS,

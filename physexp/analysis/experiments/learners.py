@@ -16,12 +16,8 @@ _REASON = (
 )
 
 
-_PAPERS = (
-    next(config for config in conditions.HEAVIER if config.label == "5-F"),
-    conditions.towers("fist"),
-)
-CONDITIONS = tuple(config for papers in _PAPERS for config in (papers, conditions.with_ppo(papers)))
-_TASKS = {papers.label: papers for papers in _PAPERS}
+_TASKS = {label: conditions.BY_LABEL[label] for label in ("5-F", "F-F")}
+CONDITIONS = tuple(config for task in _TASKS.values() for config in (task, conditions.with_ppo(task)))
 
 
 def load(results: base.Results):

@@ -12,7 +12,7 @@ from physexp.analysis.experiments import base, blocks, claims, conditions
 
 EXACT, NOISY = "exact", "noisy"
 _NOISE = 0.03  # m, of each reading.
-_TASK = next(task for task in conditions.HEAVIER if task.label == "5-F")
+_TASK = conditions.BY_LABEL["5-F"]
 CONDITIONS = {
     EXACT: conditions.with_belief(_TASK),
     NOISY: conditions.with_noise(conditions.with_belief(_TASK), _NOISE),

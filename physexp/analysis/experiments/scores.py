@@ -8,10 +8,9 @@ from physexp.analysis.evaluation import records
 from physexp.analysis.experiments import base, conditions, ideal_towers, learning
 from physexp.analysis.training import config as config_lib
 
-TASKS = (*conditions.HEAVIER, *conditions.TOWERS)
+TASKS = tuple(conditions.BY_LABEL.values())
 LEVEL = 0.95  # Of the ideal's return, for features; of right answers, for pixels.
 FLOOR = -0.5  # Of figures; what is less is of no interest.
-_TASK_OF = {task.label: task for task in TASKS}
 _FROM_PIXELS = frozenset(task.label for task in TASKS if conditions.observations(task) == "pixels")
 _FINE = 0.001  # m, the least that the observer distinguishes whom agents from features are compared with.
 
@@ -51,7 +50,7 @@ def final(results: base.Results, wanted: Sequence[config_lib.TrainConfig], known
             continue  # What is said is about those that have been trained.
         frame = results.episodes([base.EVALUATION], [config], ["reward", "length"])
         if config.label not in ideals:
-            ideals[config.label] = ideal_return(_TASK_OF[config.label], results)
+            ideals[config.label] = ideal_return(conditions.BY_LABEL[config.label], results)
         for seed, episodes in frame.groupby("training_seed"):
             shares = records.discounted_return(episodes) / ideals[config.label]
             rows.append(
