@@ -38,7 +38,12 @@ def test_what_it_earns_in_the_real_environment_is_its_value(domain, task):
     environment = suite.load(domain, task, task_kwargs={"random": fresh_seed()})
     played = environment_loop.EnvironmentLoop(environment, solution.actor()).run(150)
     returns = np.array([discount ** (each["episode_length"] - 1) * each["episode_return"] for each in played])
-    assert abs(returns.mean() - solution.value) < 5 * returns.std() / math.sqrt(len(returns)) + 1e-3
+    # A return is plus or minus the discount to the number of interactions. Wrong answers are so rare in some domains
+    # that a sample may have none, and say nothing of their spread.
+    histogram = solution.summary()["histogram"]
+    square = sum(share * discount ** (2 * interactions) for interactions, share in histogram.items())
+    spread = math.sqrt(max(0.0, square - solution.value**2))
+    assert abs(returns.mean() - solution.value) < 6 * spread / math.sqrt(len(returns)) + 1e-3
     assert solution.bound == pytest.approx(solution.value)
 
 

@@ -152,11 +152,11 @@ def test_episodes_earn_what_was_promised(skew, discount):
     interactions, right = solution.play(labels)
     earned = discount**interactions * np.where(right, 1, -1)
     # With all labels equally likely every episode earns the same, and there is no error to speak of.
-    assert abs(earned.mean() - solution.value) <= 3 * earned.std() / math.sqrt(len(earned)) + 1e-12
+    assert abs(earned.mean() - solution.value) <= 5 * earned.std() / math.sqrt(len(earned)) + 1e-12
     summary = solution.summary()
-    error = 3 * interactions.std() / math.sqrt(len(interactions)) + 1e-12
+    error = 5 * interactions.std() / math.sqrt(len(interactions)) + 1e-12
     assert abs(interactions.mean() - summary["mean_interactions"]) <= error
-    assert abs(right.mean() - summary["accuracy"]) <= 3 * right.std() / math.sqrt(len(right)) + 1e-12
+    assert abs(right.mean() - summary["accuracy"]) <= 5 * right.std() / math.sqrt(len(right)) + 1e-12
 
 
 def test_when_information_costs_nothing_all_is_found_out_and_nothing_is_tested_in_vain():
