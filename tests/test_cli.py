@@ -19,6 +19,7 @@ import physexp as package
 from physexp import extras, suite
 from physexp.analysis import bench, doctor, experiments
 from physexp.analysis.evaluation import playing
+from physexp.analysis.experiments import conditions
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import progress
 from physexp.cli import commands, options, parsing, printing
@@ -187,6 +188,11 @@ def test_train_has_the_options_and_presets_of_every_learner(run, algorithm):
     text = run("train", "--agent", algorithm, "--help").stdout
     for field in dataclasses.fields(config_lib.ALGORITHMS[algorithm]):
         assert f"--{field.name.replace('_', '-')}" in text
+
+
+def test_help_says_how_many_agents_a_condition_has(run):
+    said = " and ".join(f"{number} from {kind}" for kind, number in conditions.SEEDS.items())
+    assert f"by default {said}" in words_of(run("reproduce", "--help").stdout)
 
 
 def test_help_lists_the_experiments_and_the_sections_that_there_are(run):

@@ -22,7 +22,7 @@ class Reproduce:
     What is done already is not done again; what was interrupted continues where it was.
 
     Attributes:
-      seeds: agents in each condition; by default 10 from features and 3 from pixels.
+      seeds: agents in each condition; by default 10 from features and 5 from pixels.
       observations: train the agents that observe features, pixels, or all of them.
       results_dir: the folder of all results.
       jobs: agents trained at a time; by default one for each processor core.
