@@ -69,10 +69,8 @@ def table(agents: list[dict[str, np.ndarray]]) -> pandas.DataFrame:
     """The episodes of all agents, with the types they have when read from files."""
     columns = {name: np.concatenate([agent[name] for agent in agents]) for name in agents[0]}
     conditions_of_rows = columns.pop("condition")
-    rows = pyarrow.table(columns)
-    for number, name in enumerate(rows.schema.names):
-        if name in records.SCHEMA.names:
-            rows = rows.set_column(number, name, rows[name].cast(records.SCHEMA.field(name).type))
+    types = {field.name: field.type for field in records.SCHEMA}
+    rows = pyarrow.table({name: pyarrow.array(values, types.get(name)) for name, values in columns.items()})
     return rows.to_pandas().assign(commit="made", condition=conditions_of_rows)
 
 
