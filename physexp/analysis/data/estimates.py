@@ -33,6 +33,14 @@ class Estimate:
     )
 
 
+_UNKNOWN_POSITIVE = Estimate(math.nan, 0.0, math.inf)  # Of what cannot be negative.
+
+
+def _are_positive(values: Sequence[float] | np.ndarray) -> bool:
+    """Whether all values are positive and finite."""
+    return all(0 < value < math.inf for value in values)
+
+
 def _exact(value: float) -> Estimate:
     """A figure without any spread."""
 
@@ -131,8 +139,11 @@ def median(values: Sequence[float] | np.ndarray) -> Estimate:
 
 
 def geometric_mean(values: Sequence[float] | np.ndarray) -> Estimate:
-    """Returns the geometric mean of independent positive values, [N], with Student's interval of their logarithms."""
-    return _exponential(mean(np.log(values)))
+    """Returns the geometric mean of independent values, [N], with Student's interval of their logarithms.
+
+    The interval is infinite for a single value and where one is not positive and finite.
+    """
+    return _exponential(mean(np.log(values))) if _are_positive(values) else _UNKNOWN_POSITIVE
 
 
 def ratio_of_means(numerators: Sequence[float] | np.ndarray, denominators: Sequence[float] | np.ndarray) -> Estimate:
@@ -145,8 +156,8 @@ def ratio_of_means(numerators: Sequence[float] | np.ndarray, denominators: Seque
     from scipy import stats
 
     groups = [np.asarray(group, float) for group in (numerators, denominators)]
-    if not all(np.all((group > 0) & (group < math.inf)) for group in groups):
-        return Estimate(math.nan, 0.0, math.inf)
+    if not all(map(_are_positive, groups)):
+        return _UNKNOWN_POSITIVE
     top, bottom = (np.log(group) for group in groups)
     if min(len(top), len(bottom)) < 2:
         return Estimate(math.exp(top.mean() - bottom.mean()), 0.0, math.inf)
@@ -179,9 +190,7 @@ def ratio_of_pairs(numerators: Sequence[float] | np.ndarray, denominators: Seque
     The interval is infinite for a single pair and where a value is not positive and finite.
     """
     top, bottom = np.asarray(numerators, float), np.asarray(denominators, float)
-    if not np.all((np.minimum(top, bottom) > 0) & (np.maximum(top, bottom) < math.inf)):
-        return Estimate(math.nan, 0.0, math.inf)
-    return geometric_mean(top / bottom)
+    return geometric_mean(top / bottom) if _are_positive([*top, *bottom]) else _UNKNOWN_POSITIVE
 
 
 def normal(value: float, standard_error: float) -> Estimate:

@@ -111,9 +111,7 @@ def _while_learning(runs, label: str, learner: str) -> list[claims.Claim]:
             text=_CLAIMS[learner],
             condition=label,
             statistic=f"environment steps to {level}, {'geometric mean' if from_pixels else 'median'}",
-            estimate=estimates.geometric_mean(scores.frames_needed(runs))
-            if from_pixels
-            else estimates.median(scores.reached(runs, "frames")),
+            estimate=(estimates.geometric_mean if from_pixels else estimates.median)(scores.reached(runs, "frames")),
             below=MOST_FRAMES[learner][label] + 1,
         )
     ]

@@ -286,6 +286,9 @@ def test_a_geometric_mean_has_students_interval_of_the_logarithms():
     estimate = estimates.geometric_mean([2.0, 8.0])
     assert estimate.value == pytest.approx(4)
     assert (estimate.low, estimate.high) == pytest.approx((4 / 2**12.7062, 4 * 2**12.7062), rel=1e-4)
+    for unknown in ([2.0], [2.0, math.inf], [2.0, 0.0]):  # Of agents, say, one of whom never comes that far.
+        estimate = estimates.geometric_mean(unknown)
+        assert (estimate.low, estimate.high) == (0.0, math.inf)
 
 
 def test_pairs_that_differ_from_one_another_more_than_within_are_told_apart_only_as_pairs():
