@@ -4,6 +4,7 @@ from collections.abc import Iterator
 import importlib
 import importlib.metadata
 import os
+from pathlib import Path
 import platform
 import shutil
 
@@ -127,8 +128,9 @@ def _hardware(facts: dict) -> Iterator[dict]:
     else:
         yield _check("GPU", facts["gpu"] if facts["gpu"] != "none" else "none; no task needs one")
     yield _at_least("processors", facts["processors"], 2, "", "training is slower; give --num-workers 1")
-    memory = os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") / 2**30
-    yield _at_least("free memory", memory, _MEMORY, " GiB", "close other programs, or train with --num-workers 1")
+    yield _at_least(
+        "free memory", _available_memory(), _MEMORY, " GiB", "close other programs, or train with --num-workers 1"
+    )
     disk = shutil.disk_usage(".").free / 2**30
     yield _at_least("free disk space here", disk, _DISK, " GiB", "make room, or train elsewhere with --run-dir")
     threads = facts["omp_num_threads"]
@@ -140,6 +142,16 @@ def _hardware(facts: dict) -> Iterator[dict]:
         yield _check(
             "display", "none", MISSING, "only --view needs one; copy replays to a machine that has one, or --web"
         )
+
+
+def _available_memory() -> float:
+    """Returns the memory that programs can have, GiB; on Linux with what caches would give back."""
+    path = Path("/proc/meminfo")
+    if path.exists():
+        kibibytes = dict(line.split()[:2] for line in path.read_text().splitlines())
+        if "MemAvailable:" in kibibytes:
+            return int(kibibytes["MemAvailable:"]) / 2**20
+    return os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") / 2**30
 
 
 def _at_least(name: str, value: float, least: float, unit: str, advice: str) -> dict:

@@ -117,7 +117,7 @@ class Demo:
     """Train an agent for a minute or two, and compare it with randomized interaction.
 
     Attributes:
-      run_dir: the folder of the run; what it held before is replaced.
+      run_dir: the folder of the run; another demonstration in it is moved aside.
     """
 
     run_dir: Path = Path("runs/demo")

@@ -88,9 +88,11 @@ def _check_options(target: str, config: config_lib.TrainConfig, wanted: Mapping[
         return
     options = suite.load_task(config.domain, config.task, config.task_kwargs).options
     for name, value in wanted.items():
+        has_it = hasattr(options, name)
         trained_at = getattr(options, name, None)  # The task's own, where the configuration has none.
         if value != trained_at:
-            what = f"has no {name}" if trained_at is None else f"was trained at {name} {config_lib.shown(trained_at)}"
+            usual = "without" if trained_at is None else f"at {name} {config_lib.shown(trained_at)}"
+            what = f"was trained {usual}" if has_it else f"has no {name}"
             raise ValueError(f"{target} {what}, and {name} is {value}; leave that out, or name another agent")
 
 

@@ -2,6 +2,7 @@
 
 import dataclasses
 from pathlib import Path
+from typing import Any
 
 from physexp import suite
 from physexp.agents import checkpointing, pretrained
@@ -23,7 +24,7 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int) -> Path:
       ValueError: if the run's files are damaged or say too little; the line says what to do. Nothing is written then.
     """
     config, created = run.config, run.facts
-    frames, seconds = _progress(run)
+    frames, seconds = progress(run)
     network = playing.load_network(run)
     checkpointing.agent_bytes(network.state_dict())  # Refuses weights that cannot be kept before anything is played.
     network = pretrained.halved(network)
@@ -35,7 +36,7 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int) -> Path:
         "domain": config.domain,
         "task": config.task,
         "task_kwargs": dict(config.task_kwargs),
-        "default": _is_default(config),
+        "default": is_default(config),
         "command": command(config),
         "commit": created.get("commit", "not recorded"),
         "versions": created.get("versions", "not recorded"),
@@ -50,17 +51,18 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int) -> Path:
     return pretrained.save(network.cpu(), card, folder)
 
 
-def _is_default(config: config_lib.TrainConfig) -> bool:
-    """Returns whether the agent plays the task as it is where no option is chosen."""
-    chosen, default = (
-        suite.load_task(config.domain, config.task, {**task_kwargs, "random": 0}).options
-        for task_kwargs in (config.task_kwargs, {})
-    )
-    return chosen == default
+def is_default(config: config_lib.TrainConfig) -> bool:
+    """Returns whether an agent plays the task as it is where no option is chosen."""
+    options: Any = suite.options(config.domain)
+    return options(**{**config.task_kwargs, "random": 0}) == options(random=0)
 
 
-def _progress(run: run_lib.Run) -> tuple[int, int]:
-    """Frames trained on, and seconds that took."""
+def progress(run: run_lib.Run) -> tuple[int, int]:
+    """Returns the frames that a run's agent was trained on, and the seconds that took.
+
+    Raises:
+      ValueError: if the run does not say so.
+    """
     path = run.path / "metrics.csv"
     try:
         last = run.metrics()[-1]
@@ -78,7 +80,7 @@ def command(config: config_lib.TrainConfig) -> str:
     """Returns the command that trains such a run: what differs from the task's preset is spelled out."""
     words = ["physexp", "train", config.domain, config.task]
     for name, value in config.task_kwargs.items():
-        words += [f"--{name.replace('_', '-')}", config_lib.shown(value)]
+        words += _flag(name, value)
     preset = dataclasses.asdict(config_lib.preset(config.domain, config.task, algorithm=config.agent.algorithm))
     if config.agent.algorithm != config_lib.DEFAULT_ALGORITHM:
         words += ["--agent", config.agent.algorithm]
@@ -92,4 +94,10 @@ def _flag(name: str, value) -> list[str]:
     flag = name.replace("_", "-")
     if isinstance(value, bool):
         return [f"--{flag}" if value else f"--no-{flag}"]
-    return [f"--{flag}", *(str(item) for item in (value if isinstance(value, (list, tuple)) else [value]))]
+    return [f"--{flag}", *(_exactly(item) for item in (value if isinstance(value, (list, tuple)) else [value]))]
+
+
+def _exactly(value) -> str:
+    """Returns an option's value in the shortest words that mean it to the last digit."""
+    short = config_lib.shown(value)
+    return short if isinstance(value, float) and float(short) == value else str(value)

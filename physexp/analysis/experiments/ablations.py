@@ -3,7 +3,6 @@
 from typing import Any
 
 from physexp.agents.belief import config as belief
-from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions, learning, scores
 
@@ -48,18 +47,18 @@ def find_claims(frame) -> list[claims.Claim]:
     """Each part pays, and so does more information."""
     found = []
     for label in frame.condition.unique():
-        whole = scores.runs(frame, label, _WHOLE)
-        for title, text in _CLAIMS.items():
-            if whole and (variant := scores.runs(frame, label, title)):
-                pair = (whole, variant) if title == "belief_revealed" else (variant, whole)
+        for variant, text in _CLAIMS.items():
+            quick, slow = (variant, _WHOLE) if variant == "belief_revealed" else (_WHOLE, variant)
+            pair = [scores.runs(frame, label, title) for title in (quick, slow)]
+            if all(pair):
                 found.append(
                     claims.Claim(
                         text=text,
                         condition=label,
-                        statistic=f"environment steps to {scores.level(label)} with less over those with more, ratio "
-                        "of geometric means",
-                        estimate=estimates.ratio_of_means(*map(scores.frames_needed, pair)),
-                        above=1,
+                        statistic=f"environment steps to {scores.level(label)}, ratio of geometric means "
+                        f"({WORDS[quick]} / {WORDS[slow]})",
+                        estimate=scores.ratio_of_frames(*pair),
+                        below=1,
                     )
                 )
     return found

@@ -83,15 +83,15 @@ def find_claims(frame) -> list[claims.Claim]:
         found += _compared(frame, label)
     for kind in conditions.OBSERVATIONS:
         labels = [conditions.label("towers", f"{actuator}_{kind}") for actuator in ("fist", "direct")]
-        fist, direct = (scores.frames_needed(scores.runs(frame, label, "belief")) for label in labels)
-        if len(fist) and len(direct):
+        fist, direct = (scores.runs(frame, label, "belief") for label in labels)
+        if fist and direct:
             found.append(
                 claims.Claim(
                     text="The fist leads to faster learning than direct actuation where agents are told nothing",
                     condition=kind,
                     statistic=f"environment steps to {scores.level(labels[0])}, belief learner, fist over direct, "
                     "ratio of geometric means",
-                    estimate=estimates.ratio_of_means(fist, direct),
+                    estimate=scores.ratio_of_frames(fist, direct),
                     below=1,
                     reason="The fist must first find the tower and travel to it, and every push touches it.",
                 )
@@ -163,17 +163,16 @@ def _at_the_end(agents, label: str, learner: str) -> list[claims.Claim]:
 
 
 def _compared(frame, label: str) -> list[claims.Claim]:
-    """Compares the two learners that are told the reward alone; who never reaches the level gets its whole training."""
-    groups = [scores.runs(frame, label, learner) for learner in ("belief", "a3c")]
-    if not all(groups):
+    """Compares the two learners that are told the reward alone."""
+    belief, a3c = (scores.runs(frame, label, learner) for learner in ("belief", "a3c"))
+    if not belief or not a3c:
         return []
-    belief, a3c = map(scores.frames_needed, groups)
     return [
         claims.Claim(
             text="The belief learner learns from fewer environment steps than A3C",
             condition=label,
             statistic=f"environment steps to {scores.level(label)}, belief over A3C, ratio of geometric means",
-            estimate=estimates.ratio_of_means(belief, a3c),
+            estimate=scores.ratio_of_frames(belief, a3c),
             below=1,
         )
     ]

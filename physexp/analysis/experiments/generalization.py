@@ -52,13 +52,15 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
     for task in conditions.TOWERS:
         path = _path(results, task.task)
         baselines = domains.find(task.domain).baselines.get(task.task, {})
-        if path.exists() or not baselines:
-            continue
-        rows = []
+        rows = _baselines(results, task) if path.exists() else []
+        done = {(row["player"], row["test"]) for row in rows}
         for player, make in baselines.items():
+            missing = {test: trial for test, trial in TRIALS.items() if (player, test) not in done}
+            if not missing:
+                continue
             report(f"{player} plays {task.task}")
             actors = [make() for _ in range(_NUM_ACTORS)]
-            for test, trial in TRIALS.items():
+            for test, trial in missing.items():
                 rewards, lengths = rollouts.play(
                     actors, task.domain, task.task, trial.task_kwargs, _NUM_EPISODES // _NUM_ACTORS, playing.SEED
                 )
@@ -70,7 +72,8 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
                         "return": float((rewards * task.agent.discount ** (lengths - 1)).mean()),
                     }
                 )
-        base.keep_made(path, rows)
+        if len(rows) > len(done):
+            base.keep_made(path, rows)
 
 
 def _path(results: base.Results, task: str):
@@ -200,8 +203,9 @@ def find_claims(frame) -> list[claims.Claim]:
 
 
 def _by_test(rows, player: str, column: str):
-    """Returns a table of a column of a player's: a row for each agent, a column for each test."""
-    return rows[rows.player == player].pivot(index="training_seed", columns="test", values=column).dropna()
+    """Returns a table of a column of a player's: a row for each agent that had all tests, a column for each test."""
+    table = rows[rows.player == player].pivot(index="training_seed", columns="test", values=column)
+    return table.reindex(columns=list(TRIALS)).dropna()
 
 
 def _share(right: float) -> estimates.Estimate:
@@ -218,7 +222,6 @@ def draw(frame):
             table = _by_test(frame[frame.condition == name], player, "right")
             if not len(table):
                 continue
-            table = table.reindex(columns=list(TRIALS))
             style = dict(color=figures.COLORS[number + 1], marker=figures.MARKERS[number], markersize=4)
             middle = table.median()
             spread = np.abs(table.agg(["min", "max"]) - middle).to_numpy() if len(table) > 1 else None

@@ -28,11 +28,10 @@ def load(results: base.Results):
     columns = ["actions", "label", "reward", "length", "interactions"]
     towers = ideal_towers.read(results)
     for condition in CONDITIONS:
+        if not results.has_played(base.EVALUATION, condition):
+            continue  # The figure shows those that have been trained.
         hidden = [] if condition.task in towers else ["masses"]
-        try:
-            frame = results.episodes([base.EVALUATION], [condition], [*columns, *hidden])
-        except ValueError:
-            continue  # Not trained (yet): the figure shows those that are.
+        frame = results.episodes([base.EVALUATION], [condition], [*columns, *hidden])
         for seed, episodes in frame.groupby("training_seed"):
             returns = records.discounted_return(episodes)
             rows.append(

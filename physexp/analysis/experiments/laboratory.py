@@ -51,17 +51,17 @@ _UNTRAINED = ("value", "at_once", "random_value")
 def prepare(results: base.Results, report: Callable[[str], None]) -> None:
     """Computes what is earned without learning in each domain, if that is not there yet; `report` is told which."""
     path = _path(results)
-    if path.exists():
-        return
-    found = {}
-    for task in TASKS:
+    found = base.read_made(path, "laboratory", _are_returns) if path.exists() else {}
+    missing = [task for task in TASKS if task.label not in found]
+    for task in missing:
         report(f"searching for the ideal experimenter of {task.task_name}")
         known = domains.find(task.domain)
         assert known.ideal is not None
         observer = known.observer.get(task.task, {})
         summary = known.ideal(task.task, task.task_kwargs, task.agent.discount, **observer).summary()
         found[task.label] = {name: summary[name] for name in _UNTRAINED}
-    base.keep_made(path, found)
+    if missing:
+        base.keep_made(path, found)
 
 
 def _path(results: base.Results):
@@ -81,6 +81,8 @@ def load(results: base.Results):
     `untrained` has, by condition, the returns of the ideal, of an answer at once and of random interactions.
     """
     untrained = base.read_made(_path(results), "laboratory", _are_returns)
+    if missing := [task.label for task in TASKS if task.label not in untrained]:
+        raise ValueError(f"{_path(results)} lacks {', '.join(missing)}; `physexp reproduce laboratory` adds that")
     frame = scores.final(results, CONDITIONS, {label: row["value"] for label, row in untrained.items()})
     curves = results.curves(CONDITIONS)
     ends = curves.groupby(["condition", "algorithm", "training_seed"])[["frames", "seconds"]].max().reset_index()

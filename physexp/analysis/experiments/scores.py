@@ -4,6 +4,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from physexp.analysis import domains
+from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import records
 from physexp.analysis.experiments import base, conditions, ideal_towers, learning
 from physexp.analysis.training import config as config_lib
@@ -12,7 +14,6 @@ TASKS = tuple(conditions.BY_LABEL.values())
 LEVEL = 0.95  # Of the ideal's return, for features; of right answers, for pixels.
 FLOOR = -0.5  # Of figures; what is less is of no interest.
 _FROM_PIXELS = frozenset(task.label for task in TASKS if conditions.observations(task) == "pixels")
-_FINE = 0.001  # m, the least that the observer distinguishes whom agents from features are compared with.
 
 
 def load(results: base.Results, wanted: Sequence[config_lib.TrainConfig]):
@@ -66,10 +67,10 @@ def final(results: base.Results, wanted: Sequence[config_lib.TrainConfig], known
 
 
 def ideal_return(task: config_lib.TrainConfig, results: base.Results) -> float:
-    """Returns what the ideal experimenter earns, who from features tells apart what differs by a millimetre or more."""
+    """Returns what the ideal experimenter earns whom agents are compared with: the domain's `observer`."""
     if task in conditions.TOWERS:
-        resolution = 0.0 if sees_pixels(task.label) else _FINE
-        return ideal_towers.best(ideal_towers.read(results)[task.task], resolution=resolution)["value"]
+        observer = domains.find(task.domain).observer.get(task.task, {})
+        return ideal_towers.best(ideal_towers.read(results)[task.task], **observer)["value"]
     return conditions.ideal(task).value
 
 
@@ -94,6 +95,11 @@ def reached(runs: Sequence, along: str) -> np.ndarray:
     return np.array([learning.first_reached(run, LEVEL, along, "score") for run in runs])
 
 
-def frames_needed(runs: Sequence) -> np.ndarray:
-    """Returns the environment steps until runs reach `LEVEL`; all that they had where they do not."""
-    return np.minimum(reached(runs, "frames"), [run.frames.max() for run in runs])
+def ratio_of_frames(quick: Sequence, slow: Sequence) -> estimates.Estimate:
+    """Returns the geometric mean of the environment steps to `LEVEL` of runs that are to be quick over that of others.
+
+    Runs that never reach it gain nothing by that: of those that are to be quick none is known to be, and the others
+    count with all the training that they had, which is less than they need.
+    """
+    shown = np.minimum(reached(slow, "frames"), [run.frames.max() for run in slow])
+    return estimates.ratio_of_means(reached(quick, "frames"), shown)

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 import dataclasses
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
@@ -83,8 +83,11 @@ class Solution(Protocol):
         """
 
 
-def worth_of_answers(beliefs: np.ndarray) -> np.ndarray:
-    """Returns what answers are worth that are right with these probabilities, an array of any shape."""
+_Numbers = TypeVar("_Numbers", float, np.ndarray)
+
+
+def worth_of_answers(beliefs: _Numbers) -> _Numbers:
+    """Returns what answers are worth that are right with these probabilities, a number or an array of any shape."""
     return rules.WRONG + (rules.RIGHT - rules.WRONG) * beliefs
 
 

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from physexp.analysis.ideal import base
 from physexp.analysis.ideal import situations as situations_lib
 from physexp.analysis.ideal.situations import Group, Situation
 
@@ -33,7 +34,7 @@ class Objective:
         """Returns what it is worth to give an answer that is right with this probability."""
         if chance > 1 - PRECISION:
             return self.known
-        return 2 * chance - 1 if self.guesses else -math.inf
+        return base.worth_of_answers(chance) if self.guesses else -math.inf
 
     def act(self, value: float) -> float:
         """Returns what an interaction is worth after which this value is expected."""

@@ -14,7 +14,7 @@ from scipy import special
 from scipy.stats import qmc
 
 from physexp.agents import core
-from physexp.analysis.ideal import bounds, calibration, odd_one_out
+from physexp.analysis.ideal import base, bounds, calibration, odd_one_out
 from physexp.suite.engine import priors
 
 _NODES = 257  # Of the values.
@@ -88,7 +88,7 @@ class Player(core.Actor):
 
     def select_action(self, observation) -> int:
         beliefs, densities = self._posterior(self._logs[None])
-        answer, label = 2 * beliefs[0].max() - 1, self._prior.num_things + int(beliefs[0].argmax())
+        answer, label = base.worth_of_answers(beliefs[0].max()), self._prior.num_things + int(beliefs[0].argmax())
         silence = -(self._exact.discount ** (self._exact.step_limit - 1 - self._num_touches))
         if self._num_touches >= _MOST_TOUCHES:
             return label if answer > silence else 0
@@ -132,4 +132,4 @@ class Player(core.Actor):
         logs = np.repeat(self._logs[None], _OUTCOMES, axis=0)
         logs[:, thing] += self._log_likelihoods(read[:, None], touched)
         beliefs, _ = self._posterior(logs)
-        return self._exact.discount * float(2 * beliefs.max(1).mean() - 1)
+        return self._exact.discount * float(base.worth_of_answers(beliefs.max(1)).mean())

@@ -100,7 +100,7 @@ class Solution:
     @property
     def at_once(self) -> float:
         """Expected return of an answer without any touch."""
-        return 2 / self.prior.num_things - 1
+        return base.worth_of_answers(1 / self.prior.num_things)
 
     @property
     def random_value(self) -> float:
@@ -116,7 +116,7 @@ class Solution:
         Returns:
           Two float64 [N]; a touch is worth -inf where nothing is left to touch.
         """
-        answer = 2 * posterior(known, self.prior).max(axis=1) - 1
+        answer = base.worth_of_answers(posterior(known, self.prior).max(axis=1))
         largest, log_weight = _statistics(known, self.prior)
         touches = (~np.isnan(known)).sum(axis=1)
         touch = np.full(len(known), -np.inf)
@@ -291,7 +291,7 @@ def _go_back(prior, discount, at_random=False) -> tuple[float, tuple[Callable, .
         )
         functions.insert(0, after)
     first = discount * _expected(0, np.zeros(1), np.zeros(1), prior, after)
-    return max(float(first[0]), 2 / num_things - 1), tuple(functions)
+    return max(float(first[0]), base.worth_of_answers(1 / num_things)), tuple(functions)
 
 
 def _expected(known, largest, ratio, prior, after) -> np.ndarray:
@@ -337,7 +337,7 @@ def _worth_after(known, unknown, largest, ratio, value, prior, after) -> np.ndar
     log_weight = prior.log_ratio(largest) + np.log(ratio)
     left = np.full(largest.shape, unknown - 1)
     chance = _largest_is_touched(left, largest, log_weight, prior)
-    answer = 2 * np.maximum(chance, (1 - chance) / (unknown - 1)) - 1
+    answer = base.worth_of_answers(np.maximum(chance, (1 - chance) / (unknown - 1)))
     return np.maximum(answer, after(_points(largest, ratio)))
 
 

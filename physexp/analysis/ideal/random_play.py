@@ -9,6 +9,7 @@ import dataclasses
 
 import numpy as np
 
+from physexp.analysis.ideal import base
 from physexp.analysis.ideal import situations as situations_lib
 
 _NUM_SEQUENCES = 64
@@ -45,7 +46,7 @@ class _Group:
 
     def prophet(self, discount: float) -> float:
         """Returns what is earned at best, times the chance, by one who knows the interactions to come."""
-        answer = self.chance * (2 * self.likeliest - 1)
+        answer = self.chance * base.worth_of_answers(self.likeliest)
         if not self.parts:
             return answer
         return max(answer, discount * sum(part.prophet(discount) for part in self.parts))
@@ -53,7 +54,7 @@ class _Group:
     def cautious(self, discount: float, enough: float) -> float:
         """Returns what is earned, times the chance, by one who answers when the likeliest label is likely enough."""
         if self.likeliest >= enough or not self.parts:
-            return self.chance * (2 * self.likeliest - 1)
+            return self.chance * base.worth_of_answers(self.likeliest)
         return discount * sum(part.cautious(discount, enough) for part in self.parts)
 
     def all(self) -> Iterator["_Group"]:
@@ -78,7 +79,7 @@ def bounds(situations: situations_lib.Situations, discount: float) -> Bounds:
     levels = sorted({round(group.likeliest, 6) for root in roots for group in root.all()})
     returns = [np.mean([root.cautious(discount, level - 1e-6) for root in roots]) for level in levels]
     return Bounds(
-        at_once=2 * roots[0].likeliest - 1,
+        at_once=base.worth_of_answers(roots[0].likeliest),
         random_value=float(max(returns)),
         random_bound=float(np.mean([root.prophet(discount) for root in roots])),
     )

@@ -40,7 +40,7 @@ class Solution:
         values = np.empty((len(episode.actions), num_actions))
         values[:, :num_interactions] = self.discount * rules.RIGHT
         values[self._task.rules.step_limit - 1 :, :num_interactions] = rules.WRONG  # Silence.
-        values[:, num_interactions:] = rules.WRONG + (rules.RIGHT - rules.WRONG) * self._known(episode)
+        values[:, num_interactions:] = base.worth_of_answers(self._known(episode))
         return base.Judgement(self.beliefs(episode), values, np.zeros(len(episode.actions), bool))
 
     def _known(self, episode: base.Episode) -> np.ndarray:

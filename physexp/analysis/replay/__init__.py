@@ -10,6 +10,7 @@ from physexp.analysis.evaluation import playing
 from physexp.analysis.replay import recording, selection, writing
 from physexp.analysis.replay.recording import Episode, EpisodeRecorder
 from physexp.analysis.replay.viewing import check_display, view
+from physexp.analysis.training import config as config_lib
 
 __all__ = ["Episode", "EpisodeRecorder", "check_display", "replay", "view"]
 
@@ -59,7 +60,7 @@ def replay(
 
 def _what(config) -> str:
     """Returns what a configuration's agent plays, in words."""
-    options = "".join(f", {name} {value:g}" for name, value in config.task_kwargs.items())
+    options = "".join(f", {name} {config_lib.shown(value)}" for name, value in config.task_kwargs.items())
     return f"{config.domain}/{config.task}{options}"
 
 

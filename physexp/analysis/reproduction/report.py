@@ -90,7 +90,7 @@ def _provenance(results: base.Results) -> list[str]:
     """Which commits made the agents and how many there are."""
     counts: dict[str, int] = {}
     for folder in sorted((results.path / "runs").glob("*")):
-        commit = run_lib.Run(folder).facts.get("commit", "unknown")[:10]
+        commit = provenance.shortened(run_lib.Run(folder).facts.get("commit", "unknown"))
         counts[commit] = counts.get(commit, 0) + 1
     made = ", ".join(f"{number} by {commit}" for commit, number in counts.items())
     return [
@@ -132,6 +132,8 @@ def _row(one: _Tested) -> tuple[str, ...]:
 
 
 def _number(value: float) -> str:
+    if math.isnan(value):
+        return "unknown"
     return f"{value:.3g}" if math.isfinite(value) else ("-∞" if value < 0 else "∞")
 
 

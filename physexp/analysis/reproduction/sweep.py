@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from concurrent import futures
-import contextlib
 import dataclasses
 import os
 from pathlib import Path
@@ -77,7 +76,8 @@ def run(
       results: where everything goes.
       num_processes: how many agents to train at a time, here.
       tell: called with lines that tell how it goes.
-      submit: trains an agent elsewhere, as `cluster.submit` does; by default agents are trained here.
+      submit: trains an agent elsewhere, as `cluster.submit` does; by default agents are trained here, as those are
+        always that have begun here.
 
     Raises:
       RuntimeError: when some agents could not be trained; all others are done by then.
@@ -93,15 +93,19 @@ def run(
     meter = Meter(jobs, results, num_processes)
     reported = time.monotonic()
     failures = []
-    with contextlib.ExitStack() as stack:
-        if submit is None:
-            processes = stack.enter_context(jobs_lib.Processes(_work, num_processes, tell))
-            interruption = stack.enter_context(stopping.Interruption(processes.stop))
-            pending = {processes.submit(job.config.name, job, results): job for job in todo}
-        else:
-            interruption = stopping.Interruption(lambda: None)  # The cluster forgets its tasks when this process ends.
-            pending = {submit(job): job for job in todo}
-        while pending:
+    with (
+        jobs_lib.Processes(_work, num_processes, tell) as processes,
+        stopping.Interruption(processes.stop) as interruption,
+    ):
+        here, elsewhere = {}, {}
+        for job in todo:
+            if submit is None or results.run(job.config).path.exists():
+                here[processes.submit(job.config.name, job, results)] = job
+            else:
+                elsewhere[submit(job)] = job
+        pending = here | elsewhere
+        # The cluster forgets its tasks when this process ends.
+        while pending and not (interruption.happened and pending.keys() <= elsewhere.keys()):
             done, _ = futures.wait(pending, timeout=_POLL_SECONDS, return_when=futures.FIRST_COMPLETED)
             for future in done:
                 job = pending.pop(future)

@@ -102,9 +102,15 @@ def write(results: Path) -> list[Path]:
 
 
 def with_part(text: str, part: str) -> str:
-    """Returns the text of a README with another leaderboard between its marks."""
+    """Returns the text of a README with another leaderboard between its marks.
+
+    Raises:
+      ValueError: if the second mark is missing.
+    """
     before, _, rest = text.partition(MARKS[0])
-    _, _, after = rest.partition(MARKS[1])
+    _, end, after = rest.partition(MARKS[1])
+    if not end:
+        raise ValueError(f"the README has {MARKS[0]} without {MARKS[1]} after it; put that where the leaderboard ends")
     return f"{before}{MARKS[0]}\n\n{part}\n{MARKS[1]}{after}"
 
 

@@ -42,24 +42,16 @@ def suitable(target: str) -> "tuple[protocol.Question, ...] | None":
         return protocol.named(list(team))
     if found := _with_baseline(target):
         return found
-    from physexp.analysis.evaluation import playing
+    from physexp.analysis.evaluation import playing, publishing
 
     try:
         _, config = playing.find_agent(target)
     except ValueError as error:
         others = ", ".join([*_all_baselines(), SHIPPED, *config_lib.ALGORITHMS])
         raise ValueError(f"{error}; or give {others}, or MODULE:FUNCTION") from None
-    if not _is_usual(config):
+    if not publishing.is_default(config):
         raise ValueError(f"{target} was trained with {dict(config.task_kwargs)}; score an agent of the usual task")
     return (protocol.question(config.domain, config.task),)
-
-
-def _is_usual(config) -> bool:
-    """Returns whether an agent was trained on a task with its default options."""
-    from physexp import suite
-
-    kind: Any = suite.options(config.domain)
-    return kind(**{**config.task_kwargs, "random": 0}) == kind(random=0)
 
 
 def _team(target: str) -> dict[str, str]:
@@ -86,13 +78,13 @@ def _team(target: str) -> dict[str, str]:
 def _shipped(whose: str) -> dict[str, str]:
     """Returns the agents that come with the package, by task: the best ones, or those of a learner."""
     from physexp.agents import pretrained
-    from physexp.analysis.evaluation import playing
+    from physexp.analysis.evaluation import playing, publishing
 
     team: dict[str, str] = {}
     for name in pretrained.names():
         config = playing.config_of(pretrained.card_named(name))
         is_wanted = "/" not in name if whose == SHIPPED else config.agent.algorithm == whose
-        if is_wanted and _is_usual(config):
+        if is_wanted and publishing.is_default(config):
             team.setdefault(f"{config.domain}/{config.task}", name)
     return team
 
@@ -175,11 +167,11 @@ def facts(target: str, tasks: Collection[str] | None = None) -> dict[str, Any]:
     _, config = playing.find_agent(target)
     if Path(target).exists():
         run = run_lib.Run(Path(target))
-        last = run.metrics()[-1]
+        frames, seconds = publishing.progress(run)
         trained = {
-            "frames": int(last["frames"]),
-            "seconds": last["seconds"],
-            "commit": run.facts["commit"],
+            "frames": frames,
+            "seconds": seconds,
+            "commit": run.facts.get("commit", "not recorded"),
             "command": publishing.command(config),
         }
     else:

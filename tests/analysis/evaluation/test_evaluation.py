@@ -165,6 +165,7 @@ THERE = "which_is_heavier-features-difficulty10, which_is_heavier-features-diffi
         ),
         ("towers/fist_features", {"difficulty": 3}, "towers/fist_features has no difficulty, and difficulty is 3"),
         ("towers-fist_features", {"difficulty": 3}, "towers-fist_features has no difficulty, and difficulty is 3"),
+        ("towers-fist_features", {"sliding_friction": 0.42}, "was trained without, and sliding_friction is 0.42"),
         (
             "which_is_heavier-features-difficulty3",
             {"difficulty": 5},

@@ -91,6 +91,21 @@ def test_every_field_of_an_agent_survives_the_way_over_the_command_line(task, al
     assert parsing.parse(arguments).config == changed
 
 
+@pytest.mark.parametrize(
+    "domain, task, task_kwargs",
+    [
+        ("threshold", "features", {"reveal": True}),
+        ("towers", "fist_features", {"control_timestep": 0.1 + 2**-30, "variation": 0.5}),
+        ("which_is_heavier", "features", {"difficulty": 10}),
+    ],
+)
+def test_every_option_of_a_task_survives_the_way_over_the_command_line(domain, task, task_kwargs):
+    agent = config_lib.preset(domain, task)
+    config = config_lib.TrainConfig(domain=domain, task=task, task_kwargs=task_kwargs, agent=agent)
+    _, *arguments = shlex.split(publishing.command(config))
+    assert options.chosen(parsing.parse(arguments).options) == task_kwargs
+
+
 def test_the_agent_is_the_runs_rounded_to_half_precision(published):
     run, path = published
     agent = pretrained.load("which_is_heavier", "features", 10, folder=path.parent)

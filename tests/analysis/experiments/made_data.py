@@ -184,6 +184,7 @@ def few_frames(
     fist=0.6,
     direct=1.0,
     seconds_of_a_frame=0.0005,
+    learned=1.0,
     loss=0.5,
     calibration_error=0.02,
 ):
@@ -194,6 +195,7 @@ def few_frames(
         steps that the belief learner is to need at most.
       fist, direct: how many times as many the belief learner needs with an actuator.
       seconds_of_a_frame: how long a learner takes for an environment step.
+      learned: how much of what it could learn the belief learner learns.
       loss: what agents lack of the ideal's return at the end, in shares of what they may lack.
       calibration_error: of all of them.
     """
@@ -205,6 +207,7 @@ def few_frames(
         for config in data_efficiency.CONDITIONS
     }
     frame = scores(num_agents, generator, middles, seconds_of_a_frame).assign(calibration_error=calibration_error)
+    frame.loc[frame.algorithm.str.startswith("belief"), "score"] *= learned
     frame.attrs["final"] = pandas.DataFrame(
         [
             {

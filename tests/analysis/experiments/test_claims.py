@@ -281,6 +281,18 @@ def test_each_claim_holds_or_fails_as_the_world_is(name, world):
     assert verdicts == expected
 
 
+def test_agents_that_never_learn_are_not_taken_for_quick_ones():
+    # They are given up long before others have learned.
+    frame = made_data.few_frames(10, generator(), learned=0.5, fist=0.4, direct=1.2)
+    comparisons = {
+        "The belief learner learns from fewer environment steps than A3C",
+        "The fist leads to faster learning than direct actuation where agents are told nothing",
+    }
+    compared = [one for one in EXPERIMENTS["data_efficiency"].claims(frame) if one.text in comparisons]
+    assert {one.text for one in compared} == comparisons
+    assert {one.verdict for one in compared} == {UNDECIDED}
+
+
 @pytest.mark.parametrize("name", EXPERIMENTS)
 def test_every_claim_can_fail_at_either_end_of_its_range(name):
     failed: dict[tuple, set[str]] = {}

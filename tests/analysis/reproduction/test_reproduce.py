@@ -77,6 +77,21 @@ def test_what_is_done_is_not_done_again(rehearsed):
     assert {path: path.stat().st_mtime_ns for path in files} == before
 
 
+def test_an_agent_that_is_here_plays_here_what_it_has_not_played_though_others_are_trained_elsewhere(
+    rehearsed, tmp_path
+):
+    results = base.Results(tmp_path / "results")
+    shutil.copytree(rehearsed[0].path, results.path)
+    job = sweep.jobs([EXPERIMENTS["population"]], ("features",), lambda kind: 1, 5000)[0]
+    (played,) = results.all_episodes(job.config)
+    before, agent = played.read_bytes(), results.run(job.config).agent_path.read_bytes()
+    played.unlink()
+    lines = []
+    sweep.run([job], results, 1, lines.append, submit=lambda job: pytest.fail("it was trained again"))
+    assert lines[-1].startswith("done: ")
+    assert played.read_bytes() == before and results.run(job.config).agent_path.read_bytes() == agent
+
+
 def test_runs_with_another_configuration_are_not_mixed_in(rehearsed):
     results, _ = rehearsed
     done = commands.run(*command(results.path, 6000))

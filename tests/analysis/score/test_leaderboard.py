@@ -62,6 +62,14 @@ def test_the_command_writes_the_page_its_figure_and_its_part_of_the_readme(resul
     assert readme.read_text() == written
 
 
+def test_a_readme_in_which_the_end_of_the_leaderboard_is_lost_is_left_alone(results):
+    readme = results.parent / "README.md"
+    readme.write_text(f"before\n{leaderboard.MARKS[0]}\nafter\n")
+    with pytest.raises(ValueError, match="put that where the leaderboard ends"):
+        leaderboard.write(results)
+    assert readme.read_text() == f"before\n{leaderboard.MARKS[0]}\nafter\n"
+
+
 def test_the_readme_has_the_first_rows_only(results):
     (row, _) = leaderboard.read(results)
     lines = leaderboard.short([row] * 15).splitlines()

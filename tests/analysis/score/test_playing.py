@@ -188,6 +188,8 @@ def test_a_trained_agent_is_scored_with_what_it_was_trained_with():
 
 
 def test_a_run_is_scored_as_the_agent_it_has_trained(untrained):
+    with pytest.raises(ValueError, match="does not say in its last row how long the agent was trained"):
+        targets.facts(str(untrained.path))
     untrained.append_metrics({"frames": 0, "seconds": 0.0})
     assert targets.facts(str(untrained.path))["command"].startswith("physexp train which_is_heavier features")
     with pytest.raises(ValueError, match="was trained with {'difficulty': 10.0}"):

@@ -1,0 +1,80 @@
+"""What experiments do with stored data of which something is missing or damaged."""
+
+import json
+import shutil
+
+import blocks
+import made_data
+import numpy as np
+import pytest
+
+from physexp.analysis.experiments import base, generalization, ideal_gap, laboratory
+
+RESULTS = blocks.ROOT / "results"
+
+
+@pytest.fixture
+def results(tmp_path):
+    return base.Results(tmp_path)
+
+
+def write(path, found):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(found))
+
+
+def test_a_domain_that_is_new_in_the_laboratory_is_solved_and_the_others_are_kept(results):
+    new, *others = laboratory.TASKS
+    known = {task.label: {"value": 0.5, "at_once": -0.5, "random_value": 0.25} for task in others}
+    path = results.path / "ideal" / "laboratory.json"
+    write(path, known)
+    with pytest.raises(ValueError, match=f"laboratory.json lacks {new.label}; `physexp reproduce laboratory` adds"):
+        laboratory.load(results)
+    told = []
+    laboratory.prepare(results, told.append)
+    assert told == [f"searching for the ideal experimenter of {new.task_name}"]
+    found = json.loads(path.read_text())
+    assert {label: found[label] for label in known} == known
+    assert 0 < found[new.label]["random_value"] < found[new.label]["value"] < 1
+
+
+def test_experimenters_that_nobody_trained_play_only_the_tests_that_are_new(results, monkeypatch):
+    monkeypatch.setattr(generalization, "_NUM_EPISODES", 100)
+    known = [
+        {"player": player, "test": test, "right": 90, "return": 0.5}
+        for player in (generalization.RULE, generalization.LOOKUP)
+        for test in generalization.TRIALS
+    ]
+    folder = results.path / "generalization"
+    write(folder / "fist_features.json", known)
+    new = {"player": generalization.RULE, "test": "as usual"}
+    write(folder / "direct_features.json", [row for row in known if not new.items() <= row.items()])
+    told = []
+    generalization.prepare(results, told.append)
+    assert told == ["rule plays direct_features"]
+    *kept, found = json.loads((folder / "direct_features.json").read_text())
+    assert kept == [row for row in known if row in kept] and len(kept) == len(known) - 1
+    assert new.items() <= found.items() and found["right"] == 100  # The rule is right where nothing varies.
+    assert json.loads((folder / "fist_features.json").read_text()) == known
+
+
+def test_an_agent_that_has_not_played_all_tests_yet_is_left_out():
+    frame = made_data.WORLDS["generalization"]["paper"](10, np.random.default_rng(0))
+    is_first = (frame.player == generalization.VARIED) & (frame.training_seed == 0)
+    is_missing = is_first & (frame.test == "varied")
+    assert is_missing.any()
+    half_played, others = (generalization.find_claims(frame[~left_out]) for left_out in (is_missing, is_first))
+    assert [claim.estimate for claim in half_played] == [claim.estimate for claim in others]
+    assert len(others) == len(generalization.find_claims(frame))
+
+
+def test_damaged_episodes_are_told_and_not_taken_for_those_of_an_untrained_agent(results):
+    shutil.copytree(RESULTS / "ideal", results.path / "ideal")
+    name = "evaluation/which_is_heavier-features-difficulty10-discount0.95-seed0.parquet"
+    content = bytearray((RESULTS / "episodes" / name).read_bytes())
+    content[len(content) // 2] ^= 1
+    damaged = results.path / "episodes" / name
+    damaged.parent.mkdir(parents=True)
+    damaged.write_bytes(content)
+    with pytest.raises(ValueError, match=str(damaged)):
+        ideal_gap.load(results)
