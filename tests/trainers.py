@@ -34,11 +34,11 @@ SMALL = {
 """An agent of each algorithm that makes small updates, in one process."""
 
 
-def create(path, algorithm="a3c", **agent):
+def create(path, algorithm="a3c", task="features", **agent):
     """A new run of Which is Heavier, small unless told otherwise."""
     config = config_lib.TrainConfig(
         domain="which_is_heavier",
-        task="features",
+        task=task,
         task_kwargs={"difficulty": 10.0},
         agent=SMALL[algorithm].replace(**agent),
     )

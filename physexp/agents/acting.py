@@ -22,7 +22,12 @@ def as_tensors(observation: Mapping[str, np.ndarray]) -> dict[str, torch.Tensor]
 
 def sample(logits: torch.Tensor, generator: np.random.Generator) -> np.ndarray:
     """Draws actions, int64 [N], from logits [N, A]."""
-    cumulative = torch.softmax(logits, dim=-1).cpu().numpy().cumsum(axis=1)
+    return draw(torch.softmax(logits, dim=-1).cpu().numpy(), generator)
+
+
+def draw(probabilities: np.ndarray, generator: np.random.Generator) -> np.ndarray:
+    """Draws indices, int64 [N], from their probabilities, [N, A]."""
+    cumulative = probabilities.cumsum(axis=1)
     thresholds = generator.random((len(cumulative), 1)) * cumulative[:, -1:]
     return (cumulative <= thresholds).sum(axis=1).clip(max=cumulative.shape[1] - 1)
 

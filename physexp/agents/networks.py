@@ -96,8 +96,8 @@ class FeatureTorso(nn.Module):
 class PixelTorso(nn.Module):
     """The paper's convolutions (Section 4): 32@8x8/4, 64@4x4/2 and 64@3x3/1 with ReLU.
 
-    Pixels are taken relative to a reference image and scaled. Images that are the same bytes, as all first images are,
-    pass the convolutions once.
+    Pixels are taken relative to a reference image, an episode's first one, and scaled. Images that are the same bytes,
+    as all first images are without variation, pass the convolutions once.
     """
 
     reference: torch.Tensor
@@ -208,7 +208,7 @@ class RecurrentActorCritic(RecurrentNetwork):
         return torch.zeros(shape, device=self.device), torch.zeros(shape, device=self.device)
 
     def calibrate(self, first: Observation) -> None:
-        """Tells the torso what an episode's first observation looks like, arrays [N, ...]; it is always the same."""
+        """Tells the torso what an episode's first observation looks like, arrays [N, ...]; see `PixelTorso`."""
         self.torso.calibrate(first)
 
     def initialize_policy(self, logits: Sequence[float]) -> None:

@@ -76,7 +76,7 @@ def load(domain_name, task_name, task_kwargs=None, environment_kwargs=None, visu
     Raises:
       ValueError: for an unknown name or a bad keyword argument.
     """
-    chosen = {**_checked("task_kwargs", task_kwargs), "visualize_reward": visualize_reward}
+    chosen = {"visualize_reward": visualize_reward, **_checked("task_kwargs", task_kwargs)}
     task = load_task(domain_name, task_name, chosen)
     return _call(_environment.Environment, "environment_kwargs", environment_kwargs, task)
 

@@ -17,8 +17,8 @@ from physexp.suite import gymnasium as gymnasium_lib  # noqa: E402
 class VecEnv(base_vec_env.VecEnv):
     """Many environments that step together; an episode that ends is followed by the next one in the same step.
 
-    `infos[i]` then has `terminal_observation` and `correct_answer`, and `TimeLimit.truncated`, which is never true:
-    running out of time is a wrong answer.
+    `infos[i]` then has `terminal_observation` and `correct_answer`, and `TimeLimit.truncated`, which is true where the
+    simulation has diverged, so that there is no outcome: running out of time is a wrong answer.
     """
 
     def __init__(
@@ -72,7 +72,7 @@ class VecEnv(base_vec_env.VecEnv):
                 infos[row] = {
                     "terminal_observation": terminal,
                     "correct_answer": int(answers[row]),
-                    "TimeLimit.truncated": False,
+                    "TimeLimit.truncated": bool(timestep.reward[row] == 0),  # As in `gymnasium.VectorEnvironment`.
                 }
             first = self._batch.reset(rows).observation
             for name, value in observation.items():

@@ -506,3 +506,18 @@ def test_a_divergence_raises_where_the_user_asked_for_it():
     assert env.task.num_divergences == 1
     assert env.reset().first()
     assert env.step(0).mid()
+
+
+@pytest.mark.parametrize("name", ["reveal", "visualize_reward"])
+@pytest.mark.parametrize("value", ["no", 1, None])
+def test_flags_are_true_or_false(name, value):
+    with pytest.raises(ValueError, match=f"{name} is .*; give True or False"):
+        suite.load("threshold", "features", {name: value})
+
+
+def test_the_floor_is_coloured_whichever_way_that_is_asked_for():
+    among_the_options = suite.load("threshold", "features", {"visualize_reward": True})
+    beside_them = suite.load("threshold", "features", visualize_reward=True)
+    usual = suite.load("threshold", "features")
+    asked_for = [each.task.options.visualize_reward for each in (among_the_options, beside_them, usual)]
+    assert asked_for == [True, True, False]

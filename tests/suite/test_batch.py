@@ -251,3 +251,39 @@ def test_what_cannot_be_saved_or_restored_is_refused():
     batch.reset()
     with pytest.raises(ValueError, match="other episodes"):
         batch.restore(moment)
+
+
+@pytest.mark.parametrize("name", [name for name in VARYING if name.endswith("features")])
+def test_a_batch_draws_for_people_what_its_single_environments_draw(seed, name):
+    rng = np.random.default_rng(seed)
+    batch, singles = _load_both(name, seed, 2, variation=1.0)
+
+    def draw():
+        images = batch.render()
+        np.testing.assert_array_equal(images, [single.render() for single in singles])
+        return images
+
+    batch.reset()
+    for single in singles:
+        single.reset()
+    at_rest = draw()
+    moment = batch.save()
+    for actions in rng.integers(batch.task.num_interactions, size=(2, 2)):
+        batch.step(actions)
+        for single, action in zip(singles, actions, strict=True):
+            single.step(action)
+    later = draw()
+    assert not np.array_equal(later, at_rest)
+    batch.restore(moment)
+    np.testing.assert_array_equal(batch.render(), at_rest)
+    batch.close()
+    for single in singles:
+        single.close()
+
+
+@pytest.mark.parametrize("size", [0, -1, 4097, 2.5, "x", None])
+def test_images_of_a_size_that_cannot_be_drawn_are_refused(size):
+    batch = load_batch("which_is_heavier/features", 1)
+    batch.reset()
+    with pytest.raises(ValueError, match="size is .*; give an integer >= 1 and <= 4096"):
+        batch.render(size)

@@ -94,3 +94,36 @@ def test_what_a_replay_reveals_names_things_of_the_scene(seed, name):
 
 def test_every_registered_task_is_among_them():
     assert {"/".join(names) for names in suite.ALL_TASKS} < set(NAMES)
+
+
+@pytest.mark.parametrize("hidden", [3.7, -1, "3"])
+def test_a_hidden_property_of_another_kind_is_refused_and_the_episode_stays(hidden):
+    environment = suite.load("towers", "direct_features", {"random": 0})
+    environment.reset()
+    before = environment.task.hidden
+    with pytest.raises(ValueError, match="hidden is .*; give "):
+        environment.reset(hidden=hidden)
+    assert environment.task.hidden == before and environment.task.episode == 0
+    assert environment.reset().first() and environment.task.episode == 1
+
+
+def test_a_refused_reset_of_a_batch_leaves_all_episodes_as_they_were():
+    batch = suite.load_batch("which_is_heavier", "features", 2, {"random": 0})
+    batch.reset()
+    hidden = batch.hidden
+    with pytest.raises(ValueError, match=r"give an array of shape \(2, 4\)"):
+        batch.reset(episode=7, hidden=np.zeros(3))
+    assert batch.episodes.tolist() == [0, 0]
+    np.testing.assert_array_equal(batch.hidden, hidden)
+    batch.reset()
+    assert batch.episodes.tolist() == [1, 1]
+
+
+def test_a_hidden_property_that_was_given_to_the_task_is_that_of_the_next_episode_alone():
+    environment = suite.load("towers", "direct_features", {"random": 0})
+    for pattern in (5, 3):
+        environment.task.give_hidden(pattern)
+        environment.reset()
+        assert environment.task.hidden == pattern
+    environment.reset()
+    assert environment.task.hidden == environment.task.draw(np.array([0]), np.array([2]))[0]

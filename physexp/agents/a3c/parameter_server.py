@@ -20,7 +20,7 @@ class Traffic:
       dropped: gradients that were too old.
       busy_seconds: time spent on exchanges, s.
       bytes_in: size of the gradients and records received.
-      bytes_out: size of the parameters sent.
+      bytes_out: size of the variables sent.
     """
 
     updates: int = 0
@@ -51,12 +51,13 @@ class Reply:
 
     Attributes:
       pulled: where training stands.
-      parameters: of the network, float32 [P].
+      variables: the network's parameters and buffers by name, as arrays: they are sent without being copied, tensors
+        are not.
       goes_on: whether the worker is to play another round.
     """
 
     pulled: a3c_learning.Pulled
-    parameters: np.ndarray
+    variables: dict[str, np.ndarray]
     goes_on: bool
 
 
@@ -81,22 +82,22 @@ class ParameterServer:
     def exchange(
         self, worker: int, seed: int, gradient: np.ndarray | None, contribution: a3c_learning.Contribution | None
     ) -> Reply:
-        """Applies what a worker has learned, if anything, and gives it the newest parameters.
+        """Applies what a worker has learned, if anything, and gives it the newest variables of the network.
 
         Args:
           worker: index of the worker.
           seed: of its environments.
-          gradient: float32 [P]; beside the contribution, since arrays are sent without being copied, tensors are not.
+          gradient: float32 [P], an array beside the contribution.
           contribution: the rest of it, without gradients; None from a worker that has just started.
         """
         start = time.perf_counter()
         if contribution is not None and gradient is not None:
             self._apply(seed, gradient, contribution)
         pulled = a3c_learning.pull(self._variables, worker)
-        parameters = torch.nn.utils.parameters_to_vector(self._variables.network.parameters()).detach().numpy()
-        self._traffic.bytes_out += parameters.nbytes
+        variables = {name: value.numpy().copy() for name, value in self._variables.network.state_dict().items()}
+        self._traffic.bytes_out += sum(value.nbytes for value in variables.values())
         self._traffic.busy_seconds += time.perf_counter() - start
-        return Reply(pulled, parameters, not self._is_done() and not self._is_stopped)
+        return Reply(pulled, variables, not self._is_done() and not self._is_stopped)
 
     def _apply(self, seed: int, gradient: np.ndarray, contribution: a3c_learning.Contribution) -> None:
         gradients = _split(torch.from_numpy(gradient.copy()), self._variables.network)

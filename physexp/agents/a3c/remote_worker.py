@@ -18,7 +18,7 @@ from physexp.agents.a3c import worker as worker_lib
 class RemoteVariables(a3c_learning.Shared):
     """A worker's access to the variables that a parameter server keeps.
 
-    With `overlaps`, the worker plays the next round while its gradient is sent, with the parameters that came last: it
+    With `overlaps`, the worker plays the next round while its gradient is sent, with the variables that came last: it
     reads the answer one round later.
     """
 
@@ -38,7 +38,7 @@ class RemoteVariables(a3c_learning.Shared):
         if self._reply is None:
             self._reply = self._answer(self._send(worker, None, None))
             self._episode = self._reply.pulled.episode
-        torch.nn.utils.vector_to_parameters(torch.from_numpy(self._reply.parameters.copy()), network.parameters())
+        network.load_state_dict({name: torch.tensor(value) for name, value in self._reply.variables.items()})
         return dataclasses.replace(self._reply.pulled, episode=self._episode)
 
     def push(self, contribution):

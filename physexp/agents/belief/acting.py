@@ -3,7 +3,7 @@
 import numpy as np
 import torch
 
-from physexp.agents import starting
+from physexp.agents import acting, starting
 from physexp.agents.belief import config as config_lib
 from physexp.agents.belief import networks
 
@@ -53,10 +53,7 @@ class Explorer:
         interactions = np.where(is_random, drawn, interacting.argmax(1))
         beliefs = (answering + 1) / 2
         shares = (1 - _RANDOM_ANSWERS) * beliefs + _RANDOM_ANSWERS / beliefs.shape[1]
-        cumulative = shares.cumsum(1)
-        thresholds = generator.random((len(worths), 1)) * cumulative[:, -1:]
-        labels = (cumulative <= thresholds).sum(1).clip(max=beliefs.shape[1] - 1)
-        labels = np.where(is_greedy, beliefs.argmax(1), labels)
+        labels = np.where(is_greedy, beliefs.argmax(1), acting.draw(shares, generator))
         is_over = step >= self._most[active]
         is_enough = (answering.max(1) >= interacting.max(1)) & ~is_random
         is_answer = is_over | is_enough

@@ -19,7 +19,7 @@ _NOTHING = dict.fromkeys(("belief_loss", "value_loss", "gradient_norm"), math.na
 _BEST, _VARIANCE, _COUNT, _SUM, _SQUARES, _IS_WORSE = range(6)
 
 Play = Callable[[networks.BeliefNetwork, int, acting_lib.Choose], rounds.Round]
-"""Plays the round of a number with a network, which only advises, and keeps the behaviour."""
+"""Plays the round of a number with a network, which only advises, and keeps what it took in."""
 
 
 class Variables(learning.Variables[networks.BeliefNetwork]):

@@ -8,7 +8,7 @@ import numpy as np
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import checks, declarations, rendering, seeding, senses, task
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block, flag
+from physexp.suite.parts import arena, block, flag, material
 
 SUITE = containers.TaggedTasks()
 
@@ -34,7 +34,7 @@ _LEAST_TORQUE = DIFFERENCES[0] * WEIGHT * _GRAVITY * ARM  # N m, of the smallest
 # damped critically, and level again, to a reader, after 0.035 s.
 _STIFFNESS = _LEAST_TORQUE / 2 / STOP  # N m/rad
 _DAMPING = 2 * np.sqrt(_STIFFNESS * _INERTIA)  # N m s/rad
-_STOPPING = dict(solimplimit=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreflimit=[2 * PHYSICS_TIMESTEP, 1.0])
+_STOPPING = material.stop(PHYSICS_TIMESTEP)
 
 _SHORTEST_STEP = 0.08  # s: a beam is at rest, to a reader, within it
 
@@ -62,11 +62,7 @@ class Options(options_lib.Options):
 
     def __post_init__(self):
         super().__post_init__()
-        if self.control_timestep < _SHORTEST_STEP:
-            raise ValueError(
-                f"control_timestep is {self.control_timestep} s; give at least {_SHORTEST_STEP} s, in which the beam "
-                "comes to rest"
-            )
+        self.check_step(_SHORTEST_STEP, "the beam comes to rest")
         object.__setattr__(self, "difficulty", checks.one_of("difficulty", self.difficulty, (1, 2, 3)))
 
 

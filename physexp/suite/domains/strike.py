@@ -9,7 +9,7 @@ import numpy as np
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import checks, declarations, seeding, senses, task
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block, flag, puck
+from physexp.suite.parts import arena, block, flag, material, puck
 
 SUITE = containers.TaggedTasks()
 
@@ -30,9 +30,7 @@ _PLACES = np.geomspace(RATIO**-0.75, RATIO**0.75, 4)  # Where the right strike t
 PUCKS = tuple(itertools.product(range(len(STRIKES)), _FRICTIONS, _PLACES))
 """All pucks that there may be, equally likely, by the right strike, the friction, and where that strike takes it."""
 
-# As in Threshold: MuJoCo's friction is soft, and a puck would creep under a poke that is too weak to move it.
-_FRICTION = dict(solimpfriction=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreffriction=[2 * PHYSICS_TIMESTEP, 1.0])
-_BARRIER = dict(solimplimit=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreflimit=[2 * PHYSICS_TIMESTEP, 1.0])
+_FRICTION, _BARRIER = material.dry_friction(PHYSICS_TIMESTEP), material.stop(PHYSICS_TIMESTEP)
 
 _START = -0.55  # m, where the puck lies along x
 _LANE = 1.2  # m, from there to the end of the lane

@@ -63,11 +63,7 @@ class Options(options_lib.Options):
 
     def __post_init__(self):
         super().__post_init__()
-        if self.control_timestep < _SHORTEST_STEP:
-            raise ValueError(
-                f"control_timestep is {self.control_timestep} s; give at least {_SHORTEST_STEP} s, in which pucks come "
-                "home"
-            )
+        self.check_step(_SHORTEST_STEP, "pucks come home")
         object.__setattr__(
             self, "difficulty", checks.number("difficulty", self.difficulty, 1, "the odds that two are not joined")
         )

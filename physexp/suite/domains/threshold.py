@@ -8,7 +8,7 @@ import numpy as np
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import checks, declarations, rendering, seeding, senses, task
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block, flag
+from physexp.suite.parts import arena, block, flag, material
 
 SUITE = containers.TaggedTasks()
 
@@ -25,11 +25,8 @@ TRAVEL = 0.02  # m, between the stops
 # would be too small to take the block across.
 MARGIN = 0.2
 
-# MuJoCo's friction is soft: with its defaults a block creeps by 18 mm under nine tenths of the force that moves it.
-# With these settings it creeps by 0.1 mm in a push of 0.1 s, and by 1 mm in an episode of 1.5 s.
-_FRICTION = dict(solimpfriction=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreffriction=[2 * PHYSICS_TIMESTEP, 1.0])
-# At a damping ratio of 0.6, a stop pushes a block out within a few physics steps, and none bounces.
-_STOP = dict(solimplimit=[0.9999, 0.9999, 0.001, 0.5, 2.0], solreflimit=[2 * PHYSICS_TIMESTEP, 0.6])
+_FRICTION = material.dry_friction(PHYSICS_TIMESTEP)
+_STOP = material.stop(PHYSICS_TIMESTEP, damping_ratio=0.6)
 
 # s: the smallest surplus of force, MARGIN * LEVEL_SPACING, takes 0.05 s from one stop to the other.
 _SHORTEST_STEP = 0.06
@@ -57,11 +54,7 @@ class Options(options_lib.Options):
 
     def __post_init__(self):
         super().__post_init__()
-        if self.control_timestep < _SHORTEST_STEP:
-            raise ValueError(
-                f"control_timestep is {self.control_timestep} s; give at least {_SHORTEST_STEP} s, which a block needs "
-                "from one stop to the other"
-            )
+        self.check_step(_SHORTEST_STEP, "a block gets from one stop to the other")
         if self.time_limit > _LONGEST_EPISODE:
             raise ValueError(
                 f"time_limit is {self.time_limit} s; give at most {_LONGEST_EPISODE:g} s, in which a block that is "

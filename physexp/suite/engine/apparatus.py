@@ -182,7 +182,8 @@ class Apparatus:
 def slide_masses(apparatus: Apparatus, joints: tuple[str, ...], kilograms: np.ndarray) -> declarations.Fields:
     """Returns the model fields that follow from the masses, float64 [N, K], of bodies on one slide each.
 
-    They are what `mj_setConst` would compute, at a hundredth of its cost.
+    They are what `mj_setConst` would compute, at a hundredth of its cost; without those that only contacts and other
+    joints need.
     """
     dofs, bodies = apparatus.dofs(joints)
     return {"body_mass": (bodies, kilograms), "dof_M0": (dofs, kilograms), "dof_invweight0": (dofs, 1 / kilograms)}

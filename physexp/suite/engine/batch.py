@@ -168,15 +168,15 @@ class BatchEnvironment:
           As `step`.
 
         Raises:
-          ValueError: for indices out of range, or if `hidden` or `nuisances` do not have the shape of what would be
-            drawn.
+          ValueError: for indices out of range, or if `hidden` or `nuisances` do not have the shape and the kind of what
+            would be drawn; all episodes stay as they were.
           RuntimeError: if the batch is closed, or another thread is using it.
         """
         with self._guard:
             chosen = self._choose(environments)
             if episode is not None:
-                self._ledger.next_episodes[chosen] = checks.integer("episode", episode, 0, seeding.LAST_EPISODE)
-            self._reset(chosen, hidden, nuisances)
+                episode = checks.integer("episode", episode, 0, seeding.LAST_EPISODE)
+            self._reset(chosen, hidden, nuisances, episode)
             return self._time_step(chosen, np.full(len(chosen), _FIRST), np.zeros(len(chosen)), np.ones(len(chosen)))
 
     def step(self, actions: np.ndarray, environments: np.ndarray | None = None) -> dm_env.TimeStep:
@@ -274,9 +274,11 @@ class BatchEnvironment:
         """Returns images for people of all environments, uint8 [B, size, size, 3].
 
         Raises:
+          ValueError: if `size` is no positive number of pixels that can be drawn.
           RuntimeError: if there is no episode to show, the batch is closed, another thread is using it, or no GL
             backend works.
         """
+        checks.integer("size", size, 1, rendering.LARGEST)
         with self._guard:
             chosen = self._choose(None)
             if not self._ledger.has_begun:
@@ -337,10 +339,16 @@ class BatchEnvironment:
             return [(self._group(0), slice(None))] if len(chosen) else []
         return [(self._group(int(s)), np.flatnonzero(structures == s)) for s in np.unique(structures)]
 
-    def _reset(self, chosen: np.ndarray, hidden: np.ndarray | None = None, nuisances: np.ndarray | None = None) -> None:
+    def _reset(
+        self,
+        chosen: np.ndarray,
+        hidden: np.ndarray | None = None,
+        nuisances: np.ndarray | None = None,
+        episode: int | None = None,
+    ) -> None:
         if not len(chosen):
             return
-        self._ledger.begin(chosen, hidden, nuisances)
+        self._ledger.begin(chosen, hidden, nuisances, episode)
         for group, members in self._by_structure(chosen):
             rows = chosen[members]
             group.reset(rows, self._ledger.hidden[rows], self._ledger.nuisances[rows])
@@ -461,16 +469,12 @@ class _Group:
     def poses(self, rows) -> tuple[np.ndarray, np.ndarray]:
         """Returns where the geoms are: positions, m, and rotations, [number of rows, ngeom, 3 and 9].
 
-        They are computed from the coordinates, since a reset leaves a row's own `geom_xpos` and `geom_xmat` outdated.
+        They are computed anew, since a row that has been reset or restored shows what it showed before.
         """
-        model = self.apparatus.model
-        data = mujoco.MjData(model)
-        positions, rotations = np.zeros((len(rows), model.ngeom, 3)), np.zeros((len(rows), model.ngeom, 9))
-        for i, row in enumerate(rows):
-            data.qpos[:] = self._qpos[row]
-            mujoco.mj_kinematics(model, data)
-            positions[i], rotations[i] = data.geom_xpos, data.geom_xmat
-        at_rest = self._is_at_rest[rows, None]  # Where what the sensors last showed is of an earlier episode.
+        fields = [self._batch.bind(field) for field in ("geom_xpos", "geom_xmat")]  # Written to by what is called next.
+        self._batch.forward(ids=rows, stage=mujoco.mjtStage.mjSTAGE_POS)
+        positions, rotations = (values[rows].reshape(len(rows), self.apparatus.model.ngeom, -1) for values in fields)
+        at_rest = self._is_at_rest[rows, None]  # Where nothing is measured yet.
         first = self._starts.shown["sensordata"][rows]
         self.apparatus.indicate(positions, np.where(at_rest, first, self._sensordata[rows]))
         return positions, rotations

@@ -47,12 +47,13 @@ class Environment(composer.Environment):
           hidden: its hidden property, for analysis; by default it is drawn.
 
         Raises:
-          ValueError: if `hidden` does not have the shape of what would be drawn.
+          ValueError: if `hidden` does not have the shape and the kind of what would be drawn.
           RuntimeError: if the environment is closed, or another thread is using it.
         """
         with self._guard:
             self._check_open()
-            self._task.give_hidden(hidden)
+            if hidden is not None:
+                self._task.give_hidden(hidden)
             return self._flattened(super().reset())
 
     def step(self, action) -> dm_env.TimeStep:

@@ -52,39 +52,41 @@ class Ledger:
             raise RuntimeError("no episode has been started; call reset() first")
         return self._hidden
 
-    def begin(self, rows: np.ndarray, hidden: Any = None, nuisances: Any = None) -> None:
-        """Starts the next episode of some environments.
+    def begin(self, rows: np.ndarray, hidden: Any = None, nuisances: Any = None, episode: int | None = None) -> None:
+        """Starts an episode of some environments; what is refused changes nothing.
 
         Args:
           rows: which, int [K].
           hidden: their hidden properties, [K, ...]; by default those that follow from seed and episode.
           nuisances: what they differ in beside, [K, number of nuisances]; by default the same.
+          episode: index of the episode, the same in each; by default that of the one that is next.
 
         Raises:
-          ValueError: if `hidden` or `nuisances` do not have the shape of what would be drawn.
+          ValueError: if `hidden` or `nuisances` do not have the shape and the kind of what would be drawn.
         """
-        drawn = self._task.draw(self.seeds[rows], self.next_episodes[rows])
-        differing = self._draw_nuisances(rows)
+        indices = self.next_episodes[rows] if episode is None else np.full(len(rows), episode)
+        drawn = self._task.draw(self.seeds[rows], indices)
+        differing = self._draw_nuisances(rows, indices)
         if nuisances is not None:
             differing = _checked("nuisances", nuisances, differing)
         if hidden is not None:
             drawn = _checked("hidden", hidden, drawn)
+        answers, structures = self._task.answers(drawn), self._task.structures(drawn)
         if self._hidden is None:
             self._hidden = np.zeros((len(self.seeds), *drawn.shape[1:]), drawn.dtype)
         self._hidden[rows] = drawn
-        self.answers[rows] = self._task.answers(drawn)
-        self.structures[rows] = self._task.structures(drawn)
+        self.answers[rows], self.structures[rows] = answers, structures
         self.nuisances[rows] = differing
-        self.next_episodes[rows] += 1
+        self.next_episodes[rows] = indices + 1
         self.steps[rows] = 0
         self.touched[rows] = False
         self.over[rows] = False
 
-    def _draw_nuisances(self, rows: np.ndarray) -> np.ndarray:
+    def _draw_nuisances(self, rows: np.ndarray, indices: np.ndarray) -> np.ndarray:
         count = self.nuisances.shape[1]
         if not count:
             return self.nuisances[rows]
-        drawn = seeding.variations(self.seeds[rows], self.next_episodes[rows], count)
+        drawn = seeding.variations(self.seeds[rows], indices, count)
         return self._task.options.variation * drawn
 
     def judge(self, rows: np.ndarray, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -105,6 +107,8 @@ class Ledger:
 def _checked(name: str, given: Any, drawn: np.ndarray) -> np.ndarray:
     """Returns what is given in place of what would be drawn."""
     values = np.asarray(given)
-    if values.shape != drawn.shape:
-        raise ValueError(f"{name} is {checks.shown(given)}; give an array of shape {drawn.shape}")
+    if values.shape != drawn.shape or not np.can_cast(values.dtype, drawn.dtype, "same_kind"):
+        raise ValueError(f"{name} is {checks.shown(given)}; give an array of shape {drawn.shape}, {drawn.dtype}")
+    if drawn.dtype.kind == "i" and (values < 0).any():  # Whole numbers are indices.
+        raise ValueError(f"{name} is {checks.shown(given)}; give indices >= 0")
     return values.astype(drawn.dtype)

@@ -46,11 +46,27 @@ class Options:
             object.__setattr__(self, name, seconds)
         object.__setattr__(self, "variation", checks.between("variation", self.variation, 0, 1))
         object.__setattr__(self, "noise", checks.number("noise", self.noise, 0, "m"))
-        object.__setattr__(self, "reveal", checks.flag("reveal", self.reveal))
+        for name in ("reveal", "visualize_reward"):
+            object.__setattr__(self, name, checks.flag(name, getattr(self, name)))
         if self.substeps < 1 or abs(self.substeps * self.physics_timestep - self.control_timestep) > 1e-9:
             raise ValueError(
                 f"control_timestep is {self.control_timestep} s; "
                 f"give a multiple of the physics step, {self.physics_timestep} s"
+            )
+
+    def check_step(self, shortest: float, meanwhile: str) -> None:
+        """Refuses a control step in which less happens than the question needs.
+
+        Args:
+          shortest: the least, s.
+          meanwhile: what happens in it, in words.
+
+        Raises:
+          ValueError: if the control step is shorter.
+        """
+        if self.control_timestep < shortest:
+            raise ValueError(
+                f"control_timestep is {self.control_timestep} s; give at least {shortest} s, in which {meanwhile}"
             )
 
     @property

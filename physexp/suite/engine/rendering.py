@@ -12,6 +12,7 @@ from physexp.suite.engine import gl
 
 SIZE = 84  # pixels, the edge of an image (paper, Section 4)
 SIZE_FOR_PEOPLE = 480  # pixels
+LARGEST = 4096  # pixels, that people may ask for
 UNDRAWN_GROUP = 4  # Of geoms that are in no image.
 
 

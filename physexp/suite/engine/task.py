@@ -237,8 +237,8 @@ class QuestionTask(composer.Task):
         return self._action >= self.num_interactions
 
     def give_hidden(self, hidden: Any) -> None:
-        """Makes the next reset start an episode with this hidden property, [...]; None to draw it. For analysis."""
-        self._given_hidden = None if hidden is None else np.asarray(hidden)[None]
+        """Makes the next reset start an episode with this hidden property, [...]. For analysis."""
+        self._given_hidden = np.asarray(hidden)[None]
 
     def action_spec(self, physics=None) -> specs.DiscreteArray:
         return specs.DiscreteArray(self.rules.num_actions, dtype=np.int32, name="action")

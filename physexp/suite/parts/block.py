@@ -1,4 +1,4 @@
-"""The block: a cube, which every question so far is about."""
+"""The block: a cube."""
 
 from dm_control import composer, mjcf
 

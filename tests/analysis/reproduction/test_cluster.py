@@ -176,9 +176,10 @@ def test_whoever_dies_training_ends_as_if_nobody_had(nodes, tmp_path):
     assert_learned_and_recorded(run)
 
 
-def test_one_worker_on_a_cluster_learns_the_same_as_here_to_the_last_bit(nodes, tmp_path):
+@pytest.mark.parametrize("task, frames", [("features", 20_000), ("pixels", 2_000)])
+def test_one_worker_on_a_cluster_learns_the_same_as_here_to_the_last_bit(nodes, tmp_path, task, frames):
     seed = fresh_seed()
-    here, there = (trainers.create(tmp_path / name, frames=20_000, seed=seed) for name in ("here", "there"))
+    here, there = (trainers.create(tmp_path / name, task=task, frames=frames, seed=seed) for name in ("here", "there"))
     trainer.train(here)
     trainer.train(there, on_cluster=True)
     for name, value in here.checkpointer.latest()[0].items():
