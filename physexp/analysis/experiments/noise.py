@@ -102,6 +102,7 @@ def find_claims(frame) -> list[claims.Claim]:
             statistic="share of its return, median of agents",
             estimate=estimates.median([agent.share.mean() for agent in noisy]),
             above=LEAST_SHARE,
+            reason="They read noise worse than Bayes' rule does, and poke more often for that (docs/belief.md).",
         ),
     ]
     if EXACT in again and len(again):
