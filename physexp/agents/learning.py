@@ -7,6 +7,7 @@ import numpy as np
 import torch
 
 from physexp.agents import checkpointing, core, losses, networks, rounds
+from physexp.agents import config as config_lib
 
 Network = TypeVar("Network", bound=networks.RecurrentNetwork)
 
@@ -124,6 +125,36 @@ def targets(episodes: rounds.Round, values: torch.Tensor, discount: float, trace
     returns = losses.discounted_returns(rewards, discounts)
     advantages = losses.generalized_advantages(rewards, discounts, padded_values, trace)
     return returns[played], advantages[played]
+
+
+def actor_critic_gradients(
+    network: torch.nn.Module,
+    parts: tuple[torch.Tensor, torch.Tensor, torch.Tensor],
+    entropy_cost: float,
+    config: config_lib.ActorCriticConfig,
+    arrays: Callable[[], dict[str, np.ndarray]],
+) -> tuple[list[torch.Tensor], dict[str, float]]:
+    """Returns the gradient of an actor-critic's loss for each parameter, clipped, and the figures of metrics.
+
+    Args:
+      network: whose parameters they are of.
+      parts: the loss of the policy, that of the baseline, and the entropy.
+      entropy_cost: weight of the entropy.
+      config: the agent's configuration.
+      arrays: returns what the loss was computed from.
+
+    Raises:
+      DivergedError: as `clipped_gradients`.
+    """
+    policy_loss, baseline_loss, entropy = parts
+    loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
+    gradients, norm = clipped_gradients(network, loss, config.max_gradient_norm, arrays)
+    return gradients, {
+        "policy_loss": policy_loss.item(),
+        "baseline_loss": baseline_loss.item(),
+        "entropy": entropy.item(),
+        "gradient_norm": norm,
+    }
 
 
 def clipped_gradients(

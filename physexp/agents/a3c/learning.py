@@ -184,19 +184,11 @@ class A3CLearner(core.Learner):
         config = self._config
         learning_rate, entropy_cost = config.at(min(1.0, pulled.frames / config.frames))
         self.last_round = episodes = self._play(pulled.episode)
-        policy_loss, baseline_loss, entropy = round_losses(
-            self._network, episodes, config.discount, config.trace, config.entropy_prior
+        parts = round_losses(self._network, episodes, config.discount, config.trace, config.entropy_prior)
+        gradients, metrics = learning.actor_critic_gradients(
+            self._network, parts, entropy_cost, config, episodes.arrays
         )
-        loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
-        gradients, norm = learning.clipped_gradients(self._network, loss, config.max_gradient_norm, episodes.arrays)
-        metrics = {
-            "policy_loss": policy_loss.item(),
-            "baseline_loss": baseline_loss.item(),
-            "entropy": entropy.item(),
-            "gradient_norm": norm,
-            "learning_rate": learning_rate,
-            "entropy_cost": entropy_cost,
-        }
+        metrics |= {"learning_rate": learning_rate, "entropy_cost": entropy_cost}
         return Contribution(self._worker, pulled, gradients, learning_rate, metrics, episodes.record())
 
     def get_variables(self):

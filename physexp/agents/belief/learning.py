@@ -136,7 +136,7 @@ class BeliefLearner(synchronous.SynchronousLearner):
         beliefs = their_logits.softmax(-1)
         best = (shares.detach() * learns[..., None]).sum(0).argmax(-1)  # As those who learn from the episode see it.
         targets = losses.interaction_targets(
-            2 * beliefs.amax(-1) - 1,
+            losses.worth_of_answers(beliefs.amax(-1)),
             network.values(beliefs, their_shares).gather(-1, best[..., None])[..., 0],
             best == actions,
             are_last,

@@ -7,6 +7,11 @@ import torch
 from torch.nn import functional
 
 
+def worth_of_answers(beliefs: torch.Tensor) -> torch.Tensor:
+    """Returns the expected rewards of answers that are right with these probabilities, a tensor of any shape."""
+    return 2 * beliefs - 1
+
+
 def hindsight(logits: torch.Tensor, answers: torch.Tensor, are_right: torch.Tensor) -> torch.Tensor:
     """Returns what an answer and its reward tell of the label, by Bayes' rule.
 

@@ -11,6 +11,7 @@ from torch.nn import functional
 
 from physexp.agents import core, devices, networks
 from physexp.agents.belief import config as config_lib
+from physexp.agents.belief import losses
 
 _NUM_HEADS = 4
 _PIXEL_SCALE = 10.0  # What changes in an image is of the order of a tenth of its range.
@@ -122,7 +123,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         values = self.values(beliefs, shares[:, :, -1].mean(0))
         if seen.shape[2] > self.most_interactions:
             values = torch.full_like(values, -1.0)
-        worths = torch.cat([values, 2 * beliefs - 1], dim=1)
+        worths = torch.cat([values, losses.worth_of_answers(beliefs)], dim=1)
         return worths / _TEMPERATURE, worths.max(1).values, (seen, done)
 
     def note(self, actions, state):
@@ -138,7 +139,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
 
     def values(self, beliefs: torch.Tensor, shares: torch.Tensor) -> torch.Tensor:
         """Returns the values Q of interactions, [..., I], of beliefs [..., L] and shares x, [..., I]."""
-        answering = 2 * beliefs.amax(-1, keepdim=True) - 1
+        answering = losses.worth_of_answers(beliefs.amax(-1, keepdim=True))
         return self.discount * (answering + (1 - answering) * shares)
 
     def unroll(

@@ -53,7 +53,7 @@ class PPOLearner(synchronous.SynchronousLearner):
         logits, values = network.unroll(network.encode(behaviour.observation), episodes.batch_sizes)
         returns, advantages = learning.targets(episodes, behaviour.values, config.discount, config.trace)
         device = logits.device
-        policy_loss, baseline_loss, entropy = losses.clipped_losses(
+        parts = losses.clipped_losses(
             logits,
             values,
             episodes.packed(episodes.actions).to(device),
@@ -63,15 +63,9 @@ class PPOLearner(synchronous.SynchronousLearner):
             config.clip,
             config.entropy_prior,
         )
-        loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
-        gradients, norm = learning.clipped_gradients(network, loss, config.max_gradient_norm, episodes.arrays)
+        gradients, metrics = learning.actor_critic_gradients(network, parts, entropy_cost, config, episodes.arrays)
         self.variables.apply(gradients, learning_rate)
-        return {
-            "policy_loss": policy_loss.item(),
-            "baseline_loss": baseline_loss.item(),
-            "entropy": entropy.item(),
-            "gradient_norm": norm,
-        }
+        return metrics
 
 
 def _standardized(advantages: torch.Tensor) -> torch.Tensor:
