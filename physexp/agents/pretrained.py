@@ -65,7 +65,7 @@ def names(folder: Path = FOLDER) -> list[str]:
 
 
 def load(
-    domain: str, task: str, *values: Any, agent: str | None = None, folder: Path = FOLDER, **options: Any
+    domain: str, task: str, *values: Any, agent: str | None = None, folder: str | Path = FOLDER, **options: Any
 ) -> Pretrained:
     """Loads a trained agent.
 
@@ -81,6 +81,7 @@ def load(
       OSError: if its files cannot be read.
       ValueError: where there is no such agent, and it lists those that there are; or if its files are damaged.
     """
+    folder = Path(folder)
     if agent is not None:
         return _load_of(agent, domain, task, values, folder, options)
     base = name(domain, task, {})

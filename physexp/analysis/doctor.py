@@ -66,9 +66,10 @@ def _core() -> Iterator[dict]:
         try:
             importlib.import_module(module)
         except Exception as error:  # Whatever a library that is broken raises is what the user wants to read.
-            yield _check(
-                f"import {module}", _in_a_line(error), BROKEN, "install physexp anew, into an environment of its own"
-            )
+            advice = "install physexp anew, into an environment of its own"
+            if "MUJOCO_GL" in str(error):
+                advice = "unset MUJOCO_GL, or set it to egl, osmesa or glfw"
+            yield _check(f"import {module}", _in_a_line(error), BROKEN, advice)
             return
     try:
         from physexp import suite

@@ -129,15 +129,18 @@ class Publish:
       run_dir: the folder of a run.
       output_dir: where the agent and its model card go; by default into the package.
       episodes: how many to play for the evaluation on the card.
+      replace: put the agent in the place of the one that may be there.
     """
 
     run_dir: Annotated[Positional[Path], tyro.conf.arg(metavar="RUN")]
     output_dir: OptionalPath = None
     episodes: int = 10_000
+    replace: Switch = False
 
     def run(self) -> None:
         from physexp.agents import pretrained
         from physexp.analysis.evaluation import publishing
         from physexp.analysis.training import run as run_lib
 
-        print(publishing.publish(run_lib.Run(self.run_dir), self.output_dir or pretrained.FOLDER, self.episodes))
+        folder = self.output_dir or pretrained.FOLDER
+        print(publishing.publish(run_lib.Run(self.run_dir), folder, self.episodes, self.replace))

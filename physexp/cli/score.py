@@ -62,6 +62,7 @@ class Score:
         usual = protocol.QUICK_EPISODES if self.quick else protocol.EPISODES
         count = usual if self.episodes is None else self.episodes
         folder = self.output or Path("scores") / targets.file_name(self.target)
+        made = self._made()
         try:
             with progress.bar("episodes", count * len(chosen)) as show:
                 found = scoring.score(
@@ -71,7 +72,7 @@ class Score:
                     folder,
                     greedy=self.greedy,
                     timeout=self.timeout,
-                    made=self._made(),
+                    made=made,
                     show=show,
                 )
             report.write(folder)
@@ -86,8 +87,12 @@ class Score:
         print(folder)
 
     def _made(self) -> dict:
-        """Returns what was said of how the agent was made."""
-        seconds = None if self.minutes is None else 60 * self.minutes
+        """Returns what was said of how the agent was made; raises ValueError for numbers that make no sense."""
+        from physexp.suite.engine import checks
+
+        if self.frames is not None:
+            checks.integer("frames", self.frames, 0, 2**63 - 1)
+        seconds = None if self.minutes is None else 60 * checks.number("minutes", self.minutes, 0, "min")
         said = {"algorithm": self.algorithm, "frames": self.frames, "seconds": seconds}
         return {name: value for name, value in said.items() if value is not None}
 
@@ -137,15 +142,17 @@ class Verify:
         from physexp.analysis.score import scoring, verifying
         from physexp.analysis.training import progress
 
-        asked = scoring.read(self.folder)["protocol"]
+        stored = scoring.read(self.folder)
+        asked = stored["protocol"]
         with progress.bar("episodes", asked["episodes"] * len(asked["tasks"])) as show:
             found = verifying.verify(self.folder, show)
         if self.json:
-            printing.show(found, as_json=True)
-        else:
-            print(
-                f"OK: {found['episodes']:,} episodes were played so, by {found['target']}; score {found['score']:.4f}"
-            )
+            printing.show({**found, "complete": stored["complete"]}, as_json=True)
+            return
+        part = "" if stored["complete"] else f"; it is a part, of {asked['episodes'] * len(asked['tasks']):,} episodes"
+        print(
+            f"OK: {found['episodes']:,} episodes were played so, by {found['target']}; score {found['score']:.4f}{part}"
+        )
 
 
 @dataclasses.dataclass

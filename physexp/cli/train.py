@@ -62,9 +62,10 @@ class Train(Generic[Config, options_lib.Options]):
         )
         run = run_lib.Run(self.run_dir or Path("runs") / config.name)
         if self.resume:
-            config = run.config
+            wanted, config = config, run.config
             if (config.domain, config.task) != (self.domain, self.task):
                 raise ValueError(f"{run.path} holds a run of {config.domain}/{config.task}; name that task")
+            self._refuse_others(wanted, config, run.path)
         trainer.check(config, self.cluster is not None)
         try:
             with contextlib.ExitStack() as stack:
@@ -97,6 +98,20 @@ class Train(Generic[Config, options_lib.Options]):
         if problem := verdict.of_run(run):
             printing.warn(f"{problem}\n{verdict.advice(config)}")
         print(run.path)
+
+    def _refuse_others(self, wanted: config_lib.TrainConfig, config: config_lib.TrainConfig, path: Path) -> None:
+        """Refuses options that are chosen and differ from those that a run goes on with: raises ValueError."""
+        usual = dataclasses.asdict(config_lib.preset(self.domain, self.task, algorithm=self.agent))
+        agent = {"agent": self.agent} if self.agent != config_lib.DEFAULT_ALGORITHM else {}
+        chosen = {name: value for name, value in dataclasses.asdict(wanted.agent).items() if value != usual[name]}
+        begun = {"agent": config.agent.algorithm, **config.task_kwargs, **dataclasses.asdict(config.agent)}
+        for name, value in {**agent, **wanted.task_kwargs, **chosen}.items():
+            if begun.get(name) != value:
+                there = config_lib.shown(begun[name]) if name in begun else "not chosen"
+                raise ValueError(
+                    f"{name} is {config_lib.shown(value)}, and in {path} it is {there}; leave it out to go on with "
+                    "that, or train anew in another --run-dir"
+                )
 
     def _tell_how_to_go_on(self, run) -> None:
         """Names the last checkpoint of a run that was interrupted, and the command that goes on from it."""

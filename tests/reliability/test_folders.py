@@ -192,7 +192,7 @@ def test_a_full_disk_costs_no_agent_and_no_replay(command, kind, expected, tmp_p
     there = tmp_path / "there"
     there.mkdir()
     words = {
-        "publish": ["publish", run.path, "--output-dir", there, "--episodes", 2],
+        "publish": ["publish", run.path, "--output-dir", there, "--episodes", 2, "--replace"],
         "replay": ["replay", run.path, "--output", there / "replay.rrd", "--episodes", 2],
     }[command]
     assert attacks.run(commands.physexp, *words).code == 0

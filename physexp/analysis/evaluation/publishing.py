@@ -11,19 +11,26 @@ from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 
 
-def publish(run: run_lib.Run, folder: Path, num_episodes: int) -> Path:
+def publish(run: run_lib.Run, folder: Path, num_episodes: int, replaces: bool = False) -> Path:
     """Evaluates a run's agent as it will be kept, in half precision, and writes it and its card; returns the card.
 
     Args:
       run: a run with a checkpoint.
       folder: where the agent goes.
       num_episodes: how many episodes the evaluation plays.
+      replaces: whether it takes the place of the agent that may be there.
 
     Raises:
+      FileExistsError: if there is one, and it does not.
       OSError: if it cannot be written.
       ValueError: if the run's files are damaged or say too little; the line says what to do. Nothing is written then.
     """
     config, created = run.config, run.facts
+    there = folder / f"{pretrained.name(config.domain, config.task, config.task_kwargs)}.json"
+    if there.exists() and not replaces:
+        raise FileExistsError(
+            f"{there} is an agent already; give --replace to put this one in its place, or another --output-dir"
+        )
     frames, seconds = progress(run)
     network = playing.load_network(run)
     checkpointing.agent_bytes(network.state_dict())  # Refuses weights that cannot be kept before anything is played.

@@ -19,7 +19,10 @@ class Policy(core.Actor):
         self._state = None
 
     def select_action(self, observation):
-        action, self._state = self._policy(observation, self._state)
+        returned = self._policy(observation, self._state)
+        if not isinstance(returned, (tuple, list)) or len(returned) != 2:
+            raise TypeError(f"a policy returns an action and the next state; this one has returned {returned!r:.100}")
+        action, self._state = returned
         return action
 
     def observe(self, action, next_timestep):

@@ -8,12 +8,14 @@ import json
 import multiprocessing
 import os
 import sys
+import sysconfig
 import traceback
 from typing import Any
 
 import dm_env
 import numpy as np
 
+import physexp
 from physexp.agents import processes
 from physexp.analysis.score import episodes, protocol, targets
 
@@ -132,9 +134,17 @@ def _plain(action: Any) -> Any:
 
 
 def _described(error: Exception) -> str:
-    """Returns an error in one line, with the place of the code that raised it, where that is not ours."""
+    """Returns an error in one line, with the place in the code that plays: the last one that is no library's."""
     if isinstance(error, targets.TargetError):
         return str(error)
-    frame = traceback.extract_tb(error.__traceback__)[-1]
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [frame for frame in frames if not _is_of_a_library(frame.filename)]
     message = " ".join(str(error).split())[:_LONGEST]
-    return f"{type(error).__name__}: {message}, {os.path.basename(frame.filename)}:{frame.lineno}"
+    place = f", {os.path.basename(own[-1].filename)}:{own[-1].lineno}" if own else ""
+    return f"{type(error).__name__}: {message}{place}"
+
+
+def _is_of_a_library(path: str) -> bool:
+    """Returns whether a source file is Python's, an installed library's, or this package's."""
+    libraries = (*map(sysconfig.get_path, ("stdlib", "purelib", "platlib")), os.path.dirname(physexp.__file__))
+    return path.startswith(("<", *libraries))

@@ -143,7 +143,7 @@ def _made(agent: Mapping[str, Any]) -> str:
     known = [text.format(agent[name]) for name, text in words.items() if agent.get(name) is not None]
     if agent.get("commit") is not None:
         known.append(f"commit {provenance.shortened(agent['commit'])}")
-    return ", ".join([agent["algorithm"]] * ("algorithm" in agent) + known)
+    return ", ".join(([agent["algorithm"]] if "algorithm" in agent else []) + known)
 
 
 def _html(found: Mapping[str, Any]) -> str:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent import futures
+import contextlib
 import dataclasses
 import json
 from pathlib import Path
@@ -90,6 +91,9 @@ def score(
                 judges.wait([part.judged for part in parts])
                 ended = {"complete": not problem, "problem": problem}
                 written = _write(folder, parts, begun, {**facts, **ended})
+            else:
+                with contextlib.suppress(OSError):  # Somebody else has put something there.
+                    folder.rmdir()
     return written
 
 
@@ -171,10 +175,12 @@ def read(folder: Path) -> dict[str, Any]:
     """Returns what `score.json` holds, of this version of the protocol.
 
     Raises:
-      OSError: if there is none.
-      ValueError: if it is not what was written.
+      OSError: if it cannot be read.
+      ValueError: if there is none, or it is not what was written.
     """
     path = folder / FILE
+    if not path.exists():
+        raise ValueError(f"{folder} holds no score ({FILE}); give a folder that `physexp score` has written")
     found = files.read_json(path)
     version = found.get("version") if isinstance(found, dict) else None
     if version != protocol.VERSION:

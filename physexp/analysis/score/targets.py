@@ -50,7 +50,10 @@ def suitable(target: str) -> "tuple[protocol.Question, ...] | None":
         others = ", ".join([*_all_baselines(), SHIPPED, *config_lib.ALGORITHMS])
         raise ValueError(f"{error}; or give {others}, or MODULE:FUNCTION") from None
     if not publishing.is_default(config):
-        raise ValueError(f"{target} was trained with {dict(config.task_kwargs)}; score an agent of the usual task")
+        raise ValueError(
+            f"{target} was trained with {dict(config.task_kwargs)}; what is scored is the task without options: train "
+            "an agent without them"
+        )
     return (protocol.question(config.domain, config.task),)
 
 

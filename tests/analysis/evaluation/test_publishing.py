@@ -151,6 +151,14 @@ def test_a_run_whose_metrics_say_too_little_is_refused_in_one_line(metrics, publ
     assert not (tmp_path / "agents").exists()
 
 
+def test_an_agent_that_is_there_is_replaced_only_where_that_is_asked_for(published):
+    run, path = published
+    before = path.read_bytes()
+    with pytest.raises(FileExistsError, match=f"{path} is an agent already; give --replace"):
+        publishing.publish(run, path.parent, num_episodes=1)
+    assert path.read_bytes() == before
+
+
 def test_a_run_of_another_format_is_not_published(published, tmp_path):
     run = copy_of(published[0], tmp_path / "run")
     (run.path / "config.json").write_text(json.dumps({**run.facts, "format": 99}))

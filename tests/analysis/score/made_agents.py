@@ -63,6 +63,20 @@ _MODULE = textwrap.dedent(
         return _after_two_episodes(_fail)
 
 
+    def opens_what_is_not_there(question):
+        return _after_two_episodes(lambda: Path("nowhere").read_text())
+
+
+    def returns_no_pair(question):
+        fails = _after_two_episodes(lambda: None)
+
+        def policy(observation, state):
+            action, state = fails(observation, state)
+            return 3 if action is None else (action, state)
+
+        return policy
+
+
     def exits(question):
         return _after_two_episodes(lambda: sys.exit(7))
 

@@ -74,6 +74,8 @@ def test_an_actor_is_told_what_a_dm_env_environment_tells_and_what_it_prints_is_
     ("target", "said"),
     [
         ("made:raises", r"failed: KeyError: 'no such thing', made.py:\d+ \(threshold/features, episode 2, step 0\)"),
+        ("made:opens_what_is_not_there", r"failed: FileNotFoundError: .*, made.py:\d+ \(threshold/features"),
+        ("made:returns_no_pair", r"failed: TypeError: a policy returns an action and the next state; .* returned 3 \("),
         ("made:exits", r"ended its process, exit code 7 \(threshold/features, episode 2, step 0\)"),
         ("made:dies", r"ended its process, exit code -9 \(threshold/features, episode 2, step 0\)"),
         ("made:chooses_text", r"chose 'push', which is no action \(.* step 0\); return an integer from 0 to 15"),
@@ -116,7 +118,7 @@ def test_what_cannot_play_is_told_before_anything_is_played(target, said):
     with pytest.raises(player.PlayerError, match="before the first episode") as error:
         score(target)
     assert str(error.value).startswith(f"{target} failed: {said}")
-    assert not any(Path("scored").iterdir()), "so that it can be tried again"
+    assert not Path("scored").exists(), "so that it can be tried again"
 
 
 def test_what_is_no_target_is_refused_with_what_there_is():
@@ -214,15 +216,22 @@ def test_the_log_has_a_row_for_each_action_and_rebuilds_each_instance():
 
 
 def test_the_command_scores_and_verifies(here):
-    done = commands.run("score", "halving:policy", "--tasks", "threshold/features", "--episodes", "3", cwd=here)
+    words = ["score", "halving:policy", "--tasks", "threshold/features", "--episodes", "3", "--minutes", "2"]
+    done = commands.run(*words, cwd=here)
     assert done.returncode == 0, done.stderr
+    assert (here / "scores/halving_policy/report.html").exists()
     head, line, folder = done.stdout.splitlines()
     assert head.split()[:2] == ["task", "score"] and folder == "scores/halving_policy"
     assert line.split() == ["threshold/features", "1.0000", "1.0000", "to", "1.0000", "1.0000", "3.0000", "nothing"]
     done = commands.run("verify", folder, cwd=here)
     assert done.stdout == "OK: 3 episodes were played so, by halving:policy; score 1.0000\n"
     done = commands.run("verify", folder, "--json", cwd=here)
-    assert json.loads(done.stdout) == {"episodes": 3, "actions": 12, "target": "halving:policy", "score": 1.0}
+    played = {"episodes": 3, "actions": 12, "target": "halving:policy", "score": 1.0}
+    assert json.loads(done.stdout) == played | {"complete": True}
+    refused = commands.run("verify", "nowhere", cwd=here)
+    assert refused.stderr == (
+        "physexp: nowhere holds no score (score.json); give a folder that `physexp score` has written\n"
+    )
 
 
 def test_of_a_team_in_a_team_each_agent_counts_once():
@@ -239,6 +248,9 @@ def test_of_a_team_in_a_team_each_agent_counts_once():
         (["threshold/features", "--tasks", "strings/features"], "threshold/features does not play strings/features; "),
         (["halving:policy", "--episodes", "0"], "episodes is 0; give a number from 1 to 100,000"),
         (["halving:policy", "--timeout", "0"], "timeout is 0; give seconds > 0"),
+        (["halving:policy", "--minutes", "nan"], "minutes is nan; give "),
+        (["halving:policy", "--minutes", "-1"], "minutes is -1"),
+        (["halving:policy", "--frames", "-3"], "frames is -3; give an integer >= 0"),
         (["halving:policy", "--output", "."], ". exists and is not empty; give another --output"),
     ],
 )
@@ -258,6 +270,10 @@ def test_ctrl_c_keeps_what_was_played(here):
     assert errors == "the episodes that were played are in kept\nphysexp: interrupted\n"
     kept = scoring.read(here / "kept")
     assert not kept["complete"] and kept["tasks"]["threshold/features"]["episodes"] == 2
+    done = commands.run("verify", "kept", cwd=here)
+    assert (
+        done.stdout.startswith("OK: 2 episodes were played so") and "; it is a part, of 1,000 episodes" in done.stdout
+    )
 
 
 def test_judges_that_nobody_waits_for_are_ended():

@@ -117,6 +117,22 @@ def test_ctrl_c_before_anything_was_learned_leaves_no_folder(starting, tmp_path)
     assert os.listdir(tmp_path) == []
 
 
+@pytest.mark.parametrize(
+    "option, said",
+    [
+        (["--frames", 9000], "frames is 9000, and in {} it is 2000; leave it out"),
+        (["--agent", "belief"], "agent is belief, and in {} it is ppo; leave it out"),
+        (["--difficulty", 3], "difficulty is 3, and in {} it is 10; leave it out"),
+        (["--variation", 0.5], "variation is 0.5, and in {} it is not chosen; leave it out"),
+    ],
+)
+def test_options_that_a_run_was_not_begun_with_are_not_ignored_when_it_goes_on(option, said, tmp_path, capsys):
+    run = run_lib.Run(tmp_path / "run")
+    run.create(small())
+    line = refusal(capsys, "train", *TASK, "--run-dir", run.path, "--resume", *option)
+    assert said.format(run.path) in line
+
+
 def test_records_without_a_checkpoint_are_not_resumed_but_moved_aside_by_a_new_start(tmp_path, capsys):
     run = run_lib.Run(tmp_path / "run")
     run.create(small())
