@@ -143,13 +143,13 @@ class Verify:
         from physexp.analysis.training import progress
 
         stored = scoring.read(self.folder)
-        asked = stored["protocol"]
-        with progress.bar("episodes", asked["episodes"] * len(asked["tasks"])) as show:
+        count = stored["protocol"]["episodes"] * len(stored["protocol"]["tasks"])
+        with progress.bar("episodes", count) as show:
             found = verifying.verify(self.folder, show)
         if self.json:
             printing.show({**found, "complete": stored["complete"]}, as_json=True)
             return
-        part = "" if stored["complete"] else f"; it is a part, of {asked['episodes'] * len(asked['tasks']):,} episodes"
+        part = "" if stored["complete"] else f"; it is a part, of {count:,} episodes"
         print(
             f"OK: {found['episodes']:,} episodes were played so, by {found['target']}; score {found['score']:.4f}{part}"
         )

@@ -26,10 +26,11 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int, replaces: bool = 
       ValueError: if the run's files are damaged or say too little; the line says what to do. Nothing is written then.
     """
     config, created = run.config, run.facts
-    there = folder / f"{pretrained.name(config.domain, config.task, config.task_kwargs)}.json"
-    if there.exists() and not replaces:
+    name = pretrained.name(config.domain, config.task, config.task_kwargs)
+    if name in pretrained.names(folder) and not replaces:
         raise FileExistsError(
-            f"{there} is an agent already; give --replace to put this one in its place, or another --output-dir"
+            f"{folder / name}.json is an agent already; give --replace to put this one in its place, or another "
+            "--output-dir"
         )
     frames, seconds = progress(run)
     network = playing.load_network(run)

@@ -146,5 +146,5 @@ def _described(error: Exception) -> str:
 
 def _is_of_a_library(path: str) -> bool:
     """Returns whether a source file is Python's, an installed library's, or this package's."""
-    libraries = (*map(sysconfig.get_path, ("stdlib", "purelib", "platlib")), os.path.dirname(physexp.__file__))
-    return path.startswith(("<", *libraries))
+    folders = (*map(sysconfig.get_path, ("stdlib", "purelib", "platlib")), os.path.dirname(physexp.__file__))
+    return path.startswith(("<", *(os.path.join(folder, "") for folder in folders)))
