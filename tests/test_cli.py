@@ -316,6 +316,14 @@ def test_doctor_ends_with_status_1_only_if_the_core_is_broken(run, monkeypatch):
             ["--difficulty is not an option of towers; leave it"],
         ),
         (["train", "towers", "fist_features", "--random", "3"], ["--random is not an option of train"]),
+        (
+            ["train", "towers", "fist_features", "--replay-episodes", "9"],
+            ["--replay-episodes is not an option of --agent a3c; leave it out, or train --agent belief"],
+        ),
+        (
+            ["train", "towers", "fist_pixels", "--agent", "belief", "--no-relative-pixels"],
+            ["--no-relative-pixels is not an option of --agent belief", "--agent a3c or --agent ppo"],
+        ),
         (["ideal", "towers", "--difficulty", "3"], ["--difficulty is not an option of ideal towers"]),
         (["ideal", "towers", "--blocks", "3"], ["--blocks is not an option of ideal towers"]),
         (["ideal", "which_is_heavier", "--task", "features"], ["--task is not an option of ideal which_is_heavier"]),

@@ -19,8 +19,8 @@ Agent = Annotated[
     Positional[str],
     tyro.conf.arg(
         metavar="AGENT",
-        help="the folder of a run, or DOMAIN/TASK for the agent that comes with the package; --help after it lists "
-        "the options of its domain.",
+        help="the folder of a run, the card of a published agent (NAME.json), or DOMAIN/TASK for the agent that comes "
+        "with the package; --help after it lists the options of its domain.",
     ),
 ]
 Switch = tyro.conf.FlagCreatePairsOff[bool]

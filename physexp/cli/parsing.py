@@ -139,8 +139,19 @@ class _Command:
         return next((value for name, value in itertools.pairwise(parts) if name.replace("_", "-") == flag), "nothing")
 
     def check_owner(self, event: tyro_errors.ParseErrorEvent) -> None:
-        """Refuses the option of another domain by that domain's name, which says more than that there is none."""
-        if not isinstance(event, tyro_errors.UnrecognizedArgs) or len(self.domains) != 1:
+        """Names the learner or domain that an unknown option belongs to; that says more than that there is none."""
+        if not isinstance(event, tyro_errors.UnrecognizedArgs):
+            return
+        if self.name == "train":
+            for flag in _flags(event.tokens):
+                field = flag.removeprefix("no-").replace("-", "_")
+                owners = [name for name, kind in config_lib.ALGORITHMS.items() if field in kind.__dataclass_fields__]
+                if owners:
+                    raise ValueError(
+                        f"--{flag} is not an option of --agent {self._algorithm()}; leave it out, or train "
+                        f"{' or '.join(f'--agent {name}' for name in owners)}"
+                    )
+        if len(self.domains) != 1:
             return
         from physexp import suite
 

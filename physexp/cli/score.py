@@ -36,9 +36,9 @@ class Score:
         Positional[str],
         tyro.conf.arg(
             metavar="TARGET",
-            help="the folder of a run; DOMAIN/TASK for the agent that comes with the package; several of these with "
-            "commas between, shipped, or a3c, belief or ppo, for a team; MODULE:FUNCTION for an agent of your own "
-            "(docs/score.md); or random, at_once, silent, ideal.",
+            help="the folder of a run; the card of a published agent (NAME.json); DOMAIN/TASK for the agent that comes "
+            "with the package; several of these with commas between, shipped, or a3c, belief or ppo, for a team; "
+            "MODULE:FUNCTION for an agent of your own (docs/score.md); or random, at_once, silent, ideal.",
         ),
     ]
     tasks: Annotated[tuple[str, ...], tyro.conf.arg(metavar="DOMAIN/TASK ...", help_behavior_hint="")] = ()

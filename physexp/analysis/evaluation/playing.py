@@ -1,6 +1,7 @@
 """Evaluation: plays episodes with a trained agent and measures how well it answers."""
 
 from collections.abc import Callable, Mapping
+import difflib
 import functools
 from pathlib import Path
 from typing import Any
@@ -43,7 +44,8 @@ def find_agent(
     """Returns a trained agent's network, and what it plays.
 
     Args:
-      target: the folder of a run, or an agent that comes with the package: `domain/task`, or the name of its files.
+      target: the folder of a run; the card of a published agent (`FOLDER/NAME.json`); or an agent that comes with the
+        package: `domain/task`, or the name of its files.
       task_kwargs: options that the agent is to be trained with; the others are those of the folder or name, or else
         the task's.
 
@@ -51,21 +53,33 @@ def find_agent(
       ValueError: if there is no such agent, or none with these options; it lists those that come with the package.
     """
     wanted = task_kwargs or {}
+    domain, _, task = target.partition("/")
+    if agent := published(target):
+        _check_options(target, config_of(agent.card), wanted)
+        return _with_config(agent)
     if Path(target).exists():
         run = run_lib.Run(Path(target))
         _check_options(target, run.config, wanted)
         return load_network(run), run.config
-    domain, _, task = target.partition("/")
     if (domain, task) in suite.ALL_TASKS:
         return shipped_agent(domain, task, wanted)
-    if target in pretrained.names():
-        agent = pretrained.load_named(target)
-        _check_options(target, config_of(agent.card), wanted)
-        return _with_config(agent)
+    choices = difflib.get_close_matches(target, pretrained.names()) or pretrained.names()
     raise ValueError(
-        f"{target} holds no run (no config.json); give the folder of a run or a trained agent: "
-        f"{', '.join(pretrained.names())}"
+        f"{target} holds no run (no config.json); give the folder of a run, the card of a published agent (NAME.json), "
+        f"or a trained agent: {', '.join(choices)}"
     )
+
+
+def published(target: str) -> pretrained.Pretrained | None:
+    """Returns the published agent with this card, or with this name in the package; None if it is neither.
+
+    Raises:
+      ValueError: if its files are damaged.
+    """
+    path = Path(target)
+    if path.suffix == ".json" and path.is_file():
+        return pretrained.load_named(path.stem, path.parent)
+    return pretrained.load_named(target) if target in pretrained.names() and not path.exists() else None
 
 
 def shipped_agent(

@@ -121,8 +121,9 @@ def maker(target: str, greedy: bool = False) -> MakeActor:
     """Returns what makes an actor for a task.
 
     Args:
-      target: a baseline; the folder of a run, or an agent that comes with the package; several of these with commas
-        between, `shipped`, or a learner's name, for a team in which each plays its own task; or `module:function`.
+      target: a baseline; the folder of a run, the card of a published agent, or an agent that comes with the package;
+        several of these with commas between, `shipped`, or a learner's name, for a team in which each plays its own
+        task; or `module:function`.
       greedy: a trained agent takes its likeliest action instead of drawing one.
 
     Raises:
@@ -168,7 +169,9 @@ def facts(target: str, tasks: Collection[str] | None = None) -> dict[str, Any]:
     from physexp.analysis.training import run as run_lib
 
     _, config = playing.find_agent(target)
-    if Path(target).exists():
+    if agent := playing.published(target):
+        trained = agent.card
+    elif Path(target).exists():
         run = run_lib.Run(Path(target))
         frames, seconds = publishing.progress(run)
         trained = {
@@ -178,8 +181,7 @@ def facts(target: str, tasks: Collection[str] | None = None) -> dict[str, Any]:
             "command": publishing.command(config),
         }
     else:
-        agent = pretrained.load_named(target) if target in pretrained.names() else pretrained.load(*target.split("/"))
-        trained = agent.card
+        trained = pretrained.load(config.domain, config.task).card
     found = {name: trained.get(name) for name in ("command", "commit", "frames", "seconds")}
     return {"algorithm": config.agent.title, "seed": config.agent.seed, **found}
 

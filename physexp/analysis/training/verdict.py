@@ -53,7 +53,8 @@ def advice(config: config_lib.TrainConfig) -> str:
     """Returns what may help an agent that has learned nothing."""
     agent = config.agent
     other = "--agent ppo, " if agent.algorithm == config_lib.DEFAULT_ALGORITHM else ""
+    usual = config_lib.preset(config.domain, config.task, algorithm=agent.algorithm).frames
     return (
-        f"train anew, in another --run-dir, with --frames {2 * agent.frames} or more (what decays does so "
-        f"over them, so --resume adds none), {other}or {agent.advice}"
+        f"train anew, in another --run-dir, with --frames {max(2 * agent.frames, usual)} or more "
+        f"(what decays does so over them, so --resume adds none), {other}or {agent.advice}"
     )

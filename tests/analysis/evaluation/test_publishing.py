@@ -121,6 +121,16 @@ def test_what_the_card_evaluates_is_what_is_loaded(published):
     assert json.loads(json.dumps(again)) == agent.card["evaluation"]["drawn"]
 
 
+def test_a_published_agent_is_found_by_its_card_wherever_it_is(published):
+    run, path = published
+    network, config = playing.find_agent(str(path))
+    assert (config.task_name, config.task_kwargs) == (run.config.task_name, run.config.task_kwargs)
+    there = pretrained.load_named(path.stem, path.parent).network.state_dict()
+    assert all(torch.equal(value, there[name]) for name, value in network.state_dict().items())
+    with pytest.raises(ValueError, match="was trained at difficulty 10, and difficulty is 3"):
+        playing.find_agent(str(path), {"difficulty": 3})
+
+
 def copy_of(run, path):
     shutil.copytree(run.path, path)
     return run_lib.Run(path)

@@ -15,6 +15,7 @@ import pytest
 import waiting
 
 from physexp import suite
+from physexp.agents import pretrained
 from physexp.analysis.score import episodes, judging, log, player, protocol, scoring, targets, verifying
 
 THRESHOLD = protocol.named(["threshold/features"])
@@ -135,7 +136,9 @@ def test_targets_play_the_tasks_that_they_can():
         return [asked.name for asked in targets.suitable(target)]
 
     assert targets.suitable("random") is targets.suitable("made:raises") is None
-    assert names("threshold/features") == names("threshold-features") == ["threshold/features"]
+    card = str(pretrained.FOLDER / "threshold-features.json")
+    assert names("threshold/features") == names("threshold-features") == names(card) == ["threshold/features"]
+    assert targets.facts(card) == targets.facts("threshold-features") == targets.facts("threshold/features")
     assert names("which_is_heavier-features-difficulty5") == ["which_is_heavier/features"]
     assert names("rule") == names("lookup") == ["towers/direct_features", "towers/fist_features"]
 

@@ -72,7 +72,9 @@ def test_of_no_rows_nothing_is_said():
     assert verdict.verdict([], 4) is None
 
 
-@pytest.mark.parametrize(("agent", "names_ppo"), [(a3c.A3CConfig(frames=200_000), True), (ppo.PPOConfig(), False)])
+@pytest.mark.parametrize(
+    ("agent", "names_ppo"), [(a3c.A3CConfig(frames=20_000_000), True), (ppo.PPOConfig(frames=20_000_000), False)]
+)
 def test_the_advice_names_options_that_there_are(agent, names_ppo):
     config = config_lib.TrainConfig(domain="which_is_heavier", task="features", agent=agent)
     line = verdict.advice(config)
@@ -82,3 +84,9 @@ def test_the_advice_names_options_that_there_are(agent, names_ppo):
         and f"--entropy-cost than {agent.entropy_cost:g}" in line
     )
     assert ("--agent ppo" in line) == names_ppo
+
+
+def test_after_a_trial_run_the_usual_number_of_frames_is_advised():
+    tiny = config_lib.TrainConfig(domain="which_is_heavier", task="features", agent=a3c.A3CConfig(frames=5000))
+    usual = config_lib.preset("which_is_heavier", "features").frames
+    assert usual > 10_000 and f"--frames {usual} or more" in verdict.advice(tiny)
