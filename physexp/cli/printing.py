@@ -1,13 +1,29 @@
 """Prints the output of commands: figures, tables and lines, for people or as JSON."""
 
+from collections.abc import Iterator
+import contextlib
 import io
 import json
 import sys
+import threading
+
+_PATIENCE = 2.0  # Seconds that people wait before they wonder.
 
 
 def warn(line: str) -> None:
     """Prints a line to standard error."""
     print(line, file=sys.stderr, flush=True)
+
+
+@contextlib.contextmanager
+def warned_if_slow(line: str) -> Iterator[None]:
+    """Returns a context in which a line is printed to standard error if it takes more than moments."""
+    timer = threading.Timer(_PATIENCE, warn, [line])
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 def tell(line: str) -> None:

@@ -51,7 +51,7 @@ def replay(
             raise ValueError(
                 f"{targets[0]} plays {_what(config)}, {targets[1]} {_what(other)}; compare agents that play the same"
             )
-    chosen = list(selection.select(network, config, count, select, interaction, seed))
+    chosen = list(selection.select(network, config, count, select, interaction, seed, tell))
     if len(chosen) < count:
         tell(f"only {len(chosen)} episodes are {select}")
     groups = [functools.partial(_episodes, targets, agents, instance, interaction) for instance in chosen]

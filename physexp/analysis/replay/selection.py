@@ -7,6 +7,7 @@ import numpy as np
 
 from physexp import suite
 from physexp.agents import networks
+from physexp.analysis import callbacks
 from physexp.analysis.data import episodes
 from physexp.analysis.evaluation import playing
 from physexp.analysis.training import config as config_lib
@@ -22,6 +23,7 @@ def select(
     selection: Selection = "any",
     interaction: str = "learned",
     seed: int = playing.SEED,
+    tell: callbacks.Tell = callbacks.ignore,
 ) -> Iterator[tuple[int, int, np.ndarray]]:
     """Plays episodes and chooses some.
 
@@ -30,6 +32,7 @@ def select(
       count: how many are wanted, >= 1.
       selection: the first ones, the first wrong or right ones, those with the most interactions, or the hardest: as the
         task has it, or else those that take this agent the longest.
+      tell: called with a line before episodes are played to choose from.
 
     Yields:
       Seed, index and actions of each chosen episode; fewer than wanted where there are not enough.
@@ -42,6 +45,8 @@ def select(
     size = max(count, 256)
     task = suite.load_task(config.domain, config.task, config.task_kwargs)
     while True:
+        if selection != "any":
+            tell(f"playing {size:,} episodes, for those that are {selection}")
         played = playing.play(network, config, size if selection != "any" else count, interaction, seed=seed)
         order = _order(played, selection, task.hardness(played.hidden))
         if len(order) >= count or size >= _MOST or selection == "any":

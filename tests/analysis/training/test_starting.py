@@ -1,6 +1,7 @@
 """What can be known is checked before anything is trained or written, and a start that fails leaves nothing behind."""
 
 import os
+import re
 import shutil
 import signal
 import sys
@@ -180,4 +181,4 @@ def test_a_demo_in_the_folder_of_an_earlier_one_moves_that_aside_and_tells_that_
     demo.run(run.path)
     assert everything(run.path / "superseded-1") == before and run.is_finished and not checkpoint.exists()
     errors = capsys.readouterr().err
-    assert "the agent" in errors and "chance is 25.0%" in errors and "--frames 200 or more" in errors
+    assert "the agent" in errors and "chance is 25.0%" in errors and re.search(r"--frames \d+ or more", errors)
