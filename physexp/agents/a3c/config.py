@@ -24,6 +24,12 @@ class A3CConfig(config.ActorCriticConfig):
     }
     can_run_on_cluster: ClassVar[bool] = True
 
+    @property
+    def title(self):
+        hints = (self.action_prior, self.relative_pixels)
+        is_as_in_paper = self.envs_per_worker == self.trace == self.observation_scale == 1 and not any(hints)
+        return f"{self.algorithm}_paper" if is_as_in_paper else self.algorithm
+
     num_workers: int = 2
     envs_per_worker: int = 256
     max_staleness: int = 100

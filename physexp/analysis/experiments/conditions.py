@@ -5,6 +5,7 @@ import re
 from typing import Any
 
 from physexp import suite
+from physexp.agents.a3c import config as a3c
 from physexp.analysis import domains
 from physexp.analysis.domains import which_is_heavier
 from physexp.analysis.training import config as config_lib
@@ -43,6 +44,7 @@ _BELIEF_FRAMES = {
     "sealed_box features": 200_000,
     "strike features": 300_000,
 }
+_PAPERS_FRAMES = {"10-F": 2_000_000}  # The same, of the paper's own learner.
 _NOISY_FRAMES = {"5-F": 120_000}  # The same, with noise.
 _VARIED_FRAMES = {"D-F": 150_000, "F-F": 150_000, "D-P": 200_000, "F-P": 250_000}  # The same, with variation.
 
@@ -90,6 +92,21 @@ def with_ppo(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
     """Returns a condition with PPO as the learner."""
     agent = config_lib.preset(config.domain, config.task, algorithm="ppo")
     return dataclasses.replace(config, agent=agent.replace(discount=config.agent.discount, num_threads=1))
+
+
+def with_papers_learner(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
+    """Returns a condition with A3C as the paper has it: one episode an update, raw observations, and no hint."""
+    agent = a3c.A3CConfig(
+        discount=config.agent.discount,
+        frames=_PAPERS_FRAMES[config.label],
+        learning_rate=0.01,
+        entropy_cost=1.0,
+        num_workers=1,
+        envs_per_worker=1,
+        observation_scale=1.0,
+        relative_pixels=False,
+    )
+    return dataclasses.replace(config, agent=agent)
 
 
 def with_belief(config: config_lib.TrainConfig, **changes: Any) -> config_lib.TrainConfig:

@@ -181,6 +181,7 @@ def few_frames(
     generator,
     belief=0.5,
     a3c=20.0,
+    papers=10.0,
     fist=0.6,
     direct=1.0,
     seconds_of_a_frame=0.0005,
@@ -193,6 +194,7 @@ def few_frames(
     Args:
       belief, a3c: where the belief learner in either track and the others are half way, in shares of the environment
         steps that the belief learner is to need at most.
+      papers: how many times as many as the others the paper's own learner needs.
       fist, direct: how many times as many the belief learner needs with an actuator.
       seconds_of_a_frame: how long a learner takes for an environment step.
       learned: how much of what it could learn the belief learner learns.
@@ -201,9 +203,10 @@ def few_frames(
     """
     most = data_efficiency.MOST_FRAMES
     of_actuators = {"F": fist, "D": direct}
+    of_learners = {"a3c": a3c, "ppo": a3c, "a3c_paper": a3c * papers}
     middles = {
         config: most.get(config.agent.title, most["belief"])[label(config)]
-        * (belief * of_actuators.get(label(config)[0], 1.0) if config.agent.title.startswith("belief") else a3c)
+        * of_learners.get(config.agent.title, belief * of_actuators.get(label(config)[0], 1.0))
         for config in data_efficiency.CONDITIONS
     }
     frame = scores(num_agents, generator, middles, seconds_of_a_frame).assign(calibration_error=calibration_error)
@@ -671,7 +674,8 @@ WORLDS: dict[str, dict[str, _World]] = {
         "paper": few_frames,
         "belief is slow": functools.partial(few_frames, belief=2.0),
         "belief computes for long": functools.partial(few_frames, seconds_of_a_frame=1.0),
-        "A3C is quick": functools.partial(few_frames, a3c=0.1),
+        "A3C is quick": functools.partial(few_frames, a3c=0.3, belief=0.63),
+        "single episodes teach most": functools.partial(few_frames, papers=0.5),
         "pushes are quick": functools.partial(few_frames, fist=1.2, direct=0.4),
         "agents who stop short": functools.partial(few_frames, loss=4.0),
         "beliefs too sure": functools.partial(few_frames, calibration_error=0.05),

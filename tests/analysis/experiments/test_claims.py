@@ -93,6 +93,7 @@ FALSE_IN = {
         "The belief learner learns from few environment steps, with answers revealed": {"belief is slow"},
         "The belief learner learns in minutes on one core": {"belief computes for long"},
         "The belief learner learns from fewer environment steps than A3C": {"A3C is quick"},
+        "Many episodes an update and scaled observations save A3C environment steps": {"single episodes teach most"},
         "The belief learner is as often right as it believes": {"beliefs too sure"},
         "The belief learner comes near the optimum": {"agents who stop short"},
         "No agent of the belief learner is far from the optimum": {"agents who stop short"},
