@@ -14,6 +14,11 @@ _LEVEL = 0.95
 Alternative = Literal["greater", "less"]
 
 
+def _unknown(bound: float, alternative: Alternative) -> float:
+    """The p-value where too little is known to test anything."""
+    return 1.0
+
+
 @dataclasses.dataclass(frozen=True)
 class Estimate:
     """A figure and its 95 % confidence interval.
@@ -28,9 +33,12 @@ class Estimate:
     value: float
     low: float
     high: float
-    p_value: Callable[[float, Alternative], float] = dataclasses.field(
-        default=lambda bound, alternative: 1.0, compare=False, repr=False
-    )
+    p_value: Callable[[float, Alternative], float] = dataclasses.field(default=_unknown, compare=False, repr=False)
+
+    @property
+    def can_be_tested(self) -> bool:
+        """Returns whether enough is known to rule anything out, whatever the values are."""
+        return self.p_value is not _unknown
 
 
 _UNKNOWN_POSITIVE = Estimate(math.nan, 0.0, math.inf)  # Of what cannot be negative.
@@ -63,11 +71,15 @@ def _around(value: float, error: float, distribution: Any) -> Estimate:
 
 def _mapped(estimate: Estimate, function: Callable[[float], float], inverse: Callable[[float], float]) -> Estimate:
     """An increasing function of what was estimated."""
+
+    def p_value(bound: float, alternative: Alternative) -> float:
+        return estimate.p_value(inverse(bound), alternative)
+
     return Estimate(
         function(estimate.value),
         function(estimate.low),
         function(estimate.high),
-        lambda bound, alternative: estimate.p_value(inverse(bound), alternative),
+        p_value if estimate.can_be_tested else _unknown,
     )
 
 
@@ -122,14 +134,22 @@ def mean_share(shares: Sequence[float] | np.ndarray) -> Estimate:
 
 
 def median(values: Sequence[float] | np.ndarray) -> Estimate:
-    """Returns the median of independent values, [N], with the order statistics' interval, infinite for too few."""
+    """Returns the median of independent values, [N], with the order statistics' interval.
+
+    It is infinite for too few values, less than six, and where one is not known, NaN.
+    """
     from scipy import stats
+
+    if np.isnan(values).any():
+        return Estimate(math.nan, -math.inf, math.inf)
 
     def p_value(bound: float, alternative: Alternative) -> float:
         return float(stats.quantile_test(np.asarray(values), q=bound, p=0.5, alternative=alternative).pvalue)
 
     interval = stats.quantile_test(np.asarray(values), p=0.5).confidence_interval(_LEVEL)
     low, high = (float(end) for end in interval)
+    if math.isnan(low) and math.isnan(high):
+        return Estimate(float(np.median(values)), -math.inf, math.inf)
     return Estimate(
         float(np.median(values)),
         -math.inf if math.isnan(low) else low,
@@ -182,6 +202,15 @@ def ratio_of_means(numerators: Sequence[float] | np.ndarray, denominators: Seque
 
 def _exponential(estimate: Estimate) -> Estimate:
     return _mapped(estimate, math.exp, math.log)
+
+
+def at_most(estimate: Estimate) -> Estimate:
+    """Returns what is known of a positive figure of which only something larger could be measured."""
+
+    def p_value(bound: float, alternative: Alternative) -> float:
+        return estimate.p_value(bound, alternative) if alternative == "less" else 1.0
+
+    return Estimate(estimate.value, 0.0, estimate.high, p_value if estimate.can_be_tested else _unknown)
 
 
 def ratio_of_pairs(numerators: Sequence[float] | np.ndarray, denominators: Sequence[float] | np.ndarray) -> Estimate:
@@ -237,9 +266,11 @@ def bootstrap(
 
 
 def correlation(x: np.ndarray, y: np.ndarray) -> Estimate:
-    """Returns Pearson's correlation of pairs, x and y [N >= 4], with Fisher's interval.
+    """Returns Pearson's correlation of pairs, x and y [N >= 4], with an interval on Fisher's scale.
 
-    The interval is that of all correlations where all x or all y are the same.
+    Its standard error is Fisher's, which is that of normal pairs, or the one that follows from how much each pair
+    weighs (the influence function), whichever is larger. The interval is that of all correlations where all x or all y
+    are the same.
     """
     from scipy import stats
 
@@ -248,7 +279,10 @@ def correlation(x: np.ndarray, y: np.ndarray) -> Estimate:
     value = float(stats.pearsonr(x, y).statistic)
     if abs(value) > 1 - 1e-12:
         return _exact(value)
-    return _mapped(_around(math.atanh(value), 1 / math.sqrt(len(x) - 3), stats.norm), math.tanh, math.atanh)
+    first, second = ((each - np.mean(each)) / np.std(each) for each in (x, y))
+    influences = first * second - value * (first**2 + second**2) / 2
+    error = max(1 / math.sqrt(len(x) - 3), float(np.std(influences)) / math.sqrt(len(x)) / (1 - value**2))
+    return _mapped(_around(math.atanh(value), error, stats.norm), math.tanh, math.atanh)
 
 
 def slope(x: np.ndarray, y: np.ndarray) -> Estimate:

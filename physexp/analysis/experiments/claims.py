@@ -81,11 +81,11 @@ def corrected(found: Sequence[Claim]) -> list[str]:
     verdicts = [claim.verdict for claim in found]
     families = collections.defaultdict(list)
     for index, claim in enumerate(found):
-        families[claim.text, claim.section].append((claim.p_value, index))
-    for family in families.values():
-        tests = sorted((p_value, index) for p_value, index in family if p_value < 1)
+        if claim.estimate.can_be_tested:
+            families[claim.text, claim.section].append((claim.p_value, index))
+    for tests in families.values():
         rejects = True
-        for rank, (p_value, index) in enumerate(tests):
+        for rank, (p_value, index) in enumerate(sorted(tests)):
             rejects = rejects and p_value <= _LEVEL / (len(tests) - rank)
             if not rejects:
                 verdicts[index] = UNDECIDED

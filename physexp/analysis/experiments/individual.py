@@ -65,7 +65,7 @@ def find_claims(frame) -> list[claims.Claim]:
                 words="the very small proportion of episodes",
             ),
             claims.Claim(
-                text="Where the mass gap is small, agents look at more blocks",
+                text="Where the mass gap is small, most of the further pokes are of further blocks",
                 condition=f"{beta:g}-F",
                 statistic="slope on mass gap of the number of blocks poked over that of pokes, mean of agents",
                 estimate=estimates.mean(shares),

@@ -152,7 +152,7 @@ EXPERIMENT = base.Experiment(
     title="Noise that pays for a second poke",
     section=claims.OURS,
     caption="Which is Heavier where each reading has noise: how often a block is poked that was poked before (left), "
-    "and all pokes (right), against the mass gap; agents of the belief learner, greedy play. Beside them its agents "
+    "and all pokes (right), against the mass gap; agents of the belief learner, actions drawn. Beside them its agents "
     "where readings are exact, to whom a second poke tells nothing. Dark: the median of agents; light: from the least "
     "to the most.",
     conditions=tuple(CONDITIONS.values()),

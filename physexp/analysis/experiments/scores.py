@@ -99,7 +99,8 @@ def ratio_of_frames(quick: Sequence, slow: Sequence) -> estimates.Estimate:
     """Returns the geometric mean of the environment steps to `LEVEL` of runs that are to be quick over that of others.
 
     Runs that never reach it gain nothing by that: of those that are to be quick none is known to be, and the others
-    count with all the training that they had, which is less than they need.
+    count with all the training that they had, which is less than they need: the ratio is then at most what is returned.
     """
-    shown = np.minimum(reached(slow, "frames"), [run.frames.max() for run in slow])
-    return estimates.ratio_of_means(reached(quick, "frames"), shown)
+    needed = reached(slow, "frames")
+    ratio = estimates.ratio_of_means(reached(quick, "frames"), np.minimum(needed, [run.frames.max() for run in slow]))
+    return ratio if np.isfinite(needed).all() else estimates.at_most(ratio)

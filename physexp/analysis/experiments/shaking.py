@@ -23,7 +23,10 @@ def _mean_interactions(frame):
 
 def _claims(frame) -> list[claims.Claim]:
     taken, best = _mean_interactions(frame), frame.groupby("content").ideal.first()
-    ranks = [stats.spearmanr(row, best[taken.columns]).statistic for row in taken.to_numpy()]
+    ranks = [
+        stats.spearmanr(row, best[taken.columns]).statistic if np.ptp(row) else 0.0  # Always as long: no correlation.
+        for row in taken.to_numpy()
+    ]
     return [
         claims.Claim(
             text="The harder a content is to tell, the longer the box is experimented with",

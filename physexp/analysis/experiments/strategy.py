@@ -77,7 +77,7 @@ class Strategy:
             name=name,
             title=title,
             section=claims_lib.OURS,
-            caption=f"{caption}, gamma {self.condition.agent.discount:g}; greedy play. Left: interactions before the "
+            caption=f"{caption}, gamma {self.condition.agent.discount:g}; actions drawn. Left: interactions before the "
             "answer; outlined: the ideal experimenter.",
             conditions=(self.condition,),
             trials=(base.EVALUATION,),

@@ -1,6 +1,7 @@
 """What hypotheses show, found out once and kept with the package, for questions whose physics takes long to simulate.
 
-What is kept holds for one state of the suite's code, one MuJoCo and one question; for any other it is simulated.
+What is kept holds for one state of the suite's code, other domains aside, one MuJoCo and one question; for any other it
+is simulated.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -51,7 +52,9 @@ class Hypotheses(hypotheses_lib.Hypotheses):
         for values in (self.hidden, self.prior, self._nuisances):
             found.update(b"" if values is None else np.ascontiguousarray(values).tobytes())
         root = Path(suite.__file__).parent
-        for path in sorted(root.rglob("*.py")):
+        domains = root / "domains"
+        others = {*domains.glob("*.py")} - {domains / f"{self._domain_name}.py"}
+        for path in sorted({*root.rglob("*.py")} - others):
             found.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
         return found.hexdigest()
 

@@ -1,6 +1,6 @@
 """Sweeps: trains the agents that are missing, several at a time, lets them play, and picks up where it was stopped."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent import futures
 import dataclasses
 import os
@@ -105,19 +105,22 @@ def run(
                 elsewhere[submit(job)] = job
         pending = here | elsewhere
         # The cluster forgets its tasks when this process ends.
-        while pending and not (interruption.happened and pending.keys() <= elsewhere.keys()):
+        while pending:
             done, _ = futures.wait(pending, timeout=_POLL_SECONDS, return_when=futures.FIRST_COMPLETED)
+            if interruption.happened and not done and pending.keys() <= elsewhere.keys():
+                break
             for future in done:
                 job = pending.pop(future)
-                if interruption.happened:
+                if interruption.happened and future in here:
                     continue
-                if future.exception() is not None:
-                    failures.append(f"{job.config.name}: {future.exception()}")
-                    tell(f"FAILED {failures[-1]}")
+                problem: object = future.exception()
+                if problem is None:
+                    problem = _keep(future.result() or {}, results)
+                if problem is not None:
+                    if not interruption.happened:
+                        failures.append(f"{job.config.name}: {problem}")
+                        tell(f"FAILED {failures[-1]}")
                     continue
-                for name, content in (future.result() or {}).items():
-                    (results.path / name).parent.mkdir(parents=True, exist_ok=True)
-                    files.write_atomically(results.path / name, content)
                 problem = verdict.of_run(results.run(job.config))
                 tell(f"done: {job.config.name}" + (f", but {problem}" if problem else ""))
             if pending and not interruption.happened and (done or time.monotonic() - reported > _REPORT_SECONDS):
@@ -127,6 +130,20 @@ def run(
         raise interruption.happened
     if failures:
         raise RuntimeError(f"{len(failures)} of {len(todo)} agents could not be trained: {'; '.join(failures)}")
+
+
+def _keep(made: Mapping[str, bytes], results: base.Results) -> OSError | None:
+    """Writes the files of an agent that was trained elsewhere; returns what was in the way.
+
+    They are written so that a part of them is a run that can go on: its configuration first, what it played last.
+    """
+    for name in sorted(made, key=lambda name: (name.startswith("episodes"), not name.endswith("config.json"), name)):
+        try:
+            (results.path / name).parent.mkdir(parents=True, exist_ok=True)
+            files.write_atomically(results.path / name, made[name])
+        except OSError as error:
+            return error
+    return None
 
 
 def _check(job: Job, results: base.Results) -> None:

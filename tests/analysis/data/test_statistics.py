@@ -370,6 +370,25 @@ def test_a_correlation_is_pearsons_with_fishers_interval():
     assert math.isnan(estimates.correlation(x, np.ones(7)).value)
 
 
+def test_intervals_of_correlations_cover_them_where_few_pairs_weigh_much():
+    # y = x e: x and y are uncorrelated, but E[x^2 y^2] = E[x^4] = 3, so that the error is the root of three times
+    # Fisher's, whose interval would cover 0 in 74 % of samples: 2 Phi(1.96 / sqrt(3)) - 1.
+    source = generator()
+    covered = []
+    for _ in range(400):
+        x, noise = source.normal(size=(2, 2000))
+        estimate = estimates.correlation(x, x * noise)
+        covered.append(estimate.low < 0 < estimate.high)
+    assert np.mean(covered) > 0.95 - 5 * math.sqrt(0.95 * 0.05 / 400)  # Five standard errors below the level.
+
+
+def test_a_median_of_too_few_or_of_something_unknown_tells_nothing():
+    for values in ([1.0, 2, 3, 4, 5], [math.nan, 1, 1, 1, 1, 1, 1, 1, 1, 1]):
+        estimate = estimates.median(values)
+        assert (estimate.low, estimate.high) == (-math.inf, math.inf) and not estimate.can_be_tested
+    assert estimates.median([1.0, 2, 3, 4, 5, 6]).can_be_tested
+
+
 def test_a_difference_of_shares_has_the_variances_of_both():
     first, second = np.arange(100) < 60, np.arange(400) < 100
     half = 1.959964 * math.sqrt(0.6 * 0.4 / 100 + 0.25 * 0.75 / 400)

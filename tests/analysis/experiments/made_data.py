@@ -499,12 +499,12 @@ def clampings(num_agents, generator, needed=1.0, in_vain=0.0, share=0.98):
 
 
 def shakings(num_agents, generator, like_the_ideal=1.0, share=0.98):
-    """Interactions that depend on the ideal's so much, or not at all; and what is earned."""
+    """Interactions that depend on the ideal's so much, or the other way round; and what is earned."""
     best = np.resize([2, 3, 4, 3, 5], 42)
     agents = []
     for seed in range(num_agents):
         contents = np.arange(_EPISODES) % len(best)
-        own = like_the_ideal * best + (1 - like_the_ideal) * generator.permutation(best)
+        own = like_the_ideal * best + (1 - like_the_ideal) * best.mean()
         agents.append(
             pandas.DataFrame(
                 {
@@ -715,7 +715,7 @@ WORLDS: dict[str, dict[str, _World]] = {
     },
     "shaking": {
         "paper": shakings,
-        "always the same": functools.partial(shakings, like_the_ideal=0.0),
+        "easy ones the longest": functools.partial(shakings, like_the_ideal=-0.5),
         "clumsy agents": functools.partial(shakings, share=0.9),
     },
     "aiming": {

@@ -21,6 +21,7 @@ from physexp.analysis.experiments import (
     individual,
     learning,
     randomized,
+    scores,
     shaking,
     weighing,
 )
@@ -47,7 +48,7 @@ FALSE_IN = {
     "individual": {
         "The smaller the mass gap, the longer an agent experiments": {"hard ones are quick"},
         "Hardly any episode ends by timeout": {"many are lost"},
-        "Where the mass gap is small, agents look at more blocks": {"known blocks again"},
+        "Where the mass gap is small, most of the further pokes are of further blocks": {"known blocks again"},
     },
     "patience": {
         "A larger discount leads to longer episodes": {"patience is short"},
@@ -130,7 +131,7 @@ FALSE_IN = {
         "Agents come near the optimum of Strings from the reward alone": {"clumsy agents"},
     },
     "shaking": {
-        "The harder a content is to tell, the longer the box is experimented with": {"always the same"},
+        "The harder a content is to tell, the longer the box is experimented with": {"easy ones the longest"},
         "Agents come near the optimum of Sealed Box from the reward alone": {"clumsy agents"},
     },
     "aiming": {
@@ -256,7 +257,12 @@ def test_verdicts_are_corrected_for_the_tests_of_the_same_sentence():
     assert claims.corrected([*several, dataclasses.replace(distant(2.0), section="6.3")])[-1] == HOLDS
     # What tells nothing is no test: 0.0455 would not be enough were there two.
     unknown = claim(-math.inf, math.inf, above=0)
-    assert claims.corrected([dataclasses.replace(unknown, text="a claim"), distant(2.0)]) == [UNDECIDED, HOLDS]
+    few = dataclasses.replace(unknown, estimate=estimates.median([1.0, 2.0, 3.0]))  # Their interval is infinite.
+    for one in (unknown, few):
+        assert claims.corrected([dataclasses.replace(one, text="a claim"), distant(2.0)]) == [UNDECIDED, HOLDS]
+    # But of six agents, three on either side of the border are a test.
+    even = dataclasses.replace(unknown, text="a claim", estimate=estimates.median([-1.0, -2, -3, 1, 2, 3]))
+    assert claims.corrected([even, distant(2.0)]) == [UNDECIDED, UNDECIDED]
     assert claims.corrected([distant(1.0), distant(2.0)]) == [UNDECIDED, UNDECIDED]
     assert claims.corrected([]) == []
 
@@ -292,6 +298,17 @@ def test_agents_that_never_learn_are_not_taken_for_quick_ones():
     compared = [one for one in EXPERIMENTS["data_efficiency"].claims(frame) if one.text in comparisons]
     assert {one.text for one in compared} == comparisons
     assert {one.verdict for one in compared} == {UNDECIDED}
+
+
+def test_where_slow_agents_never_arrive_only_the_upper_end_of_a_ratio_is_known():
+    frame = made_data.few_frames(10, generator())
+    quick, slow = (scores.runs(frame, "10-F", learner) for learner in ("belief", "a3c"))
+    whole = scores.ratio_of_frames(quick, slow)
+    cut = [run[run.frames < run.frames.max() / 4] for run in slow]
+    part = scores.ratio_of_frames(quick, cut)
+    assert np.isinf(scores.reached(cut, "frames")).all() and 0 < whole.low < whole.high < part.high
+    assert part.low == 0 and part.p_value(1e-9, "greater") == 1
+    assert part.p_value(part.high, "less") == pytest.approx(0.025)
 
 
 @pytest.mark.parametrize("name", EXPERIMENTS)

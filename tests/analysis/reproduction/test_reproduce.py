@@ -1,8 +1,10 @@
 """Reproducing experiments, as a user does it: resumable, complete, and readable at the end."""
 
+from concurrent import futures
 import json
 import re
 import shutil
+import signal
 
 import commands
 import numpy as np
@@ -17,6 +19,7 @@ from physexp.analysis.experiments import EXPERIMENTS, base, conditions
 from physexp.analysis.reproduction import report, reproduce, sweep
 from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import stopping
 
 NAMES = [f"which_is_heavier-features-difficulty{beta}-discount0.95-seed0" for beta in (3, 5, 10)]
 
@@ -90,6 +93,49 @@ def test_an_agent_that_is_here_plays_here_what_it_has_not_played_though_others_a
     sweep.run([job], results, 1, lines.append, submit=lambda job: pytest.fail("it was trained again"))
     assert lines[-1].startswith("done: ")
     assert played.read_bytes() == before and results.run(job.config).agent_path.read_bytes() == agent
+
+
+def made_elsewhere(results, job):
+    """The files of an agent, as a machine that does not see the results sends them."""
+    folders = [results.run(job.config).path, *(path.parent for path in results.all_episodes(job.config))]
+    paths = [
+        path for folder in folders for path in folder.rglob("*") if path.is_file() and job.config.name in str(path)
+    ]
+    return {str(path.relative_to(results.path)): path.read_bytes() for path in paths}
+
+
+def test_what_another_machine_has_made_is_kept_though_the_rest_is_ended(rehearsed, tmp_path):
+    jobs = sweep.jobs([EXPERIMENTS["population"]], ("features",), lambda kind: 1, 5000)[:2]
+    made = made_elsewhere(rehearsed[0], jobs[0])
+    ready, never = futures.Future(), futures.Future()
+    ready.set_result(made)
+
+    def submit(job):
+        if job is jobs[0]:
+            return ready
+        signal.raise_signal(signal.SIGINT)
+        return never
+
+    results = base.Results(tmp_path / "results")
+    with pytest.raises(stopping.Interrupted):
+        sweep.run(jobs, results, 1, print, submit=submit)
+    assert made_elsewhere(results, jobs[0]) == made and results.run(jobs[0].config).is_finished
+
+
+def test_what_cannot_be_written_of_another_machines_agent_is_made_here_the_next_time(rehearsed, tmp_path):
+    job = sweep.jobs([EXPERIMENTS["population"]], ("features",), lambda kind: 1, 5000)[0]
+    made = made_elsewhere(rehearsed[0], job)
+    ready = futures.Future()
+    ready.set_result(made)
+    results = base.Results(tmp_path / "results")
+    results.path.mkdir()
+    obstacle = results.path / "episodes"
+    obstacle.touch()  # Where a folder is to be.
+    with pytest.raises(RuntimeError, match="1 of 1 agents could not be trained: .*episodes"):
+        sweep.run([job], results, 1, print, submit=lambda job: ready)
+    obstacle.unlink()
+    sweep.run([job], results, 1, print, submit=lambda job: pytest.fail("it was trained again"))
+    assert made_elsewhere(results, job) == made
 
 
 def test_runs_with_another_configuration_are_not_mixed_in(rehearsed):
