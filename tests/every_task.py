@@ -15,6 +15,9 @@ _UNREGISTERED = {"bolted/features": bolted.features, "bolted/pixels": bolted.pix
 NAMES = [*("/".join(names) for names in suite.ALL_TASKS), *_UNREGISTERED]
 FEATURES = [name for name in NAMES if name.endswith("features")]
 
+UNTRAINED = {("balance", "pixels")}
+"""Tasks of which no agent has been trained yet."""
+
 NOISY = ["which_is_heavier/features", "towers/direct_features", "towers/fist_features"]
 VARYING = ["/".join(names) for names in suite.ALL_TASKS if suite.load_task(*names).num_nuisances]
 

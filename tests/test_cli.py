@@ -11,6 +11,7 @@ from pathlib import Path
 import resource
 import subprocess
 import sys
+from typing import get_args, get_type_hints
 
 import evaluation_figures
 import pytest
@@ -137,10 +138,12 @@ def test_help_lists_a_domain_s_options_with_its_own_words_and_defaults_where_the
     kind = suite.options(domain)
     offered = {field.name for field in dataclasses.fields(kind)} - {"random", "visualize_reward"}
     assert "control_timestep" in offered
+    hints = get_type_hints(kind)
     for arguments in (["train", domain], ["play", domain, "features"], ["train", "--agent", "ppo", domain]):
         text = run(*arguments, "--help").stdout
         for name in offered:
-            value = "" if name in options.SWITCHES else " FLOAT"
+            kinds = {float: " FLOAT", int: " INT", str: " TEXT", bool: ""}
+            (value,) = {kinds[each] for each in (get_args(hints[name]) or (hints[name],)) if each in kinds}
             assert f"--{name.replace('_', '-')}{value}" in text
         assert "--random" not in text and "--visualize-reward" not in text
         limit = f"{kind().time_limit:g}"

@@ -11,6 +11,7 @@ import sys
 
 import bits
 from dm_env import specs
+import every_task
 import numpy as np
 import pytest
 import torch
@@ -30,13 +31,9 @@ def card_of(path):
     return json.loads(path.read_text())
 
 
-UNTRAINED = {("balance", "pixels")}
-"""Tasks of which no agent has been trained yet."""
-
-
 def test_every_task_has_an_agent_and_which_is_heavier_one_for_each_of_the_papers_difficulties():
     cards = [pretrained.load_named(name).card for name in NAMES if "/" not in name]
-    assert {(card["domain"], card["task"]) for card in cards} == set(suite.ALL_TASKS) - UNTRAINED
+    assert {(card["domain"], card["task"]) for card in cards} == set(suite.ALL_TASKS) - every_task.UNTRAINED
     kept = sorted(
         (card["task"], card["task_kwargs"]["difficulty"]) for card in cards if card["domain"] == "which_is_heavier"
     )

@@ -81,7 +81,7 @@ def _another(value):
 
 
 @pytest.mark.parametrize("algorithm", config_lib.ALGORITHMS)
-@pytest.mark.parametrize("task", suite.ALL_TASKS)
+@pytest.mark.parametrize("task", suite.ALL_TASKS, ids=["/".join(names) for names in suite.ALL_TASKS])
 def test_every_field_of_an_agent_survives_the_way_over_the_command_line(task, algorithm):
     domain, name = task
     preset = config_lib.preset(domain, name, algorithm=algorithm)
