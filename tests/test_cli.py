@@ -218,6 +218,11 @@ def test_the_version_is_the_packages(run):
     assert run("--version") == Done(0, f"physexp {package.__version__}\n", "")
 
 
+def test_the_package_run_as_a_module_is_the_command():
+    done = subprocess.run([sys.executable, "-m", "physexp", "--version"], capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (0, f"physexp {package.__version__}\n")
+
+
 def test_tasks_lists_every_task_with_its_numbers_question_and_observations(run):
     rows = json.loads(run("tasks", "--json").stdout)
     assert [(row["domain"], row["task"]) for row in rows] == [tuple(names) for names in suite.ALL_TASKS]
