@@ -142,15 +142,12 @@ class _Command:
         """Names the learner or domain that an unknown option belongs to; that says more than that there is none."""
         if not isinstance(event, tyro_errors.UnrecognizedArgs):
             return
-        if self.name == "train":
-            for flag in _flags(event.tokens):
-                field = flag.removeprefix("no-").replace("-", "_")
-                owners = [name for name, kind in config_lib.ALGORITHMS.items() if field in kind.__dataclass_fields__]
-                if owners:
-                    raise ValueError(
-                        f"--{flag} is not an option of --agent {self._algorithm()}; leave it out, or train "
-                        f"{' or '.join(f'--agent {name}' for name in owners)}"
-                    )
+        for flag in _flags(event.tokens) if self.name == "train" else []:
+            if learners := _learners_with(flag):
+                raise ValueError(
+                    f"--{flag} is not an option of --agent {self._algorithm()}; leave it out, or train "
+                    f"{' or '.join(f'--agent {name}' for name in learners)}"
+                )
         if len(self.domains) != 1:
             return
         from physexp import suite
@@ -205,6 +202,16 @@ def _is_number(text: str) -> bool:
 def _flags(tokens: Sequence[str]) -> list[str]:
     """Returns the options among some arguments, without their dashes and values."""
     return [token.strip("-").partition("=")[0].replace("_", "-") for token in tokens if token.startswith("-")]
+
+
+def _learners_with(flag: str) -> list[str]:
+    """Returns the names of the learners that have an option, which is given without its dashes."""
+    name = flag.removeprefix("no-").replace("-", "_")
+    return [
+        learner
+        for learner, kind in config_lib.ALGORITHMS.items()
+        if name in (field.name for field in dataclasses.fields(kind))
+    ]
 
 
 def _problem(event: tyro_errors.ParseErrorEvent, command: _Command) -> str:

@@ -24,12 +24,6 @@ class A3CConfig(config.ActorCriticConfig):
     }
     can_run_on_cluster: ClassVar[bool] = True
 
-    @property
-    def title(self):
-        hints = (self.action_prior, self.relative_pixels)
-        is_as_in_paper = self.envs_per_worker == self.trace == self.observation_scale == 1 and not any(hints)
-        return f"{self.algorithm}_paper" if is_as_in_paper else self.algorithm
-
     num_workers: int = 2
     envs_per_worker: int = 256
     max_staleness: int = 100
@@ -40,3 +34,9 @@ class A3CConfig(config.ActorCriticConfig):
         "envs_per_worker": (1, 65_536),
         "max_staleness": (0, config.LARGEST),
     }
+
+    @property
+    def title(self):
+        hints = (self.action_prior, self.relative_pixels)
+        is_as_in_paper = self.envs_per_worker == self.trace == self.observation_scale == 1 and not any(hints)
+        return f"{self.algorithm}_paper" if is_as_in_paper else self.algorithm

@@ -49,18 +49,13 @@ def find_claims(frame) -> list[claims.Claim]:
     for label in frame.condition.unique():
         for variant, text in _CLAIMS.items():
             quick, slow = (variant, _WHOLE) if variant == "belief_revealed" else (_WHOLE, variant)
-            pair = [scores.runs(frame, label, title) for title in (quick, slow)]
-            if all(pair):
-                found.append(
-                    claims.Claim(
-                        text=text,
-                        condition=label,
-                        statistic=f"environment steps to {scores.level(label)}, ratio of geometric means "
-                        f"({WORDS[quick]} / {WORDS[slow]})",
-                        estimate=scores.ratio_of_frames(*pair),
-                        below=1,
-                    )
-                )
+            found += scores.fewer_frames(
+                *(scores.runs(frame, label, title) for title in (quick, slow)),
+                text=text,
+                condition=label,
+                statistic=f"environment steps to {scores.level(label)}, ratio of geometric means "
+                f"({WORDS[quick]} / {WORDS[slow]})",
+            )
     return found
 
 

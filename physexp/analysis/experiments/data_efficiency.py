@@ -92,19 +92,14 @@ def find_claims(frame) -> list[claims.Claim]:
         found += _compared(frame, label)
     for kind in conditions.OBSERVATIONS:
         labels = [conditions.label("towers", f"{actuator}_{kind}") for actuator in ("fist", "direct")]
-        fist, direct = (scores.runs(frame, label, "belief") for label in labels)
-        if fist and direct:
-            found.append(
-                claims.Claim(
-                    text="The fist leads to faster learning than direct actuation where agents are told nothing",
-                    condition=kind,
-                    statistic=f"environment steps to {scores.level(labels[0])}, belief learner, fist over direct, "
-                    "ratio of geometric means",
-                    estimate=scores.ratio_of_frames(fist, direct),
-                    below=1,
-                    reason="The fist must first find the tower and travel to it, and every push touches it.",
-                )
-            )
+        found += scores.fewer_frames(
+            *(scores.runs(frame, label, "belief") for label in labels),
+            text="The fist leads to faster learning than direct actuation where agents are told nothing",
+            condition=kind,
+            statistic=f"environment steps to {scores.level(labels[0])}, belief learner, fist over direct, "
+            "ratio of geometric means",
+            reason="The fist must first find the tower and travel to it, and every push touches it.",
+        )
     return found
 
 
@@ -178,18 +173,13 @@ def _compared(frame, label: str) -> list[claims.Claim]:
         ("belief", "a3c", "The belief learner learns from fewer environment steps than A3C"),
         ("a3c", "a3c_paper", "Many episodes an update and scaled observations save A3C environment steps"),
     ):
-        pair = [scores.runs(frame, label, learner) for learner in (quick, slow)]
-        if all(pair):
-            found.append(
-                claims.Claim(
-                    text=text,
-                    condition=label,
-                    statistic=f"environment steps to {scores.level(label)}, {LEARNERS[quick]} over {LEARNERS[slow]}, "
-                    "ratio of geometric means",
-                    estimate=scores.ratio_of_frames(*pair),
-                    below=1,
-                )
-            )
+        found += scores.fewer_frames(
+            *(scores.runs(frame, label, learner) for learner in (quick, slow)),
+            text=text,
+            condition=label,
+            statistic=f"environment steps to {scores.level(label)}, {LEARNERS[quick]} over {LEARNERS[slow]}, "
+            "ratio of geometric means",
+        )
     return found
 
 

@@ -1,13 +1,14 @@
 """How well agents play while they learn, in shares of what can be reached."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from physexp.analysis import domains
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import records
-from physexp.analysis.experiments import base, conditions, ideal_towers, learning
+from physexp.analysis.experiments import base, claims, conditions, ideal_towers, learning
 from physexp.analysis.training import config as config_lib
 
 TASKS = tuple(conditions.BY_LABEL.values())
@@ -104,3 +105,13 @@ def ratio_of_frames(quick: Sequence, slow: Sequence) -> estimates.Estimate:
     needed = reached(slow, "frames")
     ratio = estimates.ratio_of_means(reached(quick, "frames"), np.minimum(needed, [run.frames.max() for run in slow]))
     return ratio if np.isfinite(needed).all() else estimates.at_most(ratio)
+
+
+def fewer_frames(quick: Sequence, slow: Sequence, **facts: Any) -> list[claims.Claim]:
+    """Returns the claim that runs need fewer environment steps to `LEVEL` than others, if there are runs of both.
+
+    Args:
+      quick, slow: runs, see `ratio_of_frames`.
+      facts: what else the claim says, see `claims.Claim`.
+    """
+    return [claims.Claim(**facts, estimate=ratio_of_frames(quick, slow), below=1)] if quick and slow else []

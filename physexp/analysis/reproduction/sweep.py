@@ -113,12 +113,10 @@ def run(
                 job = pending.pop(future)
                 if interruption.happened and future in here:
                     continue
-                problem: object = future.exception()
-                if problem is None:
-                    problem = _keep(future.result() or {}, results)
-                if problem is not None:
+                obstacle = future.exception() or _keep(future.result() or {}, results)
+                if obstacle is not None:
                     if not interruption.happened:
-                        failures.append(f"{job.config.name}: {problem}")
+                        failures.append(f"{job.config.name}: {obstacle}")
                         tell(f"FAILED {failures[-1]}")
                     continue
                 problem = verdict.of_run(results.run(job.config))
