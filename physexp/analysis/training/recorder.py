@@ -56,7 +56,8 @@ class Recorder:
         """Forgets all that has been recorded."""
         self._frames = self._updates = self._num_episodes = 0
         self._seconds = 0.0
-        self._started = self._checkpointed = self._row_started = time.monotonic()
+        self._started = self._checkpointed = time.monotonic()
+        self._row_started = 0.0  # Set by the first update: the workers take a while to start.
         self._frames_at_row = 0
         self._window: list[core.Update] = []  # Updates since the last row.
         self._snapshot: dict | None = None  # The variables of a checkpoint that waits for updates before it.
@@ -91,6 +92,8 @@ class Recorder:
         if self._snapshot is not None and update.metrics["updates"] > int(self._snapshot["updates"]):
             self._later.append(update)
             return
+        if not self._row_started:
+            self._row_started = time.monotonic()
         self._window.append(update)
         self._updates += 1
         self._frames += update.episodes.num_frames
