@@ -46,7 +46,7 @@ DOMAIN = base.Domain(
         **base.PRESETS_OF_BITS,
         "pixels": {**base.PRESETS_OF_BITS["pixels"], "ppo": base.PPO_OF_FEW_IMAGES.replace(frames=3_000_000)},
     },
-    targets={"strike-features": ("mean_return", 0.66), "strike-pixels": ("mean_return", 0.70)},
+    targets={"strike-features": ("mean_return", 0.75), "strike-pixels": ("mean_return", 0.70)},
     ideal=base.Ideal(_NAME, _solve, IdealOptions),
     hidden_columns=lambda hidden: {"puck": hidden},  # An index in `strike.PUCKS`.
 )
