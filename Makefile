@@ -23,7 +23,7 @@ demo: .venv/installed-figures ## Train an agent to find the heaviest block and c
 	$(HOW_TO_RUN)
 
 test: lint ## Run lint and the tests.
-	$(PYTEST) -n 2 --dist worksteal -m 'not long'
+	$(PYTEST) -n 3 --dist worksteal -m 'not long'
 	$(HOW_TO_RUN)
 
 test-long: .venv/installed-test ## Run the tests that take more than a person waits for.

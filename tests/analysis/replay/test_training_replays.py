@@ -5,9 +5,9 @@ import subprocess
 
 import pytest
 from rerun.chunk import RrdReader
+import trainers
 
 from physexp.agents import registry
-from physexp.agents.ppo import config as ppo
 from physexp.analysis.replay import training, writing
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
@@ -17,7 +17,7 @@ SMALL = config_lib.TrainConfig(
     domain="which_is_heavier",
     task="features",
     task_kwargs={"difficulty": 10.0},
-    agent=ppo.PPOConfig(num_threads=1, num_environments=32, frames=6000, checkpoint_seconds=0.05),
+    agent=trainers.SMALL["ppo"].replace(frames=3000, checkpoint_seconds=0.05),
 )
 
 
@@ -29,11 +29,11 @@ def trained(path, **changes):
 
 
 def test_replays_are_written_with_the_checkpoints_once_enough_steps_have_passed(tmp_path):
-    run = trained(tmp_path / "run", replay_every=2000)
+    run = trained(tmp_path / "run", replay_every=1000)
     replays = sorted((run.path / "replays").glob("*.rrd"))
     frames = [int(path.stem) for path in replays]
     assert 1 <= len(frames) <= 3
-    assert all(later - earlier >= 2000 for earlier, later in zip([0, *frames], frames, strict=False))
+    assert all(later - earlier >= 1000 for earlier, later in zip([0, *frames], frames, strict=False))
     for path in replays:
         subprocess.run([writing.PROGRAM, "rrd", "verify", path], check=True, capture_output=True)
         (recording,) = RrdReader(str(path)).recordings()
@@ -41,7 +41,7 @@ def test_replays_are_written_with_the_checkpoints_once_enough_steps_have_passed(
 
 
 def test_every_replay_shows_the_same_instance(tmp_path):
-    run = trained(tmp_path / "run", replay_every=1000)
+    run = trained(tmp_path / "run", replay_every=500)
     names = {
         RrdReader(str(path)).recordings()[0].recording_id.split("-")[0] for path in (run.path / "replays").iterdir()
     }

@@ -35,7 +35,7 @@ def resume(run, **kwargs):
 def trained(tmp_path_factory):
     """A finished run with two checkpoints, not to be changed; of PPO, whose one process starts no other."""
     path = tmp_path_factory.mktemp("trained") / "run"
-    run = trainers.create(path, "ppo", frames=8_000, seed=fresh_seed(), checkpoint_seconds=1e-9)
+    run = trainers.create(path, "ppo", frames=2_000, seed=fresh_seed(), checkpoint_seconds=1e-9)
     trainer.train(run)
     assert len(run.checkpointer.paths()) == 2
     return run

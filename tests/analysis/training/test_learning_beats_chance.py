@@ -11,7 +11,13 @@ HIGH_ENTROPY = {"entropy_cost": 0.15, "final_entropy_cost": 0.03}
 SHORT = {
     "a3c": {"frames": 400_000, "num_workers": 2, "envs_per_worker": 64, **HIGH_ENTROPY},
     "belief": {"frames": 7_000, "num_environments": 16, "frames_per_step": 4, "answers_revealed": True},
-    "ppo": {"frames": 100_000, "num_environments": 64, **HIGH_ENTROPY},
+    "ppo": {
+        "frames": 100_000,
+        "num_environments": 64,
+        "num_epochs": 4,
+        "num_minibatches": 4,
+        **HIGH_ENTROPY,
+    },
 }
 
 
