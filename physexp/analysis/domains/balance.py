@@ -42,7 +42,7 @@ DOMAIN = base.Domain(
     skill="use a tool",
     discount=_DISCOUNT,
     presets=base.PRESETS_OF_BITS,
-    targets={"balance-features": ("mean_return", 0.72)},
+    targets={"balance-features": ("mean_return", 0.72), "balance-pixels": ("mean_return", 0.72)},
     ideal=base.Ideal(_NAME, _solve, IdealOptions),
     hidden_columns=lambda hidden: {"weights": hidden},  # kg
 )
