@@ -66,7 +66,7 @@ class Strategy:
         ideal = [best.get(number, 0.0) for number in range(longest)]
         left.stairs(ideal, np.arange(longest + 1) - 0.5, color=figures.GREY, linewidth=1.3, label="ideal")
         left.set(xlabel="interactions before the answer", ylabel="share of episodes")
-        left.legend()
+        left.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2)
         self.draw(right, frame)
         figure.suptitle(figures.seeds(frame), fontsize=7, x=0.99, ha="right")
         return figure
