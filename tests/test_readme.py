@@ -139,6 +139,7 @@ def test_the_trained_agent_is_right_in_19_of_20_episodes_and_beats_its_own_rando
     learned, random = evaluations
     assert learned["success_rate"] >= 0.95
     assert learned["mean_return"] > random["mean_return"]
+    assert learned["median_interactions"] >= 2
 
 
 def test_every_link_to_a_file_has_a_file():
