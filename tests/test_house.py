@@ -2,6 +2,7 @@
 
 import ast
 import dataclasses
+import functools
 import graphlib
 from pathlib import Path
 import re
@@ -34,8 +35,14 @@ FLOORS = (
 )
 
 
-def words_of(tree: ast.AST):
+@functools.cache
+def words_in(path: Path) -> frozenset[str]:
     """The names and texts of a module's code, without its docstrings."""
+    return frozenset(words_of(ast.parse(path.read_text())))
+
+
+def words_of(tree: ast.AST):
+    """The same of its tree, some more than once."""
     docstrings = {
         id(node.body[0].value)
         for node in ast.walk(tree)
@@ -67,7 +74,7 @@ def test_a_domain_is_named_in_its_own_files_alone(domain):
     for path in MODULES:
         place = str(path.relative_to(ROOT / "physexp"))
         if not place.startswith(MAY_NAME_A_DOMAIN):
-            found = own_words(domain) & set(words_of(ast.parse(path.read_text())))
+            found = own_words(domain) & words_in(path)
             if found:
                 named[place] = found
     assert not named
@@ -81,6 +88,7 @@ def module_name(path: Path) -> str:
 NAMES = {module_name(path) for path in MODULES}
 
 
+@functools.cache
 def imports_of(path: Path) -> set[str]:
     """The modules of the project that a module imports, wherever in its text, but for types alone."""
     tree = ast.parse(path.read_text())
@@ -103,11 +111,13 @@ def imports_of(path: Path) -> set[str]:
     return found - {module_name(path)}
 
 
-IMPORTS = {module_name(path): imports_of(path) for path in MODULES}
+def imports() -> dict[str, set[str]]:
+    """The same of each module."""
+    return {module_name(path): imports_of(path) for path in MODULES}
 
 
 def test_no_module_imports_itself_over_others():
-    graph = {name: {other for other in others if not is_inside(name, other)} for name, others in IMPORTS.items()}
+    graph = {name: {other for other in others if not is_inside(name, other)} for name, others in imports().items()}
     try:
         tuple(graphlib.TopologicalSorter(graph).static_order())
     except graphlib.CycleError as error:
@@ -120,7 +130,7 @@ def is_inside(module: str, package: str) -> bool:
 
 
 def test_the_suite_knows_no_agents_and_the_agents_no_tasks():
-    for name, others in IMPORTS.items():
+    for name, others in imports().items():
         for room, strangers in (("suite", ("agents", "analysis", "cli")), ("agents", ("suite", "analysis", "cli"))):
             if name.startswith(f"physexp.{room}"):
                 assert not {other for other in others if other.startswith(tuple(f"physexp.{s}" for s in strangers))}, (
@@ -131,7 +141,7 @@ def test_the_suite_knows_no_agents_and_the_agents_no_tasks():
 def test_the_rooms_of_the_analysis_import_from_the_floors_below_alone():
     floor = {room: number for number, rooms in enumerate(FLOORS) for room in rooms}
     upwards = []
-    for name, others in IMPORTS.items():
+    for name, others in imports().items():
         room = name.removeprefix("physexp.analysis.").split(".")[0] if name.startswith("physexp.analysis.") else None
         if room not in floor:
             continue

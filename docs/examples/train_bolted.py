@@ -11,7 +11,7 @@ def make_environment(seed, num_environments, num_threads):
     return suite.BatchEnvironment(bolted.features(random=seed), num_environments, num_threads)
 
 
-def train(frames=30_000):
+def train(frames=20_000):
     """Trains PPO; returns its success in the last round."""
     chosen = config.PPOConfig(frames=frames, num_environments=64, observation_scale=10.0, learning_rate=3e-3)
     ppo = agent.PPO(make_environment, chosen)

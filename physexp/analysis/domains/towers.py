@@ -155,10 +155,17 @@ _RULES = {
 
 def _rule(task: str, noise: float = 0.0) -> "core.Actor":
     """Returns an actor that holds cubes for glued while their distance has not changed."""
-    from physexp import suite
     from physexp.analysis.domains import glue
 
-    return glue.GlueRule(_RULES[task], suite.load_task(_NAME, task).num_interactions, noise)
+    return glue.GlueRule(_RULES[task], _num_interactions(task), noise)
+
+
+@functools.cache
+def _num_interactions(task: str) -> int:
+    """Returns the number of interactions of a task, which to load takes longer than a rule plays an episode."""
+    from physexp import suite
+
+    return suite.load_task(_NAME, task).num_interactions
 
 
 @functools.cache

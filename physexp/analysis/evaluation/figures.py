@@ -52,6 +52,14 @@ def new(columns: int = 1, rows: int = 1, width: float = 3.4, height: float = 2.6
     return pyplot.subplots(rows, columns, figsize=(width * columns, height * rows), layout="constrained", **kwargs)
 
 
+def svg(figure) -> bytes:
+    """Returns a figure as SVG, whose text is text; the same from the same data."""
+    drawn = io.BytesIO()
+    with style():
+        figure.savefig(drawn, format="svg", metadata={"Date": None})
+    return drawn.getvalue()
+
+
 def save(figure, folder: Path, name: str) -> list[Path]:
     """Writes a figure as SVG and PNG and closes it; returns the paths."""
     from matplotlib import pyplot
@@ -59,9 +67,9 @@ def save(figure, folder: Path, name: str) -> list[Path]:
 
     folder.mkdir(parents=True, exist_ok=True)
     paths = [folder / f"{name}.svg", folder / f"{name}.png"]
+    paths[0].write_bytes(svg(figure))
+    drawn = io.BytesIO()
     with style():
-        figure.savefig(paths[0], metadata={"Date": None})
-        drawn = io.BytesIO()
         figure.savefig(drawn, dpi=_DPI, format="png")
     # A figure has few colours: a palette of 256 makes the file a third as large.
     palette = Image.open(drawn).convert("RGB").quantize(256, dither=Image.Dither.NONE)

@@ -39,9 +39,13 @@ def posterior(values: np.ndarray, prior: priors.OddOneOut) -> np.ndarray:
     Returns:
       Probabilities, float64 [N, K]. Of the things touched only the largest can be it; unknown ones share the rest.
     """
+    return _posterior(values, *_statistics(values, prior), prior)
+
+
+def _posterior(values, largest, log_weight, prior) -> np.ndarray:
+    """Returns the same, given the statistics of the values."""
     touched = ~np.isnan(values)
     unknown = (~touched).sum(axis=1)
-    largest, log_weight = _statistics(values, prior)
     chance = np.where(touched.any(axis=1), _largest_is_touched(unknown, largest, log_weight, prior), 0.0)
     others = np.divide(1 - chance, unknown, out=np.zeros(len(values)), where=unknown > 0)
     result = np.where(touched, 0.0, others[:, None])
@@ -116,7 +120,11 @@ class Solution:
         Returns:
           Two float64 [N]; a touch is worth -inf where nothing is left to touch.
         """
-        answer = base.worth_of_answers(posterior(known, self.prior).max(axis=1))
+        beliefs, touch = self._beliefs_and_touch(known)
+        return base.worth_of_answers(beliefs.max(axis=1)), touch
+
+    def _beliefs_and_touch(self, known: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Returns the posterior, [N, K], and what one more touch is worth, [N]."""
         largest, log_weight = _statistics(known, self.prior)
         touches = (~np.isnan(known)).sum(axis=1)
         touch = np.full(len(known), -np.inf)
@@ -125,13 +133,13 @@ class Solution:
             rows = touches == number
             ratio = np.exp(log_weight[rows] - self.prior.log_ratio(largest[rows]))
             touch[rows] = function(_points(largest[rows], ratio))
-        return answer, touch
+        return _posterior(known, largest, log_weight, self.prior), touch
 
     def actions(self, known: np.ndarray) -> np.ndarray:
         """Returns the best action, int64 [N]: the first unknown thing, or K plus the label; `known` as above."""
-        answer, touch = self.values(known)
-        label = self.prior.num_things + posterior(known, self.prior).argmax(axis=1)
-        return np.where(touch > answer, np.isnan(known).argmax(axis=1), label)
+        beliefs, touch = self._beliefs_and_touch(known)
+        label = self.prior.num_things + beliefs.argmax(axis=1)
+        return np.where(touch > base.worth_of_answers(beliefs.max(axis=1)), np.isnan(known).argmax(axis=1), label)
 
     def play(self, values: np.ndarray, read: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Plays episodes without physics.
@@ -192,9 +200,8 @@ class Solution:
         touched_at[rows[moments], taken[moments]] = steps[moments]
         is_known = steps[:, None] > touched_at[rows]
         known = np.where(is_known, values[rows], np.nan)
-        beliefs = posterior(known, self.prior)
-        answer, touch = self.values(known)
-        again = self.discount * np.maximum(answer, touch)
+        beliefs, touch = self._beliefs_and_touch(known)
+        again = self.discount * np.maximum(base.worth_of_answers(beliefs.max(axis=1)), touch)
         touches = np.where(is_known, again[:, None], touch[:, None])
         touches[steps >= self.step_limit - 1] = rules.WRONG  # Silence.
         worth = np.concatenate([touches, base.worth_of_answers(beliefs)], axis=1)

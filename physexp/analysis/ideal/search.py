@@ -192,8 +192,11 @@ class Solution:
         """Returns what `figures` does, and for the return what others earn, see `random_play.Bounds`."""
         if self.objective != "return":
             return self.figures()
-        others = random_play.bounds(self.situations, self.discount)
-        return {**self.figures(), **dataclasses.asdict(others)}
+        return {**self.figures(), **dataclasses.asdict(self._others)}
+
+    @functools.cached_property
+    def _others(self) -> random_play.Bounds:
+        return random_play.bounds(self.situations, self.discount)
 
     def figures(self) -> dict[str, Any]:
         """Returns `value`, `bound`, `accuracy`, `mean_interactions`, `mean_seconds` and `histogram`.

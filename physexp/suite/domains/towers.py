@@ -80,6 +80,12 @@ def draw_patterns(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
     return by_count[starts[counts - 1] + (draws[:, 1] * _PATTERNS_OF_COUNT[counts - 1]).astype(np.int64)]
 
 
+@functools.lru_cache(maxsize=32)
+def _composed(actuator: type, sense: type, options: Options) -> dict[int, str]:
+    """Returns the MJCF of towers by structure, as far as this process has composed it, which takes most of a reset."""
+    return {}
+
+
 class Towers(task.QuestionTask):
     """A tower whose glue is hidden."""
 
@@ -99,6 +105,7 @@ class Towers(task.QuestionTask):
         self._room = room
         self.arrange(0)
         super().__init__(room, options, sense)
+        self._composed = _composed(type(actuator), type(sense), dataclasses.replace(options, random=0))
 
     @property
     def tower(self) -> tower.Tower:
@@ -146,6 +153,11 @@ class Towers(task.QuestionTask):
                 self._tower.detach()
             self._tower = self._towers[structure]
             self._room.attach(self._tower)
+
+    def compose(self, structure):
+        if structure not in self._composed:
+            self._composed[structure] = super().compose(structure)
+        return self._composed[structure]
 
     num_nuisances = 11
 

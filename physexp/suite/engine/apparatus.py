@@ -246,7 +246,7 @@ def compile_xml(xml: str) -> mujoco.MjModel:
 
 
 def build(
-    mjcf_model: mjcf.RootElement,
+    xml: str,
     readings: Mapping[str, declarations.Reading],
     held: Sequence[composer.Entity] = (),
     indicators: Sequence[declarations.Indicator] = (),
@@ -254,12 +254,12 @@ def build(
     """Compiles an MJCF model.
 
     Args:
-      mjcf_model: the whole scene.
+      xml: the whole scene; names of the entities below are those that they have in it.
       readings: the features.
       held: entities that must look untouched until something moves them.
       indicators: geoms that show readings.
     """
-    model = compile_xml(mjcf_model.to_xml_string())
+    model = compile_xml(xml)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     geoms = [model.geom(indicator.geom.full_identifier).id for indicator in indicators]

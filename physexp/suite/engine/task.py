@@ -257,9 +257,13 @@ class QuestionTask(composer.Task):
     # The apparatus.
 
     def build_apparatus(self, structure: int) -> apparatus_lib.Apparatus:
-        """Arranges the MJCF and compiles it."""
+        """Compiles the MJCF of a structure."""
+        return apparatus_lib.build(self.compose(structure), self.readings, self.held, self.indicators)
+
+    def compose(self, structure: int) -> str:
+        """Returns the MJCF of a structure as text."""
         self.arrange(structure)
-        return apparatus_lib.build(self.root_entity.mjcf_model, self.readings, self.held, self.indicators)
+        return self.root_entity.mjcf_model.to_xml_string()
 
     def begin(
         self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray, nuisances: np.ndarray

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from physexp import suite
 from physexp.analysis.score import episodes, judging, log, protocol, reference, scores, scoring, targets
 
-FEATURES = protocol.observing("features")
+FEATURES = [protocol.question(*names) for names in suite.tagged("features")]
 COUNT = 6
 
 
@@ -82,7 +83,9 @@ def test_the_whole_is_the_interquartile_mean_of_the_domains(of_random):
 
 
 def test_every_task_has_an_ideal_to_be_compared_with_and_instances_of_its_own():
-    for asked in protocol.observing("all"):
+    everything = protocol.observing("all")
+    assert [(asked.domain, asked.task) for asked in everything] == list(suite.ALL_TASKS)
+    for asked in everything:
         assert protocol.ideal(asked) is protocol.ideal(asked)
         environment = protocol.load(asked)
         environment.reset(episode=3)
