@@ -5,7 +5,7 @@
 PYTHON ?= python3.11 python3.12 python3
 
 BIN = .venv/bin
-PYTEST = OMP_NUM_THREADS=1 $(BIN)/python -m pytest
+PYTEST = OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest
 HOW_TO_RUN = @echo 'To run physexp: $(BIN)/physexp --help; or without the folder, after: . $(BIN)/activate'
 
 .PHONY: help install demo test test-long soak lint docs bench clean
