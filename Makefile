@@ -5,6 +5,7 @@
 PYTHON ?= python3.11 python3.12 python3
 
 BIN = .venv/bin
+# What is compiled once is kept: the tests start hundreds of processes.
 PYTEST = OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest
 HOW_TO_RUN = @echo 'To run physexp: $(BIN)/physexp --help; or without the folder, after: . $(BIN)/activate'
 

@@ -283,3 +283,22 @@ def test_the_fist_turns_where_it_is_told(first, second):
         position = env.step(action).observation["fist_position"].astype(float)
     velocity = (env.step(second).observation["fist_position"] - position) / 0.05
     np.testing.assert_allclose(velocity, [*DIRECTIONS[second], 0], atol=0.01)
+
+
+def test_what_somebody_changes_is_simulated_there_and_nowhere_else():
+    """Towers are composed once in a process, for all tasks with the same scene."""
+
+    def model_of(task, structure=5):
+        return task.build_apparatus(structure).model
+
+    usual = model_of(suite.load_task("towers", "direct_features"))
+    scene, block = (suite.load_task("towers", "direct_features") for _ in range(2))
+    scene.root_entity.mjcf_model.option.gravity = [0, 0, -1.6]
+    block.arrange(5)
+    block.tower.blocks[0].geom.mass = 9
+    block.arrange(0)
+    assert model_of(scene).opt.gravity[2] == -1.6 and usual.opt.gravity[2] != -1.6
+    assert model_of(block).body_mass.max() == 9 > usual.body_mass.max()
+    again = model_of(suite.load_task("towers", "direct_features"))
+    np.testing.assert_array_equal(again.opt.gravity, usual.opt.gravity)
+    np.testing.assert_array_equal(again.body_mass, usual.body_mass)

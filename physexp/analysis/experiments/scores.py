@@ -88,6 +88,7 @@ def level(label: str) -> str:
 def runs(frame, label: str, learner: str) -> list:
     """Returns the rows of each agent of a task that a learner, named by its title, has trained."""
     chosen = frame[(frame.condition == label) & (frame.algorithm == learner)]
+    chosen.attrs = {}  # What is known of the whole frame pandas would copy deeply with every step from here on.
     return [run for _, run in chosen.groupby("training_seed")]
 
 

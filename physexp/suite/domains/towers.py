@@ -81,8 +81,8 @@ def draw_patterns(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
 
 
 @functools.lru_cache(maxsize=32)
-def _composed(actuator: type, sense: type, options: Options) -> dict[int, str]:
-    """Returns the MJCF of towers by structure, as far as this process has composed it, which takes most of a reset."""
+def _composed(scene: str) -> dict[int, str]:
+    """Returns the MJCF by structure, as far as this process has composed it in a scene, and can be added to."""
     return {}
 
 
@@ -105,7 +105,6 @@ class Towers(task.QuestionTask):
         self._room = room
         self.arrange(0)
         super().__init__(room, options, sense)
-        self._composed = _composed(type(actuator), type(sense), dataclasses.replace(options, random=0))
 
     @property
     def tower(self) -> tower.Tower:
@@ -154,10 +153,18 @@ class Towers(task.QuestionTask):
             self._tower = self._towers[structure]
             self._room.attach(self._tower)
 
-    def compose(self, structure):
-        if structure not in self._composed:
-            self._composed[structure] = super().compose(structure)
-        return self._composed[structure]
+    def compose(self, structures):
+        """Composes towers that this process has not composed in the same scene before; it takes most of a reset."""
+        known, own = _composed(self.root_entity.mjcf_model.to_xml_string()), set(self._towers)
+        found = []
+        for structure in structures:
+            if structure in own:  # It may have been changed since it was built.
+                found += super().compose([structure])
+                continue
+            if structure not in known:
+                (known[structure],) = super().compose([structure])
+            found.append(known[structure])
+        return found
 
     num_nuisances = 11
 

@@ -268,7 +268,7 @@ class BatchEnvironment:
         """
         with self._guard:
             structure = int(self._ledger.structures[environment])
-            return self._group(structure).view(field)[environment]
+            return self._grouped([structure])[0].view(field)[environment]
 
     def render(self, size: int = rendering.SIZE_FOR_PEOPLE) -> np.ndarray:
         """Returns images for people of all environments, uint8 [B, size, size, 3].
@@ -326,18 +326,22 @@ class BatchEnvironment:
         last = self.num_environments - 1
         raise ValueError(f"environments is {checks.shown(environments)}; give increasing indices from 0 to {last}")
 
-    def _group(self, structure: int) -> "_Group":
-        if structure not in self._groups:
-            apparatus = self._task.build_apparatus(structure)
-            self._groups[structure] = _Group(self._task, apparatus, self.num_environments, self._num_threads)
-        return self._groups[structure]
-
     def _by_structure(self, chosen: np.ndarray):
         """Splits environments by structure: pairs of a group and the positions in `chosen` that belong to it."""
-        structures = self._ledger.structures[chosen]
         if self._task.num_structures == 1:
-            return [(self._group(0), slice(None))] if len(chosen) else []
-        return [(self._group(int(s)), np.flatnonzero(structures == s)) for s in np.unique(structures)]
+            return [(self._grouped([0])[0], slice(None))] if len(chosen) else []
+        structures = self._ledger.structures[chosen]
+        needed = np.unique(structures).tolist()
+        positions = [np.flatnonzero(structures == structure) for structure in needed]
+        return list(zip(self._grouped(needed), positions, strict=True))
+
+    def _grouped(self, structures: list[int]) -> "list[_Group]":
+        """Returns the groups of structures; new ones are compiled."""
+        new = [structure for structure in structures if structure not in self._groups]
+        if new:
+            for structure, apparatus in zip(new, self._task.build_apparatuses(new), strict=True):
+                self._groups[structure] = _Group(self._task, apparatus, self.num_environments, self._num_threads)
+        return [self._groups[structure] for structure in structures]
 
     def _reset(
         self,

@@ -258,12 +258,19 @@ class QuestionTask(composer.Task):
 
     def build_apparatus(self, structure: int) -> apparatus_lib.Apparatus:
         """Compiles the MJCF of a structure."""
-        return apparatus_lib.build(self.compose(structure), self.readings, self.held, self.indicators)
+        return self.build_apparatuses([structure])[0]
 
-    def compose(self, structure: int) -> str:
-        """Returns the MJCF of a structure as text."""
-        self.arrange(structure)
-        return self.root_entity.mjcf_model.to_xml_string()
+    def build_apparatuses(self, structures: Sequence[int]) -> list[apparatus_lib.Apparatus]:
+        """Compiles the MJCF of structures."""
+        return [apparatus_lib.build(xml, self.readings, self.held, self.indicators) for xml in self.compose(structures)]
+
+    def compose(self, structures: Sequence[int]) -> list[str]:
+        """Returns the MJCF of structures as text."""
+        found = []
+        for structure in structures:
+            self.arrange(structure)
+            found.append(self.root_entity.mjcf_model.to_xml_string())
+        return found
 
     def begin(
         self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray, nuisances: np.ndarray
