@@ -1,6 +1,8 @@
 """How quickly environments are reset, and batches step: against a loop, composer, and MuJoCo's own batches."""
 
 from collections.abc import Callable, Iterator
+import statistics
+import time
 
 import numpy as np
 
@@ -13,13 +15,19 @@ from mujoco import batch as mujoco_batch  # isort: skip
 
 _RESET = {"heavier": 1.5}
 _RESET_OF_OTHERS = 6.0  # ms at most.
+_FURTHER = 5.0  # Times as long, at least, the first batch of many models takes to be there than a further one.
 _BATCH = {"heavier": (60, 200, 0.7)}
 _BATCH_OF_OTHERS = (6, 15, 0.85)  # Times a loop, composer that recompiles, and MuJoCo's own batch, at least.
 
 
 def resets() -> Iterator[dict]:
-    """Measures how long a reset takes."""
+    """Measures how long a reset takes, and how much sooner a further batch of many models is there than the first."""
     for name, task in FEATURES.items():
+        if suite.load_task(*task).num_structures > 1:
+            first, *more = (_begin_batch(task) for _ in range(1 + measuring.REPETITIONS))
+            further = statistics.median(more)
+            figure = f"first / further batch of {BATCH}: {name}"
+            yield measuring.row(figure, first / further, "x", _FURTHER, first=first, further=further)
         environment = suite.load(*task, task_kwargs={"random": 0})
         for _ in range(100):  # Compiles every structure.
             environment.reset()
@@ -31,6 +39,16 @@ def resets() -> Iterator[dict]:
         milliseconds = 1e3 / measuring.rates(reset)[0]
         target = _RESET.get(name, _RESET_OF_OTHERS)
         yield measuring.row(f"reset of suite.load: {name}", milliseconds, "ms", target, at_most=True)
+
+
+def _begin_batch(task: Task) -> float:
+    """Returns how many seconds a batch takes to be loaded and reset."""
+    start = time.perf_counter()
+    batch = suite.load_batch(*task, BATCH, {"random": 0})
+    batch.reset()
+    taken = time.perf_counter() - start
+    batch.close()
+    return taken
 
 
 def batches() -> Iterator[dict]:
