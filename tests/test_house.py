@@ -88,7 +88,6 @@ def module_name(path: Path) -> str:
 NAMES = {module_name(path) for path in MODULES}
 
 
-@functools.cache
 def imports_of(path: Path) -> set[str]:
     """The modules of the project that a module imports, wherever in its text, but for types alone."""
     tree = ast.parse(path.read_text())
@@ -111,6 +110,7 @@ def imports_of(path: Path) -> set[str]:
     return found - {module_name(path)}
 
 
+@functools.cache
 def imports() -> dict[str, set[str]]:
     """The same of each module."""
     return {module_name(path): imports_of(path) for path in MODULES}

@@ -96,8 +96,7 @@ def test_a_poked_block_moves_the_same_whatever_the_others_weigh(seed):
 
 @functools.cache
 def _kits(task_name):
-    task = suite.load_task("towers", task_name)
-    return [task.build_apparatus(int(pattern)) for pattern in EVERY_PATTERN]
+    return suite.load_task("towers", task_name).build_apparatuses(EVERY_PATTERN.tolist())
 
 
 def _plain(task_name):

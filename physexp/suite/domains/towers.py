@@ -155,10 +155,9 @@ class Towers(task.QuestionTask):
 
     def compose(self, structures):
         """Composes towers that this process has not composed in the same scene before; it takes most of a reset."""
-        known, own = _composed(self.root_entity.mjcf_model.to_xml_string()), set(self._towers)
-        found = []
+        known, found = _composed(self.root_entity.mjcf_model.to_xml_string()), []
         for structure in structures:
-            if structure in own:  # It may have been changed since it was built.
+            if structure in self._towers:  # It may have been changed since it was built.
                 found += super().compose([structure])
                 continue
             if structure not in known:
