@@ -2,7 +2,7 @@
 
 import dm_env
 from episodes import random_actions
-from every_task import NOISY, VARYING, every_feature_task, load, load_batch
+from every_task import FEATURES, NOISY, VARYING, every_feature_task, load, load_batch
 import numpy as np
 import pytest
 
@@ -86,9 +86,14 @@ def test_a_reset_rebuilds_a_chosen_episode(seed, name):
 
 
 @pytest.mark.parametrize(
-    "name, option", [*((name, {"noise": 0.01}) for name in NOISY), *((name, {"variation": 1.0}) for name in VARYING)]
+    "name, option",
+    [
+        *((name, {"noise": 0.01}) for name in NOISY),
+        *((name, {"variation": 1.0}) for name in VARYING),
+        *((name, {"control_timestep": 0.2, "step_variation": 0.5}) for name in FEATURES),
+    ],
 )
-def test_noise_and_variation_are_the_same_in_a_batch_and_alone(seed, name, option):
+def test_what_varies_is_the_same_in_a_batch_and_alone(seed, name, option):
     rng = np.random.default_rng(seed)
     batch, singles = _load_both(name, seed, 3, **option)
     for _ in range(3):  # Episodes.

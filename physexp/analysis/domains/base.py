@@ -43,6 +43,11 @@ class Ideal:
 
     def _solve(self, task, task_kwargs, discount, options) -> "ideal.Solution":
         if not task_kwargs.get("reveal"):
+            if task_kwargs.get("step_variation"):
+                raise ValueError(
+                    f"step_variation is {task_kwargs['step_variation']}; "
+                    "give 0: the ideal experimenter is known where all control steps are alike"
+                )
             return self.solve(task, task_kwargs, discount, **options)
         from physexp.analysis.ideal import revealed
 
@@ -88,10 +93,10 @@ class Domain:
     def ideal_with(self, task_kwargs: Mapping[str, Any]) -> Ideal | None:
         """Returns how to find the ideal experimenter of tasks with these options.
 
-        None with noise or variation, unless the answer is revealed.
+        None with noise, variation or step variation, unless the answer is revealed.
         """
-        is_known = task_kwargs.get("reveal") or not (task_kwargs.get("noise") or task_kwargs.get("variation"))
-        return self.ideal if is_known else None
+        is_alike = not any(task_kwargs.get(name) for name in ("noise", "variation", "step_variation"))
+        return self.ideal if is_alike or task_kwargs.get("reveal") else None
 
     def label(self, task: str, task_kwargs: Mapping[str, Any]) -> str:
         """Returns the short name of a task with these options; domain and task where it has no other."""

@@ -38,7 +38,7 @@ _DRAWN_BY = ("domain", "task", "difficulty", "seed", "episode", "answer")  # Col
 
 
 def table(
-    played: episodes.Episodes, config: config_lib.TrainConfig, interaction: str, control_timestep: float
+    played: episodes.Episodes, config: config_lib.TrainConfig, interaction: str, control_timestep: float | np.ndarray
 ) -> pyarrow.Table:
     """Returns the rows of some episodes, as `SCHEMA` has them.
 
@@ -46,7 +46,7 @@ def table(
       played: the episodes.
       config: of the agent that played them.
       interaction: `learned` or `random`.
-      control_timestep: time between actions, s.
+      control_timestep: time between actions, s; one for all, or of each, float64 [number of episodes].
     """
     return played.table(
         SCHEMA,

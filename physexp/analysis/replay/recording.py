@@ -71,6 +71,7 @@ class Episode:
       values: the return that the actor expected before each action, float64 [T], or of no length.
       beliefs: its probabilities of the labels before each action, float64 [T, L]; of no length where it has none.
       shapes: what is in the scene.
+      control_timestep: time between its actions, s.
       times: when they were where, s, float64 [F].
       positions, rotations: their true poses at every physics step, and while the answer is played out where a task
         does that, float64 [F, K, 3] and [F, K, 3, 3].
@@ -93,6 +94,7 @@ class Episode:
     values: np.ndarray
     beliefs: np.ndarray
     shapes: Shapes
+    control_timestep: float
     times: np.ndarray
     positions: np.ndarray
     rotations: np.ndarray
@@ -233,6 +235,7 @@ class _Rebuilder:
             "hidden": np.array(task.hidden),
             "answer": task.correct_answer,
             "shapes": shapes,
+            "control_timestep": task.control_timestep,
             "times": times,
             "positions": positions,
             "rotations": rotations,

@@ -126,7 +126,7 @@ class EpisodeWriter:
         self._task = episode.declared
         # Of what was seen: before each action, and at the end. A label takes no time.
         steps = np.minimum(np.arange(len(episode.actions) + 1), self._num_interactions)
-        self._step_times = steps * self._task.control_timestep
+        self._step_times = steps * episode.control_timestep
 
     @property
     def _num_interactions(self) -> int:
@@ -294,7 +294,7 @@ class EpisodeWriter:
     def _write_arrows(self) -> None:
         """Writes, at every physics step, where the action acts and in which direction; no arrow where there is none."""
         episode, interactions = self._episode, self._task.interactions
-        steps = np.ceil(episode.times / self._task.control_timestep - 1e-6).astype(int) - 1  # Of the action under way.
+        steps = np.ceil(episode.times / episode.control_timestep - 1e-6).astype(int) - 1  # Of the action under way.
         steps = np.clip(steps, 0, len(episode.actions) - 1)
         origins, vectors = np.zeros((2, len(steps), 3))
         for frame, step in enumerate(steps):

@@ -216,7 +216,8 @@ def _play(run: run_lib.Run, trial: base.Trial) -> pyarrow.Table:
         num_threads=1,
         num_steps=trial.num_steps,
     )
-    timestep = played_as.task_kwargs.get("control_timestep", suite.Options.control_timestep)
+    options = suite.load_task(config.domain, config.task, played_as.task_kwargs).options
+    timestep = options.draw_substeps(played.seed, played.episode) * options.physics_timestep
     return records.table(played, config, trial.interaction, timestep)
 
 

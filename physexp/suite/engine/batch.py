@@ -365,7 +365,7 @@ class BatchEnvironment:
         diverged = []
         for group, members in self._by_structure(chosen):
             rows = chosen[members]
-            lost = group.step(rows, actions[members])
+            lost = group.step(rows, actions[members], self._ledger.substeps[rows])
             if len(lost):  # Their last observation stays the one before, as in composer.
                 diverged.append(lost)
                 rows = np.setdiff1d(rows, lost)
@@ -457,13 +457,14 @@ class _Group:
         self._batch.state[rows] = states
         self._is_at_rest[rows] = False
 
-    def step(self, rows, actions) -> np.ndarray:
-        """Simulates a control step; returns the rows that diverged."""
+    def step(self, rows, actions, substeps) -> np.ndarray:
+        """Simulates a control step, which has so many physics steps in each row; returns the rows that diverged."""
         self._is_at_rest[rows] = False
         controls = self._task.drive(actions, self._qpos[rows], self._control[rows])
         self._control[rows] = controls * self._starts.strength[rows]
         self._batch.warning[rows] = 0  # A row that diverges is reset by MuJoCo, its counters too.
-        self._batch.step(ids=rows, nstep=self._task.options.substeps, stage=mujoco.mjtStage.mjSTAGE_POS)
+        for count in np.unique(substeps):
+            self._batch.step(ids=rows[substeps == count], nstep=int(count), stage=mujoco.mjtStage.mjSTAGE_POS)
         return rows[(self._batch.warning[rows] != 0).reshape(len(rows), -1).any(axis=1)]
 
     def moved(self, rows) -> np.ndarray:

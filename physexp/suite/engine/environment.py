@@ -35,7 +35,7 @@ class Environment(composer.Environment):
         self._flat = checks.flag("flat_observation", flat_observation)
         raises = checks.flag("raise_exception_on_physics_error", raise_exception_on_physics_error)
         self._compiled = {}  # Apparatus and physics of each structure used so far.
-        self._current_structure = None
+        self._current = None  # The structure in use, and the physics steps in a control step.
         super().__init__(
             task, random_state=0, strip_singleton_obs_buffer_dim=True, raise_exception_on_physics_error=raises
         )
@@ -111,9 +111,10 @@ class Environment(composer.Environment):
             raise RuntimeError("the environment is closed; load another")
 
     def _recompile_physics_and_update_observables(self):
-        if self._task.structure != self._current_structure:
+        wanted = self._task.structure, self._task.physics_steps_per_control_step
+        if wanted != self._current:
             super()._recompile_physics_and_update_observables()
-            self._current_structure = self._task.structure
+            self._current = wanted
 
     def _recompile_physics(self):
         structure = self._task.structure

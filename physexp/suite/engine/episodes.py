@@ -16,6 +16,7 @@ class Ledger:
       answers: indices of the right labels, int64 [N].
       structures: the compiled model that each episode needs, int64 [N].
       nuisances: what episodes differ in beside what is hidden, in [-1, 1], float64 [N, number of nuisances].
+      substeps: physics steps in a control step of each episode, int64 [N].
       steps: control steps taken, int64 [N].
       touched: whether each of the task's held entities has moved, bool [N, number of held entities].
       over: whether the episode has ended, or none has begun, bool [N].
@@ -25,7 +26,7 @@ class Ledger:
         """Makes a ledger of `size` rows for a `QuestionTask`."""
         self._task = task
         self._hidden: np.ndarray | None = None
-        self.answers, self.structures, self.steps = np.zeros((3, size), np.int64)
+        self.answers, self.structures, self.substeps, self.steps = np.zeros((4, size), np.int64)
         self.nuisances = np.zeros((size, task.num_nuisances if task.options.variation else 0))
         self.touched = np.zeros((size, len(task.held)), bool)
         self.reseed(np.zeros(size, np.int64))
@@ -77,6 +78,7 @@ class Ledger:
         self._hidden[rows] = drawn
         self.answers[rows], self.structures[rows] = answers, structures
         self.nuisances[rows] = differing
+        self.substeps[rows] = self._task.options.draw_substeps(self.seeds[rows], indices)
         self.next_episodes[rows] = indices + 1
         self.steps[rows] = 0
         self.touched[rows] = False

@@ -4,6 +4,8 @@ import dataclasses
 import math
 from typing import Any, ClassVar
 
+import numpy as np
+
 from physexp.suite.engine import checks, seeding
 
 _LONGEST = {"control_timestep": 60.0, "time_limit": 1e6}  # s; a control step is simulated in one go.
@@ -16,8 +18,11 @@ class Options:
     Attributes:
       random: an integer seed, a `numpy.random.RandomState`, or None for a seed from the operating system.
       control_timestep: time between actions, a multiple of the physics step, at most a minute, s.
-      time_limit: time after which an unanswered episode ends, rounded up to whole control steps, s.
+      time_limit: time after which an unanswered episode ends, rounded up to whole control steps of
+        `control_timestep`, s.
       variation: how far episodes differ in what is not asked, as where things stand, from 0, where they do not, to 1.
+      step_variation: how far the control step of an episode may differ from `control_timestep`, as a share of it, from
+        0 to 0.9. It is a multiple of the physics step, any in that range with the same probability.
       noise: standard deviation of what is added to every reading in metres, at each control step anew, m.
       reveal: observe the right answer from the first step on, as `answer`: 1 for the right label and 0 for the others.
         Who fails even so has not learned to answer.
@@ -33,6 +38,7 @@ class Options:
     control_timestep: float = 0.1
     time_limit: float
     variation: float = 0.0
+    step_variation: float = 0.0
     noise: float = 0.0
     reveal: bool = False
     visualize_reward: bool = False
@@ -45,6 +51,7 @@ class Options:
                 raise ValueError(f"{name} is {checks.shown(getattr(self, name))}; give at most {longest:g} s")
             object.__setattr__(self, name, seconds)
         object.__setattr__(self, "variation", checks.between("variation", self.variation, 0, 1))
+        object.__setattr__(self, "step_variation", checks.between("step_variation", self.step_variation, 0, 0.9))
         object.__setattr__(self, "noise", checks.number("noise", self.noise, 0, "m"))
         for name in ("reveal", "visualize_reward"):
             object.__setattr__(self, name, checks.flag(name, getattr(self, name)))
@@ -68,11 +75,34 @@ class Options:
             raise ValueError(
                 f"control_timestep is {self.control_timestep} s; give at least {shortest} s, in which {meanwhile}"
             )
+        least = self._substeps_range[0] * self.physics_timestep
+        if least < shortest - 1e-9:
+            raise ValueError(
+                f"step_variation is {self.step_variation:g}, with which control steps are as short as {least:g} s; "
+                f"give less: at least {shortest} s are needed, in which {meanwhile}"
+            )
 
     @property
     def substeps(self) -> int:
         """Physics steps in a control step."""
         return round(self.control_timestep / self.physics_timestep)
+
+    @property
+    def _substeps_range(self) -> tuple[int, int]:
+        """The fewest and the most physics steps that an episode's control steps may have."""
+        widest = math.floor(self.step_variation * self.substeps + 1e-9)
+        return max(1, self.substeps - widest), self.substeps + widest
+
+    def draw_substeps(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
+        """Returns how many physics steps the control steps of some episodes have, int64 [N].
+
+        Args:
+          seeds, episodes: environment seeds and episode indices, int64 [N].
+        """
+        fewest, most = self._substeps_range
+        if fewest == most:
+            return np.full(len(seeds), self.substeps)
+        return fewest + np.floor(seeding.timings(seeds, episodes) * (most - fewest + 1)).astype(np.int64)
 
     @property
     def step_limit(self) -> int:

@@ -14,7 +14,7 @@ LAST_EPISODE = 2**62 - 1  # Far enough from the largest int64 that counting on n
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 # What tells numbers for one purpose from those for another.
-_NOISE, _VARIATION = np.uint64(0x6E6F697365), np.uint64(0x76617279)
+_NOISE, _VARIATION, _TIMING = np.uint64(0x6E6F697365), np.uint64(0x76617279), np.uint64(0x74696D65)
 
 
 def _mix(x: np.ndarray) -> np.ndarray:
@@ -60,6 +60,15 @@ def variations(seeds: np.ndarray, episodes: np.ndarray, count: int) -> np.ndarra
       count: numbers per episode.
     """
     return 2 * _uniforms(_mix(_keys(seeds, episodes) ^ _VARIATION), count) - 1
+
+
+def timings(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
+    """A number of each of some episodes in (0, 1), float64 [N], independent of what the other functions return.
+
+    Args:
+      seeds, episodes: as for `uniforms`.
+    """
+    return _uniforms(_mix(_keys(seeds, episodes) ^ _TIMING), 1)[:, 0]
 
 
 def normals(seeds: np.ndarray, episodes: np.ndarray, steps: np.ndarray, count: int) -> np.ndarray:

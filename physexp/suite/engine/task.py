@@ -370,6 +370,7 @@ class QuestionTask(composer.Task):
     def initialize_episode_mjcf(self, random_state):
         given, self._given_hidden = self._given_hidden, None
         self._ledger.begin(_ROW, given)
+        self.control_timestep = int(self._ledger.substeps[0]) * self.physics_timestep
         self.arrange(self.structure)
 
     def initialize_episode(self, physics, random_state):

@@ -1,0 +1,87 @@
+"""Control steps that differ among episodes: drawn from a range, and the same in all steps of an episode."""
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from physexp import suite
+from physexp.analysis import domains, replay
+from physexp.suite.engine import seeding
+
+P_VALUE = 1e-4
+TOWER = ("towers", "fist_features")
+
+
+def test_control_steps_are_any_multiple_of_the_physics_step_in_the_range_and_independent_of_all_else(seed):
+    options = suite.load_task(*TOWER, {"random": seed, "step_variation": 0.5}).options
+    episodes, seeds = np.arange(20_000), np.full(20_000, seed)
+    found = options.draw_substeps(seeds, episodes)
+    lengths, counts = np.unique(found, return_counts=True)
+    assert lengths.tolist() == list(range(10, 31))  # 0.05 to 0.15 s in steps of 5 ms.
+    assert stats.chisquare(counts).pvalue > P_VALUE
+    drawn = np.hstack([seeding.uniforms(seeds, episodes, 2), seeding.variations(seeds, episodes, 2)])
+    for others in drawn.T:
+        assert stats.pearsonr(found, others).pvalue > P_VALUE
+
+
+def test_in_an_episode_all_control_steps_last_as_long_as_the_environment_says(seed):
+    environment = suite.load(*TOWER, {"random": seed, "step_variation": 0.5})
+    lengths = set()
+    for _ in range(6):
+        environment.reset()
+        lengths.add(environment.control_timestep())
+        for step in range(1, 5):
+            environment.step(1)
+            assert environment.physics.time() == pytest.approx(step * environment.control_timestep())
+    assert len(lengths) > 1 and all(0.05 <= length <= 0.15 + 1e-9 for length in lengths)
+
+
+def test_the_fist_goes_as_far_in_a_control_step_as_it_has_time_to(seed):
+    """The fist moves at 1 m/s, once it has picked up speed."""
+    batch = suite.load_batch(*TOWER, 8, {"random": seed, "step_variation": 0.5})
+    batch.reset()
+    first, second = (batch.step(np.full(8, 2)).observation["fist_position"][:, 1] for _ in range(2))
+    moved = np.abs(second - first)
+    lasted = batch.task.options.draw_substeps(batch.seeds, batch.episodes) * batch.task.options.physics_timestep
+    assert np.unique(lasted).size > 1
+    np.testing.assert_allclose(moved, lasted * 1.0, atol=2e-3)
+
+
+def test_an_unanswered_episode_has_as_many_control_steps_as_without(seed):
+    batch = suite.load_batch(*TOWER, 8, {"random": seed, "step_variation": 0.9})
+    batch.reset()
+    for _ in range(25):
+        assert not batch.step(np.ones(8, np.int64)).last().any()
+    assert batch.step(np.ones(8, np.int64)).last().all()
+
+
+def test_a_replay_shows_actions_when_they_were_taken(seed):
+    options = {"step_variation": 0.5}
+    environment = suite.load(*TOWER, {"random": seed, **options})
+    recorder = replay.EpisodeRecorder(environment, *TOWER, options)
+    recorder.observe_first(environment, environment.reset())
+    lasts = environment.control_timestep()
+    for action in (0, 1, 4):
+        recorder.observe(environment, environment.step(action), action)
+    assert recorder.episode.control_timestep == lasts
+    assert recorder.episode.times[-1] == pytest.approx(2 * lasts)  # An answer takes no time.
+
+
+@pytest.mark.parametrize("value", [-0.1, 0.91, np.nan, "much", None])
+def test_a_range_that_makes_no_sense_is_refused(value):
+    with pytest.raises(ValueError, match=r"^step_variation is .*; give a "):
+        suite.load(*TOWER, {"step_variation": value})
+
+
+def test_a_range_with_steps_too_short_for_the_question_is_refused():
+    suite.load("strings", "features", {"control_timestep": 0.2, "step_variation": 0.5}).close()
+    with pytest.raises(ValueError, match=r"^step_variation is 0.6, with which control steps are as short as 0.08 s; "):
+        suite.load("strings", "features", {"control_timestep": 0.2, "step_variation": 0.6})
+
+
+def test_there_is_no_ideal_experimenter_unless_the_answer_is_revealed():
+    domain = domains.find("towers")
+    assert domain.ideal_with({"step_variation": 0.5}) is None
+    with pytest.raises(ValueError, match="^step_variation is 0.5; give 0: the ideal experimenter is known where "):
+        domain.ideal("fist_features", {"step_variation": 0.5}, 0.98)
+    assert domain.ideal_with({"step_variation": 0.5, "reveal": True}) is not None
