@@ -17,8 +17,16 @@ class GlueRule(core.Actor):
     answers with the number of bodies that it has seen.
     """
 
-    def __init__(self, interactions: Sequence[int], num_interactions: int, noise: float = 0.0):
-        """Takes the interactions that it repeats, how many there are, and the standard deviation of readings, m."""
+    def __init__(self, interactions: Sequence[int], num_interactions: int, noise: float = 0.0, wait: int | None = None):
+        """Sets what it does.
+
+        Args:
+          interactions: those that it repeats.
+          num_interactions: how many there are.
+          noise: standard deviation of readings, m.
+          wait: after how many interactions it answers, whatever it has seen; by default it decides that as above.
+        """
+        self._wait = wait
         self._interactions, self._num_interactions = tuple(interactions), num_interactions
         self._change = _CHANGE + _DEVIATIONS * noise
 
@@ -38,7 +46,8 @@ class GlueRule(core.Actor):
         positions = next_timestep.observation["positions"].astype(float)
         changes = np.abs(_distances(positions) - _distances(self._first))
         are_apart = self._are_apart | (changes > self._change)
-        self._is_settled = self._has_moved and bool((are_apart == self._are_apart).all())
+        is_still = self._has_moved and bool((are_apart == self._are_apart).all())
+        self._is_settled = is_still if self._wait is None else self._step >= self._wait
         self._has_moved |= bool((np.linalg.norm(positions - self._first, axis=-1) > self._change).any())
         self._are_apart = are_apart
 

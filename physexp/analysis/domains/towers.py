@@ -126,8 +126,8 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolu
         search.solve(hypotheses(task, told, nuisances), resolution, discount).bound
         for nuisances in _drawn_nuisances(task, told)
     ]
-    rule = functools.partial(_rule, task, task_kwargs.get("noise") or 0.0)
-    return bounds.Solution(_NAME, task, task_kwargs, discount, rule, upper)
+    play = functools.partial(rule, task, task_kwargs.get("noise") or 0.0)
+    return bounds.Solution(_NAME, task, task_kwargs, discount, play, upper)
 
 
 def _drawn_nuisances(task: str, task_kwargs: Mapping[str, Any]):
@@ -153,11 +153,11 @@ _RULES = {
 }
 
 
-def _rule(task: str, noise: float = 0.0) -> "core.Actor":
-    """Returns an actor that holds cubes for glued while their distance has not changed."""
+def rule(task: str, noise: float = 0.0, wait: int | None = None) -> "core.Actor":
+    """Returns an actor that holds cubes for glued while their distance has not changed; see `glue.GlueRule`."""
     from physexp.analysis.domains import glue
 
-    return glue.GlueRule(_RULES[task], _num_interactions(task), noise)
+    return glue.GlueRule(_RULES[task], _num_interactions(task), noise, wait)
 
 
 @functools.cache
@@ -180,7 +180,7 @@ def _lookup(task: str) -> "core.Actor":
 
 
 _BASELINES = {
-    task: {"rule": functools.partial(_rule, task), "lookup": functools.partial(_lookup, task)} for task in _RULES
+    task: {"rule": functools.partial(rule, task), "lookup": functools.partial(_lookup, task)} for task in _RULES
 }
 
 

@@ -25,6 +25,7 @@ NAMES = (
     "data_efficiency",
     "ablations",
     "generalization",
+    "timing",
     "noise",
     "weighing",
     "clamping",

@@ -48,7 +48,7 @@ class Results:
 
         runs/NAME/                     a run: configuration, metrics, the agent in half precision
         episodes/TRIAL/NAME.parquet    what the run's agent played, a row an episode
-        ideal/, generalization/, noise/
+        ideal/, generalization/, timing/, noise/
                                        what experimenters earn that nobody trained
         figures/EXPERIMENT.{svg,png}
         report.md, report.html

@@ -46,6 +46,7 @@ _BELIEF_FRAMES = {
 }
 _PAPERS_FRAMES = {"10-F": 2_000_000}  # The same, of the paper's own learner.
 _NOISY_FRAMES = {"5-F": 120_000}  # The same, with noise.
+_TIMED_FRAMES = {"F-F": 200_000}  # The same, with control steps of many lengths.
 _VARIED_FRAMES = {"D-F": 150_000, "F-F": 150_000, "D-P": 200_000, "F-P": 250_000}  # The same, with variation.
 
 
@@ -120,6 +121,12 @@ def with_variation(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
     """Returns a condition of Towers with full variation, and the belief learner's budget for that."""
     agent = config.agent.replace(frames=_VARIED_FRAMES[config.label])
     return dataclasses.replace(config, task_kwargs={**config.task_kwargs, "variation": 1.0}, agent=agent)
+
+
+def with_step_variation(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
+    """Returns a condition of Towers with control steps from half to one and a half times as long as usual."""
+    agent = config.agent.replace(frames=_TIMED_FRAMES[config.label])
+    return dataclasses.replace(config, task_kwargs={**config.task_kwargs, "step_variation": 0.5}, agent=agent)
 
 
 def with_noise(config: config_lib.TrainConfig, noise: float) -> config_lib.TrainConfig:

@@ -25,19 +25,20 @@ _NUM_EPISODES = 2000  # Of each test.
 _NUM_ACTORS = 100  # Of those that nobody trained, side by side.
 
 
-def _trial(name: str, **task_kwargs: float) -> base.Trial:
-    return base.Trial(name=name, num_episodes=_NUM_EPISODES, task_kwargs=task_kwargs)
+def make_trial(name: str, **task_kwargs: float) -> base.Trial:
+    """Returns a test with options of the task; control steps are alike unless they say otherwise."""
+    return base.Trial(name=name, num_episodes=_NUM_EPISODES, task_kwargs={"step_variation": 0.0, **task_kwargs})
 
 
 TRIALS = {
-    "as usual": _trial("usual", variation=0.0),
-    "varied": _trial("varied", variation=1.0),
-    "friction 0.42": _trial("friction0.42", variation=1.0, sliding_friction=0.42),
-    "friction 0.45": _trial("friction0.45", variation=1.0, sliding_friction=0.45),
-    "friction 0.48": _trial("friction0.48", variation=1.0, sliding_friction=0.48),
-    "cubes of 95 mm": _trial("cubes0.095", variation=1.0, cube_size=0.095),
-    "steps of 0.05 s": _trial("steps0.05", variation=1.0, control_timestep=0.05),
-    "steps of 0.15 s": _trial("steps0.15", variation=1.0, control_timestep=0.15),
+    "as usual": make_trial("usual", variation=0.0),
+    "varied": make_trial("varied", variation=1.0),
+    "friction 0.42": make_trial("friction0.42", variation=1.0, sliding_friction=0.42),
+    "friction 0.45": make_trial("friction0.45", variation=1.0, sliding_friction=0.45),
+    "friction 0.48": make_trial("friction0.48", variation=1.0, sliding_friction=0.48),
+    "cubes of 95 mm": make_trial("cubes0.095", variation=1.0, cube_size=0.095),
+    "steps of 0.05 s": make_trial("steps0.05", variation=1.0, control_timestep=0.05),
+    "steps of 0.15 s": make_trial("steps0.15", variation=1.0, control_timestep=0.15),
 }
 """What is played, by the names of the tests."""
 HELD_OUT = tuple(TRIALS)[2:]

@@ -26,6 +26,7 @@ from physexp.analysis.experiments import (
     noise,
     population,
     shaking,
+    timing,
     waiting,
     weighing,
 )
@@ -283,6 +284,43 @@ def other_towers(num_agents, generator, varied=0.985, held_out=0.95, usual=0.5, 
             for test, value in tests.items()
         ]
     )
+
+
+def timed_fists(num_agents, generator, fine=0.99, power=0.0, rule=0.6, too_many=(0.98, 0.02), slippery=(0.95, 0.8)):
+    """What fists make of control steps of other lengths.
+
+    Args:
+      fine: the share of right answers, at the shortest control step, of agents who know many.
+      power: their time to the answer is in proportion to this power of the control step.
+      rule: the share of right answers of the rule that waits for a number of control steps, below 0.1 s.
+      too_many: the share of wrong answers that count too many, of agents who know one, at the shortest and longest.
+      slippery: the shares of right answers where friction is high, of those who know many and one.
+    """
+    shortest, *_, longest = timing.STEPS
+    rows = []
+    for seed in range(num_agents):
+        for player, friction_right in zip((timing.MANY, timing.ONE), slippery, strict=True):
+            for step in timing.STEPS:
+                right = fine if player == timing.MANY and step == shortest else 0.99 if player == timing.MANY else 0.8
+                time = 0.35 * (step / 0.1) ** power
+                share = {shortest: too_many[0], longest: too_many[1]}.get(step, 0.5)
+                rows.append((player, seed, step, False, right, time, share))
+            rows.append((player, seed, 0.1, True, friction_right, 0.35, 0.5))
+    frame = pandas.DataFrame(rows, columns=["player", "training_seed", "step", "friction", "right", "time", "too_many"])
+    for name in ("right", "time", "too_many"):
+        frame[name] += generator.normal(0, 0.003, len(frame))
+    rules = pandas.DataFrame(
+        {
+            "player": timing.WAITS,
+            "training_seed": -1,
+            "step": list(timing.STEPS),
+            "friction": False,
+            "right": [rule if step < 0.1 else 1.0 for step in timing.STEPS],
+            "time": [4 * step for step in timing.STEPS],
+        }
+    )
+    frame = pandas.concat([frame, rules], ignore_index=True)
+    return frame.assign(interactions=frame.time / frame.step, condition=label(timing.CONDITIONS[timing.ONE]))
 
 
 # Episodes of Which is Heavier.
@@ -694,6 +732,14 @@ WORLDS: dict[str, dict[str, _World]] = {
         "sixteen are enough": functools.partial(other_towers, usual=1.0),
         "nobody has a rule": functools.partial(other_towers, rule=0.9),
         "agents who dawdle": functools.partial(other_towers, share=0.8),
+    },
+    "timing": {
+        "paper": timed_fists,
+        "as many steps": functools.partial(timed_fists, power=1.0),
+        "ever more steps": functools.partial(timed_fists, power=-1.0),
+        "lost in fine time": functools.partial(timed_fists, fine=0.5),
+        "errors of either kind": functools.partial(timed_fists, too_many=(0.5, 0.5)),
+        "lengths tell nothing of friction": functools.partial(timed_fists, slippery=(0.8, 0.81)),
     },
     "noise": {
         "paper": second_pokes,

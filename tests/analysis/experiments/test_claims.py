@@ -116,6 +116,19 @@ FALSE_IN = {
         "A rule of one line is right wherever towers vary": {"nobody has a rule"},
         "Agents trained with variation earn nearly what the rule earns": {"agents who dawdle"},
     },
+    "timing": {
+        "Who was trained with control steps of many lengths is right at each of them": {"lost in fine time"},
+        "Who was trained with control steps of many lengths waits for a time": {"as many steps", "ever more steps"},
+        "Who was trained with control steps of many lengths does not wait for a number of them": {"as many steps"},
+        "In fine time an agent is right more often than a rule that waits for a number of control steps": {
+            "lost in fine time"
+        },
+        "Who was trained with control steps of one length takes shorter ones for more bodies, and longer ones for "
+        "fewer": {"errors of either kind"},
+        "Who was trained with control steps of many lengths is right more often where friction is high": {
+            "lengths tell nothing of friction"
+        },
+    },
     "noise": {
         "With noise, agents poke a block again where the mass gap is small": {"whatever the gap"},
         "With noise, the smaller the mass gap, the longer an agent experiments": {"hard ones are quick"},
