@@ -239,6 +239,44 @@ def test_the_fist_starts_clear_of_the_tower_at_the_height_of_its_middle():
     assert (y, z) == pytest.approx((0, 0), abs=1e-5)
 
 
+@pytest.mark.parametrize("cube_size, distance", [(EDGE, 0.16), (0.12, 0.17), (0.08, 0.2)])
+def test_the_fist_may_start_nearer_and_is_then_in_contact_after_one_step_but_not_before(cube_size, distance):
+    options = {"random": 0, "cube_size": cube_size, "fist_distance": distance}
+    batch = suite.load_batch("towers", "fist_features", 16, options)
+    first = batch.reset(hidden=EVERY_PATTERN).observation
+    assert first["fist_position"][:, 0] == pytest.approx(-distance)
+    away = batch.step(np.ones(16, int)).observation["positions"]
+    assert away.tobytes() == first["positions"].tobytes()
+    batch.reset(hidden=EVERY_PATTERN)
+    hit = batch.step(np.zeros(16, int)).observation["positions"]
+    assert (np.abs(hit - first["positions"]).max(axis=(1, 2)) > 0.01).all()
+
+
+def test_a_near_fist_touches_no_tower_however_much_they_vary(seed):
+    batch = suite.load_batch("towers", "fist_features", 500, {"random": seed, "variation": 1.0, "fist_distance": 0.2})
+    first = batch.reset().observation["positions"]
+    seen = batch.step(np.ones(500, int)).observation["positions"]
+    assert seen.tobytes() == first.tobytes()
+
+
+@pytest.mark.parametrize(
+    "task_name, options, message",
+    [
+        ("fist_features", {"fist_distance": 0.15}, "fist_distance is 0.15; give a number from 0.16 to 0.32 m"),
+        ("fist_features", {"fist_distance": 0.4}, "fist_distance is 0.4; give a number from 0.16 to 0.32 m"),
+        (
+            "fist_features",
+            {"fist_distance": 0.16, "variation": 0.5},
+            "fist_distance is 0.16; give a number from 0.18 to 0.32 m",
+        ),
+        ("direct_features", {"fist_distance": 0.2}, "fist_distance is 0.2; give 0.32 where there is no fist"),
+    ],
+)
+def test_a_fist_too_near_or_where_there_is_none_is_refused(task_name, options, message):
+    with pytest.raises(ValueError, match=f"^{message}$"):
+        suite.load("towers", task_name, options)
+
+
 def test_exactly_one_held_action_takes_the_fist_into_the_tower():
     hits = []
     for pattern in (SEPARATE, 5, WHOLE):

@@ -23,6 +23,7 @@ NAMES = (
     "ideal_gap",
     "learners",
     "data_efficiency",
+    "reaching",
     "ablations",
     "generalization",
     "timing",

@@ -1,6 +1,6 @@
 """The parts of an experiment: the agents it needs, the episodes they play, its claims and its figure."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 import dataclasses
 import functools
 import json
@@ -90,29 +90,38 @@ class Results:
         """Returns whether an agent of a condition has played what is asked for, whatever its seed."""
         return bool(self._complete([trial], config))
 
+    def has_finished(self, config: config_lib.TrainConfig) -> bool:
+        """Returns whether an agent of a condition has been trained, whatever its seed."""
+        return any(self._finished(config))
+
     def curves(self, configs: Sequence[config_lib.TrainConfig]) -> Any:
         """Learning curves: a DataFrame of the rows of `metrics.METRICS` of all seeds of these conditions."""
         import pandas
 
         frames = []
         for config in configs:
-            for folder in sorted((self.path / "runs").glob(f"{_without_seed(config)}-seed*")):
-                run = run_lib.Run(folder)
-                if run.is_finished:
-                    frames.append(
-                        pandas.DataFrame(run.metrics()).assign(
-                            domain=config.domain,
-                            task=config.task,
-                            difficulty=config.task_kwargs.get("difficulty"),
-                            discount=config.agent.discount,
-                            training_seed=run.config.agent.seed,
-                            algorithm=config.agent.title,
-                        )
+            for run in self._finished(config):
+                frames.append(
+                    pandas.DataFrame(run.metrics()).assign(
+                        domain=config.domain,
+                        task=config.task,
+                        difficulty=config.task_kwargs.get("difficulty"),
+                        discount=config.agent.discount,
+                        training_seed=run.config.agent.seed,
+                        algorithm=config.agent.title,
                     )
+                )
         if not frames:
             raise ValueError(f"{self.path} holds no finished runs of this experiment; `physexp reproduce` it first")
         frame = pandas.concat(frames, ignore_index=True)
         return frame.assign(condition=_labels(frame))
+
+    def _finished(self, config: config_lib.TrainConfig) -> Iterator[run_lib.Run]:
+        """Yields the finished runs of a condition, in the order of their names."""
+        for folder in sorted((self.path / "runs").glob(f"{_without_seed(config)}-seed*")):
+            run = run_lib.Run(folder)
+            if run.is_finished:
+                yield run
 
     def _complete(self, trials: Sequence[Trial], config: config_lib.TrainConfig) -> list[Path]:
         """The episodes of the seeds of a condition that have played all of the trials."""

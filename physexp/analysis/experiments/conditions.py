@@ -1,5 +1,6 @@
 """The conditions that agents are trained in: all of the paper's, each for as long as it takes to level off."""
 
+from collections.abc import Mapping
 import dataclasses
 import re
 from typing import Any
@@ -117,22 +118,28 @@ def with_belief(config: config_lib.TrainConfig, **changes: Any) -> config_lib.Tr
     return dataclasses.replace(config, agent=agent)
 
 
+def with_task_kwargs(config: config_lib.TrainConfig, **task_kwargs: Any) -> config_lib.TrainConfig:
+    """Returns a condition with further options of the task."""
+    return dataclasses.replace(config, task_kwargs={**config.task_kwargs, **task_kwargs})
+
+
 def with_variation(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
     """Returns a condition of Towers with full variation, and the belief learner's budget for that."""
-    agent = config.agent.replace(frames=_VARIED_FRAMES[config.label])
-    return dataclasses.replace(config, task_kwargs={**config.task_kwargs, "variation": 1.0}, agent=agent)
+    return with_task_kwargs(_trained_for(config, _VARIED_FRAMES), variation=1.0)
 
 
 def with_step_variation(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
     """Returns a condition of Towers with control steps from half to one and a half times as long as usual."""
-    agent = config.agent.replace(frames=_TIMED_FRAMES[config.label])
-    return dataclasses.replace(config, task_kwargs={**config.task_kwargs, "step_variation": 0.5}, agent=agent)
+    return with_task_kwargs(_trained_for(config, _TIMED_FRAMES), step_variation=0.5)
 
 
 def with_noise(config: config_lib.TrainConfig, noise: float) -> config_lib.TrainConfig:
     """Returns a condition with noise of a standard deviation, m, and the belief learner's budget for that."""
-    agent = config.agent.replace(frames=_NOISY_FRAMES[config.label])
-    return dataclasses.replace(config, task_kwargs={**config.task_kwargs, "noise": noise}, agent=agent)
+    return with_task_kwargs(_trained_for(config, _NOISY_FRAMES), noise=noise)
+
+
+def _trained_for(config: config_lib.TrainConfig, frames: Mapping[str, int]) -> config_lib.TrainConfig:
+    return dataclasses.replace(config, agent=config.agent.replace(frames=frames[config.label]))
 
 
 def observations(config: config_lib.TrainConfig) -> str:

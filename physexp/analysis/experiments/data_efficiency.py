@@ -98,7 +98,8 @@ def find_claims(frame) -> list[claims.Claim]:
             condition=kind,
             statistic=f"environment steps to {scores.level(labels[0])}, belief learner, fist over direct, "
             "ratio of geometric means",
-            reason="The fist must first find the tower and travel to it, and every push touches it.",
+            reason="The fist must first find the tower and travel to it, and every push touches it: reaching tests "
+            "whether that is why.",
         )
     return found
 

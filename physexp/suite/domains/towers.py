@@ -10,7 +10,7 @@ import numpy as np
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import checks, declarations, seeding, senses, task
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import actuators, arena, block, material, tower
+from physexp.suite.parts import actuators, arena, block, fist, material, tower
 
 SUITE = containers.TaggedTasks()
 
@@ -23,6 +23,11 @@ YAW_VARIATION = np.deg2rad(10)
 FRICTIONS = (0.25, 0.4)  # Where variation is full; without, it is between the two.
 MASS_VARIATION = 0.2  # Share of the cubes' mass, the same for all of them.
 
+# How much nearer fist and tower may start with full variation: by the places of both, and by the tower's yaw, which
+# takes the corners of cubes of 0.12 m towards the fist by less than 1 cm.
+_APPROACH = POSITION_VARIATION + actuators.FIST_VARIATION[0] + 0.01  # m
+_FIST_CLEARANCE = 0.01  # m
+
 _ROOM = dict(mat_size=[0.6, 0.6], camera_pos=[0.35, -3.4, 2.0], camera_target=[-0.03, 0, 0.17], fovy=21.5)
 
 
@@ -34,6 +39,8 @@ class Options(options_lib.Options):
       cube_size: edge of the cubes, 0.08 to 0.12, m.
       sliding_friction: coefficient of friction, 0.1 to 1, of cubes, floor and fist; by default 0.3, which `variation`
         then varies.
+      fist_distance: from the tower's axis to the centre of the fist at the start, m, at most 0.32, the default. It
+        leaves at least 1 cm between them: 0.16 is the least for the default cubes, and 0.2 with full variation.
     """
 
     physics_timestep = PHYSICS_TIMESTEP
@@ -41,6 +48,7 @@ class Options(options_lib.Options):
     time_limit: float = 2.6  # the paper's 26 steps at its control step of 0.1 s
     cube_size: float = 2 * block.HALF_SIZE
     sliding_friction: float | None = None
+    fist_distance: float = actuators.FIST_DISTANCE
 
     def __post_init__(self):
         super().__post_init__()
@@ -48,6 +56,9 @@ class Options(options_lib.Options):
         if self.sliding_friction is not None:
             friction = checks.between("sliding_friction", self.sliding_friction, 0.1, 1.0)
             object.__setattr__(self, "sliding_friction", friction)
+        nearest = fist.RADIUS + self.cube_size / 2 + _FIST_CLEARANCE + self.variation * _APPROACH
+        distance = checks.between("fist_distance", self.fist_distance, round(nearest, 4), actuators.FIST_DISTANCE, "m")
+        object.__setattr__(self, "fist_distance", distance)
 
     @property
     def friction(self) -> float:
@@ -210,25 +221,37 @@ def _frictions(model, nuisances: np.ndarray) -> declarations.Fields:
     return {"geom_friction": (geoms, values)}
 
 
+def _direct(options: Options, sense: senses.Sense) -> Towers:
+    if options.fist_distance != actuators.FIST_DISTANCE:
+        raise ValueError(
+            f"fist_distance is {options.fist_distance:g}; give {actuators.FIST_DISTANCE:g} where there is no fist"
+        )
+    return Towers(options, actuators.DirectActuator(), sense)
+
+
+def _fist(options: Options, sense: senses.Sense) -> Towers:
+    return Towers(options, actuators.FistActuator(options.friction, options.fist_distance), sense)
+
+
 @SUITE.add("features", "direct")
 def direct_features(options):
     """Observes `positions`, float32 (5, 3): the blocks' centres, m."""
-    return Towers(options, actuators.DirectActuator(), senses.Features())
+    return _direct(options, senses.Features())
 
 
 @SUITE.add("features", "fist")
 def fist_features(options):
     """Observes `positions`, float32 (5, 3), and `fist_position`, float32 (3,), m."""
-    return Towers(options, actuators.FistActuator(options.friction), senses.Features())
+    return _fist(options, senses.Features())
 
 
 @SUITE.add("pixels", "direct")
 def direct_pixels(options):
     """Observes `pixels`, uint8 (84, 84, 3): the room from above its front wall."""
-    return Towers(options, actuators.DirectActuator(), senses.Pixels())
+    return _direct(options, senses.Pixels())
 
 
 @SUITE.add("pixels", "fist")
 def fist_pixels(options):
     """Observes `pixels`, uint8 (84, 84, 3): the room from above its front wall."""
-    return Towers(options, actuators.FistActuator(options.friction), senses.Pixels())
+    return _fist(options, senses.Pixels())

@@ -9,7 +9,8 @@ from physexp.suite.parts import arena, fist, material, tower
 # from the middle out by a good part of its edge in one control step.
 PUSH_FORCE = 50.0  # N
 
-FIST_START = (-0.32, 0.0, 0.25)  # m: at the height of the middle cube, 0.17 m clear of the tower
+FIST_DISTANCE = 0.32  # m, from the tower's axis to the fist's centre at the start: 0.17 m clear of the tower
+_FIST_HEIGHT = 0.25  # m: that of the middle cube
 FIST_SPEED = 1.0  # m/s
 _FIST_REACH = 0.4  # m: leaves half a block's room at the wall, and its force is limited
 
@@ -54,11 +55,15 @@ class DirectActuator:
 class FistActuator:
     """Sets the velocity of the fist."""
 
-    def __init__(self, friction: float = material.FRICTION):
-        """Builds a fist with this coefficient of friction."""
-        x, y, _ = FIST_START
-        reach = _FIST_REACH
-        self.fist = fist.Fist([-reach - x, reach - x], [-reach - y, reach - y], friction)
+    def __init__(self, friction: float = material.FRICTION, distance: float = FIST_DISTANCE):
+        """Builds a fist.
+
+        Args:
+          friction: its coefficient of friction.
+          distance: from the tower's axis, at the start, m.
+        """
+        self._distance, reach = distance, _FIST_REACH
+        self.fist = fist.Fist([distance - reach, distance + reach], [-reach, reach], friction)
 
     @property
     def readings(self) -> dict[str, declarations.Reading]:
@@ -79,7 +84,7 @@ class FistActuator:
     def attach_to(self, room: arena.Laboratory) -> None:
         """Places the fist in the room."""
         frame = room.attach(self.fist)
-        frame.pos = FIST_START
+        frame.pos = -self._distance, 0.0, _FIST_HEIGHT
         self.fist.create_root_joints(frame)
 
     def equip(self, built: tower.Tower) -> None:

@@ -25,6 +25,7 @@ from physexp.analysis.experiments import (
     learners,
     noise,
     population,
+    reaching,
     shaking,
     timing,
     waiting,
@@ -175,6 +176,21 @@ def two_learners(num_agents, generator, ppo=5e5, a3c=2e6, seconds_of_a_ppo_frame
         num_agents, generator, dict.fromkeys(learned_at, 0.97), 0.2, learned_at, learners.CONDITIONS, name_of
     )
     return frame.assign(seconds=frame.seconds.where(frame.algorithm == "a3c", seconds_of_a_ppo_frame * frame.frames))
+
+
+def reaching_fists(num_agents, generator, near=0.5, direct=1.0):
+    """Learning curves of fists at the tower and away from it, and of direct pushes.
+
+    Args:
+      near, direct: how many times as many environment steps these need as a fist that is away.
+    """
+    needed = {reaching.NEAR: near, reaching.FAR: 1.0, reaching.DIRECT: direct}
+    frames = []
+    for kind, players in reaching.CONDITIONS.items():
+        for player, config in players.items():
+            frame = scores(num_agents, generator, {config: 20_000 * needed[player]})
+            frames.append(frame.assign(condition=kind, player=player))
+    return pandas.concat(frames, ignore_index=True)
 
 
 def few_frames(
@@ -717,6 +733,11 @@ WORLDS: dict[str, dict[str, _World]] = {
         "pushes are quick": functools.partial(few_frames, fist=1.2, direct=0.4),
         "agents who stop short": functools.partial(few_frames, loss=4.0),
         "beliefs too sure": functools.partial(few_frames, calibration_error=0.05),
+    },
+    "reaching": {
+        "paper": reaching_fists,
+        "the way is short": functools.partial(reaching_fists, near=1.5, direct=2.0),
+        "pushes are quick": functools.partial(reaching_fists, direct=0.3),
     },
     "ablations": {
         "paper": variants,
