@@ -1,5 +1,6 @@
 """What experiments do with stored data of which something is missing or damaged."""
 
+import dataclasses
 import json
 import shutil
 
@@ -8,7 +9,7 @@ import made_data
 import numpy as np
 import pytest
 
-from physexp.analysis.experiments import base, generalization, ideal_gap, laboratory
+from physexp.analysis.experiments import base, generalization, ideal_gap, laboratory, timing
 
 RESULTS = blocks.ROOT / "results"
 
@@ -56,6 +57,25 @@ def test_experimenters_that_nobody_trained_play_only_the_tests_that_are_new(resu
     assert kept == [row for row in known if row in kept] and len(kept) == len(known) - 1
     assert new.items() <= found.items() and found["right"] == 100  # The rule is right where nothing varies.
     assert json.loads((folder / "fist_features.json").read_text()) == known
+
+
+def test_a_rule_that_waits_for_a_number_of_steps_is_right_at_their_usual_length_and_wrong_in_finer_time(
+    results, monkeypatch
+):
+    few = {step: dataclasses.replace(trial, num_episodes=100) for step, trial in timing.STEPS.items()}
+    monkeypatch.setattr(timing, "STEPS", few)
+    told = []
+    for _ in range(2):
+        timing.prepare(results, told.append)
+    assert told == ["a rule that waits for a fixed number of control steps plays"]
+    path = results.path / "timing" / "F-F.json"
+    made = json.loads(path.read_text())
+    assert made["right"]["0.1"] > 0.95 and made["right"]["0.05"] < 0.7
+    # In fine time it answers after this many seconds, when a fist at 1 m/s has come 0.17 m to the tower but no further.
+    assert 0.17 < made["wait"] * 0.05 < 0.3
+    write(path, {**made, "wait": "long"})
+    with pytest.raises(ValueError, match="F-F.json is not what was written; remove it, and `physexp reproduce timing`"):
+        base.read_made(path, "timing", timing._is_made)
 
 
 def test_an_agent_that_has_not_played_all_tests_yet_is_left_out():
