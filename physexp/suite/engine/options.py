@@ -18,11 +18,11 @@ class Options:
     Attributes:
       random: an integer seed, a `numpy.random.RandomState`, or None for a seed from the operating system.
       control_timestep: time between actions, a multiple of the physics step, at most a minute, s.
-      time_limit: time after which an unanswered episode ends, rounded up to whole control steps of
-        `control_timestep`, s.
+      time_limit: time after which an unanswered episode ends, rounded up to whole control steps, s.
       variation: how far episodes differ in what is not asked, as where things stand, from 0, where they do not, to 1.
       step_variation: how far the control step of an episode may differ from `control_timestep`, as a share of it, from
-        0 to 0.9. It is a multiple of the physics step, any in that range with the same probability.
+        0 to 0.9. It is a multiple of the physics step, each with the same probability. Episodes have as many control
+        steps as without.
       noise: standard deviation of what is added to every reading in metres, at each control step anew, m.
       reveal: observe the right answer from the first step on, as `answer`: 1 for the right label and 0 for the others.
         Who fails even so has not learned to answer.

@@ -253,9 +253,9 @@ def test_experiments_that_need_the_same_agent_train_it_once():
     assert len(names) == len(set(names))
     # Two seeds of: six conditions of Which is Heavier and four of Towers, each with A3C, with PPO and with the belief
     # learner in both tracks; the paper's own learner; three patient ones of A3C; three ablations in two conditions;
-    # four with variation; one with noise; and of each of five other domains, from features, A3C, PPO and the belief
-    # learner in both tracks.
-    count = (6 + 4) * 4 + 1 + 3 + 3 * 2 + 4 + 1 + 5 * 4
+    # four with variation, and one of them with control steps of many lengths; two with a fist at the tower; one with
+    # noise; and of each of five other domains, from features, A3C, PPO and the belief learner in both tracks.
+    count = (6 + 4) * 4 + 1 + 3 + 3 * 2 + (4 + 1) + 2 + 1 + 5 * 4
     assert len(names) == 2 * count
     assert [job.config.agent.seed for job in everything] == [0] * count + [1] * count
     fist = next(job for job in everything if job.config.task == "fist_features")
