@@ -116,8 +116,9 @@ def table(played: Iterable[Mapping[str, Any]]) -> pyarrow.Table:
 
 
 def write(folder: Path, found: pyarrow.Table) -> None:
-    """Writes the log of a folder."""
-    tables.write(folder / FILE, found, compression="zstd")
+    """Writes the log of a folder; most of it are digests and numbers, of which a dictionary would be as long."""
+    words = [field.name for field in SCHEMA if not pyarrow.types.is_primitive(field.type)]
+    tables.write(folder / FILE, found, compression="zstd", compression_level=19, use_dictionary=words)
 
 
 def read(folder: Path) -> pyarrow.Table:
