@@ -88,7 +88,7 @@ def draw(frame):
         figures.reference(axes, conditions.chance("towers", conditions.TOWERS[0].task), "chance")
         axes.set(title=kind, xscale="log", xlabel=learning.AXES["frames"][1])
     panels[0, 0].set(ylabel="share of right answers", ylim=(0, 1.02))
-    panels[0, 0].legend()
+    panels[0, 0].legend(loc="upper left")
     return figure
 
 

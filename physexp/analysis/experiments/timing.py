@@ -192,7 +192,7 @@ def _by_step(frame, player: str):
 def draw(frame):
     """Against the control step: the share of right answers, and the median time to the answer."""
     figure, panels = figures.new(columns=2, width=3.0, height=2.3)
-    words = {"right": "share of right answers", "time": "median time to the answer, s"}
+    words = {"right": "share of right answers", "time": "time to the answer, s"}
     for axes, (column, label) in zip(panels, words.items(), strict=True):
         for number, player in enumerate((ONE, MANY, WAITS)):
             table = _by_step(frame, player)
