@@ -163,6 +163,8 @@ def find_claims(frame) -> list[claims.Claim]:
                     statistic="share of right answers in the worst held-out test, median of agents",
                     estimate=estimates.median(varied[list(HELD_OUT)].min(axis=1)),
                     above=LEAST_RIGHT_HELD_OUT,
+                    reason="With the fist, agents know how towers move in the control steps that they were trained "
+                    "with, and take others for other towers: timing tests that.",
                 ),
             ]
         if len(varied) and len(usual):

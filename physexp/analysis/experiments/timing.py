@@ -35,7 +35,7 @@ FRICTION = generalization.TRIALS["friction 0.48"]
 _SHORTEST, _USUAL, _LONGEST = 0.05, 0.1, 0.15
 _NUM_ACTORS = 100  # Of the rule, side by side.
 
-# Written down before any agent was trained with control steps of several lengths.
+# Written down before any agent that was trained with control steps of many lengths had played.
 LEAST_RIGHT, AS_LONG, MORE_STEPS = 0.97, (0.67, 1.5), 1.5
 
 

@@ -116,7 +116,7 @@ def table(played: Iterable[Mapping[str, Any]]) -> pyarrow.Table:
 
 
 def write(folder: Path, found: pyarrow.Table) -> None:
-    """Writes the log of a folder; most of it are digests and numbers, of which a dictionary would be as long."""
+    """Writes the log of a folder. Only words get dictionaries: those of digests and numbers would save nothing."""
     words = [field.name for field in SCHEMA if not pyarrow.types.is_primitive(field.type)]
     tables.write(folder / FILE, found, compression="zstd", compression_level=19, use_dictionary=words)
 
