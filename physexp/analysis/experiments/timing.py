@@ -32,7 +32,7 @@ STEPS = {
 """What is played, by the length of the control step, s."""
 FRICTION = generalization.TRIALS["friction 0.48"]
 """What neither was trained with."""
-_SHORTEST, _USUAL, _LONGEST = 0.05, 0.1, 0.15
+_SHORTEST, _, _USUAL, _, _LONGEST = STEPS
 _NUM_ACTORS = 100  # Of the rule, side by side.
 
 # Written down before any agent that was trained with control steps of many lengths had played.

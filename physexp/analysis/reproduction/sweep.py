@@ -216,7 +216,7 @@ def _play(run: run_lib.Run, trial: base.Trial) -> pyarrow.Table:
         num_threads=1,
         num_steps=trial.num_steps,
     )
-    options = suite.load_task(config.domain, config.task, played_as.task_kwargs).options
+    options = suite.options(config.domain)(**played_as.task_kwargs)
     timestep = options.draw_substeps(played.seed, played.episode) * options.physics_timestep
     return records.table(played, config, trial.interaction, timestep)
 

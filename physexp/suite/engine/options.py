@@ -91,7 +91,7 @@ class Options:
     def _substeps_range(self) -> tuple[int, int]:
         """The fewest and the most physics steps that an episode's control steps may have."""
         widest = math.floor(self.step_variation * self.substeps + 1e-9)
-        return max(1, self.substeps - widest), self.substeps + widest
+        return self.substeps - widest, self.substeps + widest
 
     def draw_substeps(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
         """Returns how many physics steps the control steps of some episodes have, int64 [N].
