@@ -17,7 +17,7 @@ import pytest
 from physexp import suite
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
-from physexp.cli import parsing
+from physexp.cli import parsing, printing
 
 FEATURES = suite.tagged("features")
 QUICKLY = hypothesis.settings(
@@ -280,6 +280,7 @@ doctor more
 def test_a_command_that_makes_no_sense_is_one_readable_line_and_makes_nothing(line, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "argv", ["physexp", *line.split()])
+    monkeypatch.setattr(printing, "_PATIENCE", 0)  # Refused before any work that is announced.
     with pytest.raises(SystemExit) as exit_:
         parsing.main()
     out, err = capsys.readouterr()
