@@ -25,7 +25,6 @@ PLAYED = pyarrow.schema(
         ("action", pyarrow.int16()),
         ("reward", pyarrow.float64()),
         ("observation", pyarrow.uint64()),  # A digest of what was observed before the action.
-        ("next_observation", pyarrow.uint64()),  # Of what was observed after it.
     ]
 )
 """Columns that are the same to the bit whenever the actions are played again."""
@@ -79,7 +78,7 @@ def played(asked: protocol.Question, seed: int, number: int, episode: episodes.E
       episode: what was played.
     """
     count = len(episode.actions)
-    digests = np.array([digest(timestep.observation) for timestep in episode.timesteps], np.uint64)
+    digests = [digest(timestep.observation) for timestep in episode.timesteps[:-1]]
     return {
         "domain": np.full(count, asked.domain),
         "task": np.full(count, asked.task),
@@ -88,8 +87,7 @@ def played(asked: protocol.Question, seed: int, number: int, episode: episodes.E
         "step": np.arange(count),
         "action": episode.actions,
         "reward": episode.rewards,
-        "observation": digests[:-1],
-        "next_observation": digests[1:],
+        "observation": np.array(digests, np.uint64),
     }
 
 
