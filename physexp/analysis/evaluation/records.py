@@ -28,12 +28,19 @@ SCHEMA = pyarrow.schema(
         ("label", pyarrow.int8()),  # The label given, -1 when time ran out.
         ("reward", pyarrow.float32()),
         ("length", pyarrow.int16()),  # Actions, the label among them.
-        ("interactions", pyarrow.int16()),
-        ("time", pyarrow.float32()),  # Of interaction before the label, s.
     ]
 )
 """The columns of every file. What was hidden is drawn again when it is asked for."""
 
+RECKONED = pyarrow.schema(
+    [
+        ("interactions", pyarrow.int16()),
+        ("time", pyarrow.float32()),  # Of interaction before the label, s.
+    ]
+)
+"""The columns that follow from these whenever a file is read."""
+
+_RECKONED_FROM = ("label", "length", "control_timestep")
 _DRAWN_BY = ("domain", "task", "difficulty", "seed", "episode", "answer")  # Columns that tell what was hidden.
 
 
@@ -57,7 +64,6 @@ def table(
         training_seed=config.agent.seed,
         interaction=interaction,
         control_timestep=control_timestep,
-        time=played.interactions * control_timestep,
     )
 
 
@@ -72,12 +78,13 @@ def write(path: Path, rows: pyarrow.Table) -> None:
     tables.write(path, stamped, compression="zstd", compression_level=9)
 
 
-def read(paths: list[Path], columns: Sequence[str] = SCHEMA.names):
+def read(paths: list[Path], columns: Sequence[str] = (*SCHEMA.names, *RECKONED.names)):
     """Returns the rows of some files as a pandas DataFrame; `commit` is what made them.
 
     Args:
       paths: files that `write` has written, each with the episodes of one agent.
-      columns: which columns: of `SCHEMA`, and of what was hidden, as `hidden_columns` of the domain has them.
+      columns: which columns: of `SCHEMA` and `RECKONED`, and of what was hidden, as `hidden_columns` of the domain has
+        them.
 
     Raises:
       OSError: if a file cannot be opened.
@@ -85,29 +92,39 @@ def read(paths: list[Path], columns: Sequence[str] = SCHEMA.names):
     """
     import pandas
 
-    stored = [name for name in columns if name in SCHEMA.names]
-    hidden = [name for name in columns if name not in SCHEMA.names]
+    needed = [name for name in columns if name in SCHEMA.names]
+    reckoned = [name for name in columns if name in RECKONED.names]
+    hidden = [name for name in columns if name not in (*SCHEMA.names, *RECKONED.names)]
+    needed += [*(_RECKONED_FROM if reckoned else ()), *(_DRAWN_BY if hidden else ())]
     frames = []
     for path in paths:
-        rows = tables.read(path, SCHEMA, [*dict.fromkeys([*stored, *(_DRAWN_BY if hidden else ())])])
+        rows = tables.read(path, SCHEMA, [*dict.fromkeys(needed)])
         commit = (rows.schema.metadata or {}).get(b"commit", b"unknown").decode("ascii", "replace")
         frame = rows.to_pandas()
+        if reckoned:
+            interactions = frame.length - (frame.label >= 0)
+            seconds = interactions * frame.control_timestep.map(_chosen)
+            frame = frame.assign(interactions=interactions, time=seconds.astype(np.float32))
         if hidden:
-            drawn = _draw_again(frame, path)
-            frame = frame[stored].assign(**{name: drawn[name] for name in hidden})
-        frames.append(frame.assign(commit=commit))
+            frame = frame.assign(**_draw_again(frame, path))
+        frames.append(frame[[*columns]].assign(commit=commit))
     return pandas.concat(frames, ignore_index=True)
 
 
 def _draw_again(frame, path: Path) -> Mapping[str, Sequence]:
     """Returns the columns of what was hidden in the episodes of a file; what has several values each is a list."""
     [(domain, task, difficulty)] = frame[["domain", "task", "difficulty"]].drop_duplicates().to_numpy()
-    # What was chosen has the fewest digits of all that single precision does not tell apart.
-    played = _load_task(domain, task, None if np.isnan(difficulty) else float(str(np.float32(difficulty))))
+    played = _load_task(domain, task, None if np.isnan(difficulty) else _chosen(difficulty))
     hidden = played.draw(frame.seed.to_numpy(), frame.episode.to_numpy())
     if (played.answers(hidden) != frame.answer).any():
         raise ValueError(f"{path} has episodes that are drawn otherwise today; remove it, and its agent plays again")
     return {name: list(values) for name, values in domains.find(domain).hidden_columns(hidden).items()}
+
+
+@functools.cache
+def _chosen(value: float) -> float:
+    """Returns what was chosen, of all that single precision does not tell apart: what has the fewest digits."""
+    return float(str(np.float32(value)))
 
 
 @functools.cache

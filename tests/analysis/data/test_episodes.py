@@ -75,7 +75,7 @@ def test_stored_rows_are_a_selection_with_the_condition():
     assert rows.schema.equals(records.SCHEMA)
     first = rows.to_pylist()[0]
     assert (first["difficulty"], first["discount"], first["training_seed"]) == (5.0, 0.5, 2)
-    assert first["time"] == 0.5 and first["actions"] == [0, 3, 5]
+    assert first["control_timestep"] == 0.25 and first["actions"] == [0, 3, 5]
 
 
 def test_a_column_that_the_table_lacks_has_to_be_given():

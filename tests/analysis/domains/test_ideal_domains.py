@@ -123,4 +123,8 @@ def test_episodes_whose_answers_are_not_those_of_what_is_drawn_today_are_refused
 def test_a_domain_without_columns_is_stored_and_read_as_all_others(tmp_path, monkeypatch):
     monkeypatch.setitem(domains.DOMAINS, "threshold", base.Domain(name="threshold"))
     stored(tmp_path / "rows.parquet", "threshold", "features", {})
-    assert list(records.read([tmp_path / "rows.parquet"]).columns) == [*records.SCHEMA.names, "commit"]
+    assert list(records.read([tmp_path / "rows.parquet"]).columns) == [
+        *records.SCHEMA.names,
+        *records.RECKONED.names,
+        "commit",
+    ]

@@ -71,7 +71,7 @@ def table(agents: list[dict[str, np.ndarray]]) -> pandas.DataFrame:
     """The episodes of all agents, with the types they have when read from files."""
     columns = {name: np.concatenate([agent[name] for agent in agents]) for name in agents[0]}
     conditions_of_rows = columns.pop("condition")
-    types = {field.name: field.type for field in records.SCHEMA}
+    types = {field.name: field.type for field in (*records.SCHEMA, *records.RECKONED)}
     rows = pyarrow.table({name: pyarrow.array(values, types.get(name)) for name, values in columns.items()})
     return rows.to_pandas().assign(commit="made", condition=conditions_of_rows)
 

@@ -56,7 +56,7 @@ def test_the_stored_rows_are_complete_and_agree_with_one_another(rehearsed):
     results, _ = rehearsed
     path = results.path / "episodes" / "learned" / f"{NAMES[0]}.parquet"
     assert parquet.read_table(path).schema.equals(records.SCHEMA)
-    frame = records.read([path], [*records.SCHEMA.names, "masses", "mass_gap"])
+    frame = records.read([path], [*records.SCHEMA.names, *records.RECKONED.names, "masses", "mass_gap"])
     assert frame.length.sum() >= 10_000
     assert frame.notna().all(axis=None)
     assert (frame.difficulty == 3).all() and (frame.training_seed == 0).all() and (frame.interaction == "learned").all()
@@ -66,6 +66,8 @@ def test_the_stored_rows_are_complete_and_agree_with_one_another(rehearsed):
     assert [len(actions) for actions in frame.actions] == list(frame.length)
     last = np.array([actions[-1] for actions in frame.actions])
     np.testing.assert_array_equal(np.where(last >= 4, last - 4, -1), frame.label)
+    pokes = [sum(action < 4 for action in actions) for actions in frame.actions]
+    np.testing.assert_array_equal(pokes, frame.interactions)
     np.testing.assert_array_equal(np.where(frame.label == frame.answer, 1, -1), frame.reward)
     np.testing.assert_allclose(frame.time, 0.1 * frame.interactions, rtol=1e-6)
     assert not frame.duplicated(["seed", "episode"]).any()
