@@ -70,8 +70,8 @@ EXPERIMENT = base.Experiment(
     title="A3C and PPO",
     section="ours",
     caption="Share of right answers in training of the paper's learner and of PPO, on the same network and the same "
-    "environments, against environment steps and against time (two agents side by side on two cores). Light lines: "
-    "the better half of the agents; dark: their median.",
+    "environments, against environment steps and against time (on machines of two cores, not all equally fast, with "
+    "other agents beside). Light lines: the better half of the agents; dark: their median.",
     conditions=CONDITIONS,
     load=load,
     claims=find_claims,

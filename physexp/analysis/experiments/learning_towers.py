@@ -56,7 +56,8 @@ EXPERIMENT = base.Experiment(
     name="learning_towers",
     title="Learning Towers",
     section="6.3, Figure 6",
-    caption=f"{learning.CAPTION} An ideal experimenter is always right.",
+    caption=f"{learning.CAPTION} An ideal experimenter is always right. The steps to a level are compared within the "
+    "shortest training of both actuators; an agent who needs longer counts as one who gets there at its end.",
     conditions=conditions.TOWERS,
     load=lambda results: results.curves(conditions.TOWERS),
     claims=find_claims,

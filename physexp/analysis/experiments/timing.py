@@ -121,6 +121,7 @@ def find_claims(frame) -> list[claims.Claim]:
     """Who knows control steps of many lengths waits for information; who knows one takes another for other towers."""
     many, one, waits = (_by_step(frame, player) for player in (MANY, ONE, WAITS))
     common: dict[str, Any] = dict(condition=_FIST.label)
+    times = f"median time to the answer, control steps of {_SHORTEST:g} s over {_USUAL:g} s, mean ratio"
     found = [
         claims.Claim(
             **common,
@@ -132,7 +133,7 @@ def find_claims(frame) -> list[claims.Claim]:
         claims.Claim(
             **common,
             text="Who was trained with control steps of many lengths waits for a time",
-            statistic=f"median time to the answer, control steps of {_SHORTEST:g} s over {_USUAL:g} s, mean ratio",
+            statistic=times,
             estimate=estimates.ratio_of_pairs(many.time[_SHORTEST], many.time[_USUAL]),
             above=AS_LONG[0],
             below=AS_LONG[1],
@@ -162,6 +163,23 @@ def find_claims(frame) -> list[claims.Claim]:
         found += [
             claims.Claim(
                 **common,
+                text="In fine time, who knows control steps of many lengths is right more often than who knows one",
+                statistic=f"share of right answers at {_SHORTEST:g} s, with many less with one, mean difference; found "
+                "in these data",
+                estimate=estimates.mean(_differences(many.right[_SHORTEST], one.right[_SHORTEST])),
+                above=0,
+            ),
+            claims.Claim(
+                **common,
+                text="Who was trained with control steps of one length waits for a time as well",
+                statistic=f"{times}; found in these data",
+                estimate=estimates.ratio_of_pairs(one.time[_SHORTEST], one.time[_USUAL]),
+                above=AS_LONG[0],
+                below=AS_LONG[1],
+                words="approximate the same amount of real time",
+            ),
+            claims.Claim(
+                **common,
                 text="Who was trained with control steps of one length takes shorter ones for more bodies, and longer "
                 "ones for fewer",
                 statistic=f"share of wrong answers that count too many bodies, control steps of {_SHORTEST:g} s less "
@@ -174,11 +192,16 @@ def find_claims(frame) -> list[claims.Claim]:
                 text="Who was trained with control steps of many lengths is right more often where friction is high",
                 statistic="share of right answers at friction 0.48, less that of who was trained with one length, mean "
                 "difference",
-                estimate=estimates.mean(np.subtract(*pairs[0].align(pairs[1], join="inner"))),
+                estimate=estimates.mean(_differences(*pairs)),
                 above=0,
             ),
         ]
     return found
+
+
+def _differences(larger, smaller) -> np.ndarray:
+    """Returns the differences of two figures of the agents that have both, by seed."""
+    return np.subtract(*larger.align(smaller, join="inner"))
 
 
 def _by_step(frame, player: str):

@@ -1,6 +1,7 @@
 """The report: every figure, and the table of claims, as Markdown and as one HTML page."""
 
 import base64
+import collections
 import dataclasses
 import html
 import math
@@ -12,6 +13,7 @@ from physexp.analysis.data import provenance
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions
 from physexp.analysis.experiments import claims as claims_lib
+from physexp.analysis.reproduction import sweep
 from physexp.analysis.training import run as run_lib
 
 _INTRODUCTION = (
@@ -20,7 +22,8 @@ _INTRODUCTION = (
     "outside, and is undecided where the data, or too few agents, cannot tell at a level of 5 %, corrected for the "
     "number of conditions in which the same claim is tested (Holm, 1979); the 95 % intervals shown are not corrected. "
     "Sanity checks, which could fail only if something were broken, are not counted. What each claim wants, and when "
-    "that was written down, is in docs/plan.md."
+    "that was written down, is in docs/plan.md; a statistic that was found in these data says so, and its verdict "
+    "describes them. Of the agents planned, those that are not trained yet are named below their figure."
 )
 
 
@@ -40,10 +43,11 @@ class _Tested:
 
 @dataclasses.dataclass(frozen=True)
 class _Shown:
-    """An experiment whose figure was drawn, and its table: a header and rows of words, or nothing."""
+    """An experiment whose figure was drawn; its table, a header and rows of words; and which agents are missing."""
 
     experiment: base.Experiment
     table: list[tuple[str, ...]]
+    missing: str
 
 
 _VERDICTS = (claims_lib.FAILS, claims_lib.UNDECIDED, claims_lib.HOLDS)
@@ -75,7 +79,8 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
             tell(f"left out {missing[-1]}")
             continue
         figures.save(experiment.figure(frame), results.path / "figures", experiment.name)
-        shown.append(_Shown(experiment, experiment.table(frame) if experiment.table else []))
+        table = experiment.table(frame) if experiment.table else []
+        shown.append(_Shown(experiment, table, _missing(experiment, results)))
         found += [(claim, experiment) for claim in experiment.claims(frame)]
         tell(f"drew {experiment.name}")
     verdicts = claims_lib.corrected([claim for claim, _ in found])
@@ -84,6 +89,17 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
     files.write_atomically(markdown, _markdown(shown, tested, missing, results).encode())
     files.write_atomically(results.path / "report.html", _page(shown, tested, missing, results).encode())
     return markdown
+
+
+def _missing(experiment: base.Experiment, results: base.Results) -> str:
+    """Says which agents of the plan are not trained yet; nothing where all are."""
+    seeds = collections.defaultdict(list)
+    for job in sweep.jobs([experiment], conditions.OBSERVATIONS, conditions.SEEDS.__getitem__):
+        if not results.run(job.config).is_finished:
+            condition, _, seed = job.config.name.rpartition("-seed")
+            seeds[condition].append(seed)
+    words = "; ".join(f"{condition} ({', '.join(its)})" for condition, its in seeds.items())
+    return f"Planned, and not trained yet (seeds): {words}." if words else ""
 
 
 def _provenance(results: base.Results) -> list[str]:
@@ -157,7 +173,7 @@ def _markdown(shown, tested, missing, results) -> str:
             for one in rows
         ]
         lines += [""] + [text for reason in _reasons(rows) for text in (reason, "")]
-    for experiment, table in ((one.experiment, one.table) for one in shown):
+    for experiment, table, absent in ((one.experiment, one.table, one.missing) for one in shown):
         lines += [
             f'<a id="{_anchor(experiment)}"></a>',
             "",
@@ -170,6 +186,8 @@ def _markdown(shown, tested, missing, results) -> str:
         ]
         if table:
             lines += [*_header(table[0]), *("| " + " | ".join(row) + " |" for row in table[1:]), ""]
+        if absent:
+            lines += [absent, ""]
     lines += [text for line in missing for text in (f"Left out: {line}", "")]
     return "\n".join(lines).rstrip() + "\n"
 
@@ -191,7 +209,7 @@ def _page(shown, tested, missing, results) -> str:
         )
         parts.append(f"<h2>{title}</h2><p>{_tally(rows)}.</p><table><tr>{head}</tr>{body}</table>")
         parts += [f"<p>{html.escape(reason)}</p>" for reason in _reasons(rows)]
-    for experiment, table in ((one.experiment, one.table) for one in shown):
+    for experiment, table, absent in ((one.experiment, one.table, one.missing) for one in shown):
         image = base64.b64encode((results.path / "figures" / f"{experiment.name}.svg").read_bytes()).decode()
         parts.append(
             f'<h2 id="{_anchor(experiment)}">{html.escape(experiment.title)} '
@@ -205,6 +223,8 @@ def _page(shown, tested, missing, results) -> str:
                 for tag, row in zip(["th"] + ["td"] * len(table), table, strict=False)
             ]
             parts.append("<table>" + "".join(f"<tr>{row}</tr>" for row in cells) + "</table>")
+        if absent:
+            parts.append(f"<p>{html.escape(absent)}</p>")
     parts += [f"<p>Left out: {html.escape(line)}</p>" for line in missing]
     return f"<!doctype html><meta charset=utf-8><title>physexp: results</title><style>{_STYLE}</style>" + (
         "<h1>Results</h1>" + "\n".join(parts) + "\n"

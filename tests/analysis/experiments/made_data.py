@@ -478,15 +478,15 @@ def waiting_fists(num_agents, generator, slowdown=10.0, gain=0.07, loss=0.0, los
 # Episodes of Which is Heavier with noise.
 
 
-def second_pokes(num_agents, generator, noisy=0.6, exact=0.0, widest=0.3, slope=-4.0, share=0.98):
+def second_pokes(num_agents, generator, noisy=0.6, exact=0.0, widest=0.3, slope=-4.0, exact_slope=-1.0, share=0.98):
     """Pokes of blocks again, with noise and without, in these shares of the episodes with gaps of up to the widest.
 
-    All pokes have this slope on the mass gap; and what is earned.
+    All pokes have these slopes on the mass gap, with noise and without; and what is earned.
     """
     agents = []
     for seed in range(num_agents):
         gaps = generator.random(_EPISODES)
-        for readings, again in ((noise.EXACT, exact), (noise.NOISY, noisy)):
+        for readings, again, steep in ((noise.EXACT, exact, exact_slope), (noise.NOISY, noisy, slope)):
             pokes = (gaps < widest) & (generator.random(_EPISODES) < again - 0.02 * generator.random())
             agents.append(
                 pandas.DataFrame(
@@ -496,7 +496,7 @@ def second_pokes(num_agents, generator, noisy=0.6, exact=0.0, widest=0.3, slope=
                         "readings": readings,
                         "mass_gap": gaps,
                         "again": pokes.astype(int),
-                        "interactions": 4 + slope * (gaps - 0.5) + generator.normal(0, 1, _EPISODES),
+                        "interactions": 4 + steep * (gaps - 0.5) + generator.normal(0, 1, _EPISODES),
                         "share": share + generator.normal(0, 0.01, _EPISODES) if readings == noise.NOISY else np.nan,
                     }
                 )
@@ -767,6 +767,7 @@ WORLDS: dict[str, dict[str, _World]] = {
         "known blocks all the time": functools.partial(second_pokes, exact=0.9, noisy=0.3),
         "whatever the gap": functools.partial(second_pokes, widest=1.0),
         "hard ones are quick": functools.partial(second_pokes, slope=4.0),
+        "noise hides the gap": functools.partial(second_pokes, exact_slope=-8.0),
         "clumsy agents": functools.partial(second_pokes, share=0.9),
     },
     "weighing": {

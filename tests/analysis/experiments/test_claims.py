@@ -129,6 +129,13 @@ FALSE_IN = {
         "In fine time an agent is right more often than a rule that waits for a number of control steps": {
             "lost in fine time"
         },
+        "In fine time, who knows control steps of many lengths is right more often than who knows one": {
+            "lost in fine time"
+        },
+        "Who was trained with control steps of one length waits for a time as well": {
+            "as many steps",
+            "ever more steps",
+        },
         "Who was trained with control steps of one length takes shorter ones for more bodies, and longer ones for "
         "fewer": {"errors of either kind"},
         "Who was trained with control steps of many lengths is right more often where friction is high": {
@@ -139,6 +146,14 @@ FALSE_IN = {
         "With noise, agents poke a block again where the mass gap is small": {"whatever the gap"},
         "With noise, the smaller the mass gap, the longer an agent experiments": {"hard ones are quick"},
         "Noise makes agents poke blocks again": {"known blocks all the time"},
+        "Noise makes a small mass gap cost more pokes of blocks that were poked before": {
+            "known blocks all the time",
+            "whatever the gap",
+        },
+        "Noise makes it clearer that agents experiment longer where the mass gap is small": {
+            "hard ones are quick",
+            "noise hides the gap",
+        },
         "Agents earn nearly what an experimenter earns who knows of the noise": {"clumsy agents"},
     },
     "weighing": {

@@ -177,6 +177,10 @@ def test_the_report_has_every_figure_there_is_data_for_and_says_what_is_left_out
         assert claim.text in markdown and claim.statistic in page
     for name in ("waiting", "random_towers", "individual"):
         assert f"Left out: {name}" in markdown
+    condition, _, seed = NAMES[0].rpartition("-seed")
+    absent = [str(other) for other in range(conditions.SEEDS["features"]) if str(other) != seed]
+    for text in (markdown, page):  # One agent of each condition was trained.
+        assert f"{condition} ({', '.join(absent)})" in text and f"{condition} ({seed}" not in text
     assert provenance.commit()[:10] in markdown
 
 
