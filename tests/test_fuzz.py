@@ -263,6 +263,9 @@ ideal which_is_heavier --blocks 1000000
 ideal towers --resolution -1
 ideal towers --resolution nan
 ideal towers --discount nan
+ideal which_is_heavier --variation nan
+ideal which_is_heavier --noise 1e300
+ideal towers --noise 0.01 --resolution nan
 reproduce
 reproduce everything
 reproduce mass_gap --seeds 0

@@ -136,6 +136,7 @@ class RecurrentActor(core.Actor):
         return int(logits.argmax() if self._greedy else sample(logits, self._generator)[0])
 
     def observe_first(self, timestep):
+        self._network.check(timestep.observation)
         self._state = self._network.initial_state(1)
 
     @torch.inference_mode()

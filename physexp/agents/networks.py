@@ -31,6 +31,20 @@ class RecurrentNetwork(nn.Module, abc.ABC):
     def __init__(self, observation_spec: Mapping[str, specs.Array], num_actions: int, **hyperparameters: Any):
         """Builds the network for what is observed and so many actions; its weights follow torch's global seed."""
         super().__init__()
+        self._observed = {name: tuple(array.shape) for name, array in observation_spec.items()}
+
+    def check(self, observation: Mapping[str, np.ndarray]) -> None:
+        """Refuses an observation of another task.
+
+        Raises:
+          ValueError: if its names or shapes are not those that the network was built for.
+        """
+        given = {name: np.shape(value) for name, value in observation.items()}
+        if given != self._observed:
+            raise ValueError(
+                f"observed is {_in_words(given)}, and the agent was trained with {_in_words(self._observed)}; "
+                "give one that was trained in this task"
+            )
 
     @staticmethod
     @abc.abstractmethod
@@ -157,6 +171,10 @@ def _distinct(images: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
     places = [numbers.setdefault(image.tobytes(), len(numbers)) for image in images.numpy()]
     first = np.unique(places, return_index=True)[1]
     return torch.from_numpy(first), torch.tensor(places)
+
+
+def _in_words(shapes: Mapping[str, tuple[int, ...]]) -> str:
+    return ", ".join(f"{name} {shape}" for name, shape in sorted(shapes.items())) or "nothing"
 
 
 def sees_images(observation_spec: Mapping[str, specs.Array]) -> bool:

@@ -300,3 +300,17 @@ def test_the_arrays_of_a_round_can_be_received_after_their_sender_has_ended():
     assert set(arrays) == set(names.split())
     assert all(isinstance(array, np.ndarray) for array in arrays.values())  # A tensor is fetched from its sender.
     np.testing.assert_array_equal(arrays["inputs"], [[0, 1, 2], [3, 4, 5]])
+
+
+def test_an_actor_refuses_what_it_was_not_trained_to_observe():
+    fist, direct = (suite.load("towers", f"{actuator}_features", {"random": 0}) for actuator in ("fist", "direct"))
+    for trained, played in ((fist, direct), (direct, fist)):
+        actor = acting.RecurrentActor(make_network(trained, 0))
+        with pytest.raises(
+            ValueError, match=r"^observed is .*positions \(5, 3\).*; give one that was trained in this "
+        ):
+            environment_loop.EnvironmentLoop(played, actor).run(1)
+        assert len(environment_loop.EnvironmentLoop(trained, actor).run(1)) == 1
+    flat = suite.load("towers", "fist_features", {"random": 0}, environment_kwargs={"flat_observation": True})
+    with pytest.raises(ValueError, match=r"^observed is observations \(18,\), and the agent was trained with fist_pos"):
+        environment_loop.EnvironmentLoop(flat, acting.RecurrentActor(make_network(fist, 0))).run(1)

@@ -69,6 +69,22 @@ def test_an_episode_may_be_started_with_a_given_hidden_property(seed, name):
     batch.close(), single.close()
 
 
+@every_task
+def test_a_hidden_property_that_no_episode_could_have_is_refused(seed, name):
+    batch = load_batch(name, 2, random=seed)
+    batch.reset()
+    before, largest = batch.hidden, batch.task.largest_hidden
+    assert (_drawn(batch.task, seed, 1000) <= largest).all()
+    beyond = [np.full_like(before, value) for value in (-1, largest + 1) if np.isfinite(value)]
+    if before.dtype.kind == "f":
+        beyond += [np.full_like(before, value) for value in (np.nan, np.inf)]
+    for hidden in beyond:
+        with pytest.raises(ValueError, match="^hidden is .*; give "):
+            batch.reset(hidden=hidden)
+    np.testing.assert_array_equal(batch.hidden, before)
+    batch.close()
+
+
 @pytest.mark.parametrize("hidden", [[], np.zeros((7, 9)), None])
 def test_a_hidden_property_of_another_shape_is_refused(hidden):
     batch = suite.load_batch("which_is_heavier", "features", 2, {"random": 0})

@@ -193,7 +193,7 @@ def test_nothing_leaves_the_room_or_sinks_into_its_floor(task_name):
     # at 3.4 m/s.
     give = 0.005 + 0.01 / np.e  # s
     _, positions = _random_episodes(task_name)
-    assert np.abs(positions[..., :2]).max() < 0.56 - 0.05 + 10.1 * give
+    assert np.abs(positions[..., :2]).max() < 0.56 - 0.05 + 10.1 * give < 0.6  # Which is the bound in the spec.
     assert positions[..., 2].min() > 0.05 - 3.4 * give
 
 
@@ -262,18 +262,18 @@ def test_a_near_fist_touches_no_tower_however_much_they_vary(seed):
 @pytest.mark.parametrize(
     "task_name, options, message",
     [
-        ("fist_features", {"fist_distance": 0.15}, "fist_distance is 0.15; give a number from 0.16 to 0.32 m"),
-        ("fist_features", {"fist_distance": 0.4}, "fist_distance is 0.4; give a number from 0.16 to 0.32 m"),
+        ("fist_features", {"fist_distance": 0.15}, "variation 0, is 0.15; give a number from 0.16 to 0.32 m"),
+        ("fist_features", {"fist_distance": 0.4}, "variation 0, is 0.4; give a number from 0.16 to 0.32 m"),
         (
             "fist_features",
             {"fist_distance": 0.16, "variation": 0.5},
-            "fist_distance is 0.16; give a number from 0.18 to 0.32 m",
+            "fist_distance, with cube_size 0.1 and variation 0.5, is 0.16; give a number from 0.18 to 0.32 m",
         ),
         ("direct_features", {"fist_distance": 0.2}, "fist_distance is 0.2; give 0.32 where there is no fist"),
     ],
 )
 def test_a_fist_too_near_or_where_there_is_none_is_refused(task_name, options, message):
-    with pytest.raises(ValueError, match=f"^{message}$"):
+    with pytest.raises(ValueError, match=f"{message}$"):
         suite.load("towers", task_name, options)
 
 

@@ -67,7 +67,7 @@ def read(path: Path, schema: pyarrow.Schema, columns: Sequence[str] | None = Non
             _check_schema(file.schema_arrow, schema)
             return file.read(None if columns is None else list(columns), use_threads=False)
     except (ValueError, OSError, KeyError, pyarrow.ArrowException) as error:
-        reason = ascii(" ".join(str(error).split()))[1:200]
+        reason = ascii(" ".join(str(error).split()))[1:-1][:200]
         raise ValueError(f"{path} is damaged ({reason}); put back what was written, or remove it") from None
 
 

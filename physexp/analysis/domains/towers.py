@@ -123,11 +123,11 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolu
         raise ValueError(f"task is {task!r}; with noise or variation, choose from {', '.join(_RULES)}")
     told = {name: value for name, value in task_kwargs.items() if name != "noise"}
     upper = [
-        search.solve(hypotheses(task, told, nuisances), resolution, discount).bound
+        search.solve(hypotheses(task, told, nuisances), resolution, discount)
         for nuisances in _drawn_nuisances(task, told)
     ]
     play = functools.partial(rule, task, task_kwargs.get("noise") or 0.0)
-    return bounds.Solution(_NAME, task, task_kwargs, discount, play, upper)
+    return bounds.Solution(_NAME, task, task_kwargs, discount, play, lambda: [each.bound for each in upper])
 
 
 def _drawn_nuisances(task: str, task_kwargs: Mapping[str, Any]):

@@ -56,7 +56,7 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks
         make_actor = usual.actor
         if not task_kwargs.get("variation"):
             make_actor = noisy.players(usual, _NAME, task, "heights", task_kwargs)
-        return bounds.Solution(_NAME, task, task_kwargs, discount, make_actor, [usual.value])
+        return bounds.Solution(_NAME, task, task_kwargs, discount, make_actor, lambda: [usual.value])
     played = suite.load_task(_NAME, task, dict(task_kwargs))
     prior = which_is_heavier.prior(played.options.difficulty)
     if blocks is not None:

@@ -39,7 +39,7 @@ class Solution:
         task_kwargs: Mapping[str, Any],
         discount: float,
         make_actor: Callable[[], core.Actor],
-        bounds: Sequence[float],
+        find_bounds: Callable[[], Sequence[float]],
     ):
         """Prepares the episodes, which are played when something is first asked that they tell.
 
@@ -47,13 +47,17 @@ class Solution:
           domain, task, task_kwargs: what is played, as for `suite.load`.
           discount: the agent's gamma, in (0, 1].
           make_actor: makes an actor that plays the policy.
-          bounds: the values of ideal experimenters who are told all that episodes differ in, one for each of some
-            episodes that are drawn at random; one alone where it is the same in all.
+          find_bounds: finds the values of ideal experimenters who are told all that episodes differ in, one for each of
+            some episodes that are drawn at random; one alone where it is the same in all.
         """
         self._played = (domain, task, dict(task_kwargs))
         self.discount = base.check_discount(discount)
         self._make_actor = make_actor
-        self._bounds = np.asarray(bounds, float)
+        self._find_bounds = find_bounds
+
+    @functools.cached_property
+    def _bounds(self) -> np.ndarray:
+        return np.asarray(self._find_bounds(), float)
 
     @functools.cached_property
     def _episodes(self) -> tuple[np.ndarray, np.ndarray]:

@@ -5,6 +5,7 @@ import functools
 from pathlib import Path
 from typing import Any
 
+from physexp import suite
 from physexp.analysis import callbacks
 from physexp.analysis.evaluation import playing
 from physexp.analysis.replay import recording, selection, writing
@@ -46,16 +47,23 @@ def replay(
     writing.check_output(output)
     agents = [playing.find_agent(target, task_kwargs) for target in targets]
     network, config = agents[0]
-    for _, other in agents[1:]:
-        if _what(other) != _what(config):
+    for target, (_, other) in zip(targets[1:], agents[1:], strict=True):
+        if _played(other) != _played(config):
             raise ValueError(
-                f"{targets[0]} plays {_what(config)}, {targets[1]} {_what(other)}; compare agents that play the same"
+                f"{targets[0]} plays {_what(config)}, and {target} plays {_what(other)}; "
+                "compare agents that play the same"
             )
     chosen = list(selection.select(network, config, count, select, interaction, seed, tell))
     if len(chosen) < count:
         tell(f"only {len(chosen)} episodes are {select}")
     groups = [functools.partial(_episodes, targets, agents, instance, interaction) for instance in chosen]
     return writing.write(output, groups, tell)
+
+
+def _played(config) -> tuple:
+    """Returns what a configuration's agent plays: domain, task, and all options, of which the seed is no part."""
+    options = suite.options(config.domain)(**{**config.task_kwargs, "random": 0})
+    return config.domain, config.task, options
 
 
 def _what(config) -> str:

@@ -177,6 +177,8 @@ class Balance(task.QuestionTask):
             declarations.Indicator(self._pointer, "tilt", 0, (_POINTER_TRAVEL, 0, 0)),
         ]
 
+    largest_hidden = WEIGHT * (1 + DIFFERENCES[1])
+
     def draw(self, seeds, episodes):
         """Returns the weights of the blocks, in kilograms, float64 [N, NUM_BLOCKS]."""
         return draw_weights(seeds, episodes, self.options.difficulty)

@@ -200,6 +200,8 @@ class SealedBox(task.QuestionTask):
             declarations.Indicator(self._box, "place", 0, (self._mark, 0, 0)),
         ]
 
+    largest_hidden = len(ALL_CONTENTS) - 1
+
     def draw(self, seeds, episodes):
         """Returns what is in the box: indices of `ALL_CONTENTS`, int64 [N]."""
         return draw_contents(seeds, episodes)

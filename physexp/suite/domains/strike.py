@@ -168,6 +168,8 @@ class Strike(task.QuestionTask):
             for board, reading, travel in zip(self._boards, self.readings, travels, strict=True)
         ]
 
+    largest_hidden = len(PUCKS) - 1
+
     def draw(self, seeds, episodes):
         """Returns the pucks: indices of `PUCKS`, int64 [N]."""
         return draw_pucks(seeds, episodes)

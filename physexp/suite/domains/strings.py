@@ -177,6 +177,8 @@ class Strings(task.QuestionTask):
             for k, board in enumerate(boards)
         ]
 
+    largest_hidden = SLACKS[1]
+
     def draw(self, seeds, episodes):
         """Returns the slacks of the bands, m, 0 where there is none, float64 [N, number of pairs]."""
         return draw_slacks(seeds, episodes, self.options.difficulty)

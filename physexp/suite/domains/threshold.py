@@ -160,6 +160,8 @@ class Threshold(task.QuestionTask):
             declarations.Indicator(self._pointer, "strength", 0, (0, 0, _RISE)),
         ]
 
+    largest_hidden = LEVEL_SPACING * (NUM_LEVELS - MARGIN)
+
     def draw(self, seeds, episodes):
         """Returns frictions, in newtons, float64 [N]."""
         return draw_frictions(seeds, episodes, self.options.difficulty)

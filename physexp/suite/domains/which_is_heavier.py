@@ -104,6 +104,8 @@ class WhichIsHeavier(task.QuestionTask):
         bounds = FLOOR, highest(greatest)
         return {"heights": declarations.Reading(self._height_sensors, (NUM_BLOCKS,), bounds=bounds)}
 
+    largest_hidden = 1.0
+
     def draw(self, seeds, episodes):
         """Returns masses on the paper's scale, float64 [N, 4] in [0, 1]; to kilograms: `kilograms`."""
         return draw_masses(seeds, episodes, self.options.difficulty)

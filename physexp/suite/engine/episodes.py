@@ -63,7 +63,8 @@ class Ledger:
           episode: index of the episode, the same in each; by default that of the one that is next.
 
         Raises:
-          ValueError: if `hidden` or `nuisances` do not have the shape and the kind of what would be drawn.
+          ValueError: if `hidden` or `nuisances` do not have the shape and the kind of what would be drawn, or if
+            `hidden` is out of its range.
         """
         indices = self.next_episodes[rows] if episode is None else np.full(len(rows), episode)
         drawn = self._task.draw(self.seeds[rows], indices)
@@ -72,6 +73,9 @@ class Ledger:
             differing = _checked("nuisances", nuisances, differing)
         if hidden is not None:
             drawn = _checked("hidden", hidden, drawn)
+            largest = self._task.largest_hidden
+            if not ((drawn >= 0) & (drawn <= largest)).all():
+                raise ValueError(f"hidden is {checks.shown(hidden)}; give values from 0 to {largest:g}")
         answers, structures = self._task.answers(drawn), self._task.structures(drawn)
         if self._hidden is None:
             self._hidden = np.zeros((len(self.seeds), *drawn.shape[1:]), drawn.dtype)
@@ -111,6 +115,6 @@ def _checked(name: str, given: Any, drawn: np.ndarray) -> np.ndarray:
     values = np.asarray(given)
     if values.shape != drawn.shape or not np.can_cast(values.dtype, drawn.dtype, "same_kind"):
         raise ValueError(f"{name} is {checks.shown(given)}; give an array of shape {drawn.shape}, {drawn.dtype}")
-    if drawn.dtype.kind == "i" and (values < 0).any():  # Whole numbers are indices.
-        raise ValueError(f"{name} is {checks.shown(given)}; give indices >= 0")
+    if not np.isfinite(values).all():
+        raise ValueError(f"{name} is {checks.shown(given)}; give finite numbers")
     return values.astype(drawn.dtype)

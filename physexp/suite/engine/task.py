@@ -96,6 +96,9 @@ class QuestionTask(composer.Task):
     num_structures = 1
     """How many compiled models the hidden property chooses from."""
 
+    largest_hidden: float = math.inf
+    """The largest value that a hidden property may be given; the least is 0."""
+
     @property
     @abc.abstractmethod
     def interactions(self) -> Sequence[declarations.Interaction]:

@@ -28,10 +28,13 @@ from physexp import suite
 from physexp.agents import core, environment_loop, starting
 from physexp.agents.belief import config as belief_config
 from physexp.agents.belief import networks as belief_networks
+from physexp.agents.ppo import config as ppo
 from physexp.analysis import readings, replay
 from physexp.analysis.evaluation import playing
 from physexp.analysis.replay import beliefs, live, recording, selection, words, writing
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer
 from physexp.suite.parts import block, tower
 
 DOCS = Path(__file__).parents[3] / "docs"
@@ -606,8 +609,20 @@ def test_two_agents_are_shown_side_by_side_on_the_same_instances(tmp_path):
 
 
 def test_agents_of_different_tasks_are_not_compared(tmp_path):
-    with pytest.raises(ValueError, match="towers/fist_features plays towers/fist_features, which_is_heavier/features"):
+    with pytest.raises(
+        ValueError, match="fist_features plays towers/fist_features, and which_is_heavier/features plays "
+    ):
         replay.replay(["towers/fist_features", "which_is_heavier/features"], 1, tmp_path / "x.rrd")
+
+
+def test_agents_are_compared_though_one_has_chosen_what_the_other_has_by_default(tmp_path):
+    agent = ppo.PPOConfig(frames=500, num_environments=8, num_minibatches=1)
+    config = config_lib.TrainConfig(domain="which_is_heavier", task="features", agent=agent)
+    run = run_lib.Run(tmp_path / "run")
+    trainer.train(run, start=config)
+    assert not config.task_kwargs and playing.find_agent("which_is_heavier/features")[1].task_kwargs
+    path = replay.replay([str(run.path), "which_is_heavier/features"], 1, tmp_path / "both.rrd")
+    assert path.exists()
 
 
 def test_a_selection_is_what_it_says():
