@@ -67,13 +67,17 @@ def test_a_replay_shows_actions_when_they_were_taken(seed):
     assert recorder.episode.times[-1] == pytest.approx(2 * lasts)  # An answer takes no time.
 
 
-@pytest.mark.parametrize(("domain", "value", "least"), [("which_is_heavier", 0.2, "0.25"), ("towers", 0.04, "0.05")])
+@pytest.mark.parametrize(("domain", "value", "least"), [("which_is_heavier", 0.2, 0.25), ("towers", 0.04, 0.05)])
 def test_a_share_that_is_less_than_a_physics_step_is_refused(domain, value, least):
     task = suite.TASKS_BY_DOMAIN[domain][0]
-    with pytest.raises(ValueError, match=f"^step_variation is {value}, .*; give 0, or at least {least}$"):
+    with pytest.raises(
+        ValueError, match=f"^step_variation is {value} of .* than a physics step, .*; give 0, or at least {least}$"
+    ):
         suite.load(domain, task, {"step_variation": value})
-    assert suite.load_task(domain, task, {"step_variation": float(least)}).options.step_variation == float(least)
-    with pytest.raises(ValueError, match="has 1 physics steps; give 0$"):
+    assert suite.load_task(domain, task, {"step_variation": least}).options.step_variation == least
+    with pytest.raises(ValueError, match="give 0, or at least 0.334$"):  # A third of three steps, rounded up.
+        suite.load("towers", "direct_features", {"control_timestep": 0.015, "step_variation": 0.3})
+    with pytest.raises(ValueError, match="less than a physics step, 0.005 s; give 0$"):
         suite.load("towers", "direct_features", {"control_timestep": 0.005, "step_variation": 0.9})
 
 

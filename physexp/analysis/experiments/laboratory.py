@@ -45,13 +45,11 @@ _CLAIMS = {
     "belief": "The belief learner learns every domain from the reward alone",
     "belief_revealed": "The belief learner learns every domain where answers are revealed",
 }
-_REASONS = {
-    (
-        "a3c",
-        "towers",
-    ): "In Towers A3C is right, but late: it takes four pushes on average, where one tells all, and six "
-    "steps with the fist, where three do.",
-}
+_LATE = (
+    "In Towers A3C is right, but late: it takes four pushes on average, where one tells all, and six steps with the "
+    "fist, where three do."
+)
+_REASONS = {("a3c", "towers"): _LATE}
 """Our explanations, by learner and domain, of claims that fail."""
 _UNTRAINED = ("value", "at_once", "random_value")
 

@@ -23,7 +23,7 @@ class Options:
       step_variation: how far the control step of an episode may differ from `control_timestep`, as a share of it, from
         0 to 0.9. It is a multiple of the physics step, each with the same probability. Episodes have as many control
         steps as without.
-      noise: standard deviation of what is added to every reading in metres, at each control step anew, at most 1 m.
+      noise: standard deviation of what is added to every reading in metres, at each control step anew, at most 100 m.
       reveal: observe the right answer from the first step on, as `answer`: 1 for the right label and 0 for the others.
         Who fails even so has not learned to answer.
       visualize_reward: colour the floor by the outcome at the end of an episode.
@@ -52,7 +52,7 @@ class Options:
             object.__setattr__(self, name, seconds)
         object.__setattr__(self, "variation", checks.between("variation", self.variation, 0, 1))
         object.__setattr__(self, "step_variation", checks.between("step_variation", self.step_variation, 0, 0.9))
-        object.__setattr__(self, "noise", checks.between("noise", self.noise, 0, 1, "m"))
+        object.__setattr__(self, "noise", checks.between("noise", self.noise, 0, 100, "m"))
         for name in ("reveal", "visualize_reward"):
             object.__setattr__(self, name, checks.flag(name, getattr(self, name)))
         if self.substeps < 1 or abs(self.substeps * self.physics_timestep - self.control_timestep) > 1e-9:
@@ -61,9 +61,11 @@ class Options:
                 f"give a multiple of the physics step, {self.physics_timestep} s"
             )
         if self.step_variation and self._substeps_range[0] == self.substeps:
+            least = math.ceil(1000 / self.substeps) / 1000
+            instead = f"0, or at least {least:g}" if least < 1 else "0"
             raise ValueError(
-                f"step_variation is {self.step_variation:g}, and a control step has {self.substeps} physics steps; "
-                + (f"give 0, or at least {1 / self.substeps:.3g}" if self.substeps > 1 else "give 0")
+                f"step_variation is {self.step_variation:g} of a control step of {self.control_timestep:g} s, which is "
+                f"less than a physics step, {self.physics_timestep:g} s; give {instead}"
             )
 
     def check_step(self, shortest: float, meanwhile: str) -> None:

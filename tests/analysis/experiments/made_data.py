@@ -294,8 +294,8 @@ def other_towers(num_agents, generator, varied=0.985, held_out=0.95, usual=0.5, 
                 "return": 0.95 * (share if player == generalization.VARIED else 1.0),
             }
             for config in conditions.TOWERS
-            if conditions.observations(config) == "features"
             for player, tests in right.items()
+            if player in generalization.CONDITIONS or conditions.observations(config) == "features"
             for seed in (range(num_agents) if player in generalization.CONDITIONS else [-1])
             for test, value in tests.items()
         ]
