@@ -135,7 +135,7 @@ def _parse(content: bytes) -> tuple[dict[str, torch.Tensor], dict[str, str]]:
     try:
         tensors = safetensors.load(content)
     except (SafetensorError, KeyError) as error:  # KeyError: a type that torch has not.
-        raise ValueError(f"is damaged: {ascii(str(error))[1:-1][:200]}") from None
+        raise ValueError(f"is damaged: {files.reason(error)}") from None
     header = json.loads(content[8 : 8 + int.from_bytes(content[:8], "little")])
     return tensors, header.get("__metadata__") or {}
 
@@ -241,7 +241,7 @@ def _read(path: Path, most: int | None) -> tuple[dict[str, torch.Tensor], dict[s
         form, checksum, facts = card["format"], card["sha256"], card["facts"]
         is_whole = isinstance(facts, dict) and card.get("facts_sha256") in (None, json_digest(facts))
     except (FileNotFoundError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
-        raise core.DamagedError(f"its JSON cannot be read: {ascii(str(error))[1:-1][:200]}") from None
+        raise core.DamagedError(f"its JSON cannot be read: {files.reason(error)}") from None
     if form != FORMAT:
         raise ValueError(f"{path} has format {ascii(form)[:80]}; this version reads format {FORMAT}")
     if not is_whole:

@@ -48,6 +48,11 @@ def write_atomically(path: Path, content: bytes) -> None:
         os.close(folder)
 
 
+def reason(error: Exception) -> str:
+    """Returns what an error about a file's content says, for a message: one line of ASCII, cut short."""
+    return ascii(" ".join(str(error).split()))[1:-1][:200]
+
+
 def remove_litter(folder: Path) -> None:
     """Removes the temporary files in a folder whose writers were killed."""
     opened = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)

@@ -63,7 +63,6 @@ class Ideal(Generic[options_lib.Options]):
         of_task = {field.name for field in dataclasses.fields(suite.options(self.domain))} & set(settings)
         task_kwargs = {name: settings.pop(name) for name in sorted(of_task)}
         discount = domains.find(self.domain).discount if self.discount is None else self.discount
-        suite.load_task(self.domain, task, dict(task_kwargs))  # Refuses options that make no sense.
         solution = ideal(task, task_kwargs, discount, **settings)
         with printing.warned_if_slow(
             f"searching for the ideal experimenter of {self.domain}/{task}; that can take minutes"

@@ -262,8 +262,16 @@ def test_a_near_fist_touches_no_tower_however_much_they_vary(seed):
 @pytest.mark.parametrize(
     "task_name, options, message",
     [
-        ("fist_features", {"fist_distance": 0.15}, "variation 0, is 0.15; give a number from 0.16 to 0.32 m"),
-        ("fist_features", {"fist_distance": 0.4}, "variation 0, is 0.4; give a number from 0.16 to 0.32 m"),
+        (
+            "fist_features",
+            {"fist_distance": 0.15},
+            "fist_distance, with cube_size 0.1 and variation 0, is 0.15; give a number from 0.16 to 0.32 m",
+        ),
+        (
+            "fist_features",
+            {"fist_distance": 0.4},
+            "fist_distance, with cube_size 0.1 and variation 0, is 0.4; give a number from 0.16 to 0.32 m",
+        ),
         (
             "fist_features",
             {"fist_distance": 0.16, "variation": 0.5},
@@ -273,7 +281,7 @@ def test_a_near_fist_touches_no_tower_however_much_they_vary(seed):
     ],
 )
 def test_a_fist_too_near_or_where_there_is_none_is_refused(task_name, options, message):
-    with pytest.raises(ValueError, match=f"{message}$"):
+    with pytest.raises(ValueError, match=f"^{message}$"):
         suite.load("towers", task_name, options)
 
 

@@ -222,6 +222,15 @@ def ratio_of_pairs(numerators: Sequence[float] | np.ndarray, denominators: Seque
     return geometric_mean(top / bottom) if _are_positive([*top, *bottom]) else _UNKNOWN_POSITIVE
 
 
+def difference_of_pairs(first, second) -> Estimate:
+    """Returns the mean of the first less the second, where both are known, with Student's interval.
+
+    Args:
+      first, second: pandas Series; values of the same index are a pair.
+    """
+    return mean(np.subtract(*first.align(second, join="inner")))
+
+
 def normal(value: float, standard_error: float) -> Estimate:
     """Returns a figure with the normal interval of its standard error, as a mean of many values has it."""
     from scipy import stats

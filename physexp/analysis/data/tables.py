@@ -67,8 +67,9 @@ def read(path: Path, schema: pyarrow.Schema, columns: Sequence[str] | None = Non
             _check_schema(file.schema_arrow, schema)
             return file.read(None if columns is None else list(columns), use_threads=False)
     except (ValueError, OSError, KeyError, pyarrow.ArrowException) as error:
-        reason = ascii(" ".join(str(error).split()))[1:-1][:200]
-        raise ValueError(f"{path} is damaged ({reason}); put back what was written, or remove it") from None
+        raise ValueError(
+            f"{path} is damaged ({files.reason(error)}); put back what was written, or remove it"
+        ) from None
 
 
 def _check_sum(content: bytes) -> None:

@@ -143,17 +143,17 @@ def _while_learning(runs, label: str, learner: str) -> list[claims.Claim]:
 
 
 def _at_the_end(agents, label: str, learner: str) -> list[claims.Claim]:
-    from_pixels = scores.sees_pixels(label)
+    word, middle = scores.middle(label)
     found = [
         claims.Claim(
             text="The belief learner comes near the optimum",
             condition=label,
-            statistic=f"share of the ideal's return, {LEARNERS[learner]}, {'mean' if from_pixels else 'median'}",
-            estimate=(estimates.mean if from_pixels else estimates.median)(agents.share),
+            statistic=f"share of the ideal's return, {LEARNERS[learner]}, {word}",
+            estimate=middle(agents.share),
             above=LEAST_SHARE[label],
         )
     ]
-    if not from_pixels:
+    if not scores.sees_pixels(label):
         worst = agents.loc[agents.share.idxmin()]
         found.append(
             claims.Claim(

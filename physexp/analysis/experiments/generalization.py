@@ -147,8 +147,7 @@ def find_claims(frame) -> list[claims.Claim]:
     found = []
     for condition, rows in frame.groupby("condition", sort=False):
         common = dict(condition=condition)
-        # An interval of the median needs more agents than there are from pixels.
-        word, middle = ("mean", estimates.mean) if scores.sees_pixels(condition) else ("median", estimates.median)
+        word, middle = scores.middle(condition)
         varied, usual, rule = (_by_test(rows, player, "right") for player in (VARIED, USUAL, RULE))
         if len(varied):
             found += [
@@ -170,14 +169,13 @@ def find_claims(frame) -> list[claims.Claim]:
                 ),
             ]
         if len(varied) and len(usual):
-            pairs = [table["varied"] for table in (varied, usual)]
             found.append(
                 claims.Claim(
                     **common,
                     text="Agents trained without variation have learned the towers that they saw",
                     statistic="share of right answers with variation, trained with it less trained without, "
                     "mean difference",
-                    estimate=estimates.mean(np.subtract(*pairs[0].align(pairs[1], join="inner"))),
+                    estimate=estimates.difference_of_pairs(varied["varied"], usual["varied"]),
                     above=0,
                 )
             )

@@ -74,17 +74,15 @@ def load(results: base.Results):
 
 def find_claims(frame) -> list[claims.Claim]:
     """Noise makes agents poke a block again, above all where the mass gap is small."""
-    noisy = [agent for _, agent in frame[frame.readings == NOISY].groupby("training_seed")]
-    if not noisy:
+    if not (frame.readings == NOISY).any():
         return []
-    gaps = [_mean_gap(agent, agent.again > 0) - _mean_gap(agent, agent.again == 0) for agent in noisy]
     common: dict[str, Any] = dict(condition=CONDITIONS[NOISY].label)
     found = [
         claims.Claim(
             **common,
             text="With noise, agents poke a block again where the mass gap is small",
             statistic="mean mass gap of episodes in which a block is poked again less that of others, mean of agents",
-            estimate=estimates.mean(gaps),
+            estimate=estimates.mean(_by_agent(frame, NOISY, _gap_of_second_pokes)),
             below=SMALLER,
         ),
         claims.Claim(
@@ -99,7 +97,7 @@ def find_claims(frame) -> list[claims.Claim]:
             **common,
             text="Agents earn nearly what an experimenter earns who knows of the noise",
             statistic="share of its return, median of agents",
-            estimate=estimates.median([agent.share.mean() for agent in noisy]),
+            estimate=estimates.median(_by_agent(frame, NOISY, lambda agent: agent.share.mean())),
             above=LEAST_SHARE,
             reason="They read noise worse than Bayes' rule does (docs/belief.md has what one of them loses by that).",
         ),
@@ -111,7 +109,7 @@ def find_claims(frame) -> list[claims.Claim]:
                 text="Noise makes agents poke blocks again",
                 statistic="pokes of blocks that were poked before, in an episode, with noise less without, mean "
                 "difference",
-                estimate=estimates.mean(_differences(frame, lambda agent: agent.again.mean())),
+                estimate=_difference(frame, lambda agent: agent.again.mean()),
                 above=0,
             ),
             claims.Claim(
@@ -119,7 +117,7 @@ def find_claims(frame) -> list[claims.Claim]:
                 text="Noise makes a small mass gap cost more pokes of blocks that were poked before",
                 statistic="slope of these pokes on mass gap, with noise less without, mean difference; found in these "
                 "data",
-                estimate=estimates.mean(_differences(frame, _slope)),
+                estimate=_difference(frame, _slope),
                 below=STEEPER,
             ),
             claims.Claim(
@@ -127,7 +125,7 @@ def find_claims(frame) -> list[claims.Claim]:
                 text="Noise makes it clearer that agents experiment longer where the mass gap is small",
                 statistic="correlation of pokes and mass gap, with noise less without, mean difference; found in these "
                 "data",
-                estimate=estimates.mean(_differences(frame, _correlation)),
+                estimate=_difference(frame, _correlation),
                 below=0,
                 reason="A small gap costs more pokes with noise, as is tested above. But agents then poke more often "
                 "whatever the gap, by what they happen to read, and that hides it.",
@@ -144,10 +142,9 @@ def _by_agent(frame, readings: str, figure: Callable[[Any], float]):
     return pandas.Series({seed: figure(agent) for seed, agent in agents}, dtype=float)
 
 
-def _differences(frame, figure: Callable[[Any], float]) -> np.ndarray:
-    """Returns by how much a figure is larger with noise than without, for each seed that has both."""
-    noisy, exact = (_by_agent(frame, readings, figure) for readings in (NOISY, EXACT))
-    return np.subtract(*noisy.align(exact, join="inner"))
+def _difference(frame, figure: Callable[[Any], float]) -> estimates.Estimate:
+    """Returns by how much a figure is larger with noise than without, of the seeds that have both."""
+    return estimates.difference_of_pairs(*(_by_agent(frame, readings, figure) for readings in (NOISY, EXACT)))
 
 
 def _correlation(agent) -> float:
@@ -158,9 +155,10 @@ def _slope(agent) -> float:
     return estimates.slope(*agent[["mass_gap", "again"]].to_numpy(float).T).value
 
 
-def _mean_gap(agent, are_meant) -> float:
-    """Returns NaN where no episode is meant."""
-    return float(agent.mass_gap[are_meant].mean())
+def _gap_of_second_pokes(agent) -> float:
+    """Returns the mean gap of episodes in which a block is poked again less that of others, NaN without either."""
+    again = agent.again > 0
+    return agent.mass_gap[again].mean() - agent.mass_gap[~again].mean()
 
 
 def draw(frame):

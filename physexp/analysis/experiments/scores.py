@@ -1,6 +1,6 @@
 """How well agents play while they learn, in shares of what can be reached."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -78,6 +78,14 @@ def ideal_return(task: config_lib.TrainConfig, results: base.Results) -> float:
 def sees_pixels(label: str) -> bool:
     """Returns whether agents observe pixels in a condition of this name."""
     return label in _FROM_PIXELS
+
+
+def middle(label: str) -> tuple[str, Callable[..., estimates.Estimate]]:
+    """Returns the name of what agents of a condition are summed up by, and how to estimate it.
+
+    From pixels it is their mean: there are too few for an interval of the median.
+    """
+    return ("mean", estimates.mean) if sees_pixels(label) else ("median", estimates.median)
 
 
 def level(label: str) -> str:

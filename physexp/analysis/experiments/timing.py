@@ -166,7 +166,7 @@ def find_claims(frame) -> list[claims.Claim]:
                 text="In fine time, who knows control steps of many lengths is right more often than who knows one",
                 statistic=f"share of right answers at {_SHORTEST:g} s, with many less with one, mean difference; found "
                 "in these data",
-                estimate=estimates.mean(_differences(many.right[_SHORTEST], one.right[_SHORTEST])),
+                estimate=estimates.difference_of_pairs(many.right[_SHORTEST], one.right[_SHORTEST]),
                 above=0,
             ),
             claims.Claim(
@@ -192,16 +192,11 @@ def find_claims(frame) -> list[claims.Claim]:
                 text="Who was trained with control steps of many lengths is right more often where friction is high",
                 statistic="share of right answers at friction 0.48, less that of who was trained with one length, mean "
                 "difference",
-                estimate=estimates.mean(_differences(*pairs)),
+                estimate=estimates.difference_of_pairs(*pairs),
                 above=0,
             ),
         ]
     return found
-
-
-def _differences(larger, smaller) -> np.ndarray:
-    """Returns the differences of two figures of the agents that have both, by seed."""
-    return np.subtract(*larger.align(smaller, join="inner"))
 
 
 def _by_step(frame, player: str):

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from physexp import suite
 from physexp.agents import core
 from physexp.analysis.ideal import base, rollouts
 
@@ -49,7 +50,11 @@ class Solution:
           make_actor: makes an actor that plays the policy.
           find_bounds: finds the values of ideal experimenters who are told all that episodes differ in, one for each of
             some episodes that are drawn at random; one alone where it is the same in all.
+
+        Raises:
+          ValueError: for a value that makes no sense.
         """
+        suite.load_task(domain, task, dict(task_kwargs))  # Refuses now what could not be played later.
         self._played = (domain, task, dict(task_kwargs))
         self.discount = base.check_discount(discount)
         self._make_actor = make_actor

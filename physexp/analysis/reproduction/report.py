@@ -173,7 +173,8 @@ def _markdown(shown, tested, missing, results) -> str:
             for one in rows
         ]
         lines += [""] + [text for reason in _reasons(rows) for text in (reason, "")]
-    for experiment, table, absent in ((one.experiment, one.table, one.missing) for one in shown):
+    for one in shown:
+        experiment, table = one.experiment, one.table
         lines += [
             f'<a id="{_anchor(experiment)}"></a>',
             "",
@@ -186,8 +187,8 @@ def _markdown(shown, tested, missing, results) -> str:
         ]
         if table:
             lines += [*_header(table[0]), *("| " + " | ".join(row) + " |" for row in table[1:]), ""]
-        if absent:
-            lines += [absent, ""]
+        if one.missing:
+            lines += [one.missing, ""]
     lines += [text for line in missing for text in (f"Left out: {line}", "")]
     return "\n".join(lines).rstrip() + "\n"
 
@@ -209,7 +210,8 @@ def _page(shown, tested, missing, results) -> str:
         )
         parts.append(f"<h2>{title}</h2><p>{_tally(rows)}.</p><table><tr>{head}</tr>{body}</table>")
         parts += [f"<p>{html.escape(reason)}</p>" for reason in _reasons(rows)]
-    for experiment, table, absent in ((one.experiment, one.table, one.missing) for one in shown):
+    for one in shown:
+        experiment, table = one.experiment, one.table
         image = base64.b64encode((results.path / "figures" / f"{experiment.name}.svg").read_bytes()).decode()
         parts.append(
             f'<h2 id="{_anchor(experiment)}">{html.escape(experiment.title)} '
@@ -223,8 +225,8 @@ def _page(shown, tested, missing, results) -> str:
                 for tag, row in zip(["th"] + ["td"] * len(table), table, strict=False)
             ]
             parts.append("<table>" + "".join(f"<tr>{row}</tr>" for row in cells) + "</table>")
-        if absent:
-            parts.append(f"<p>{html.escape(absent)}</p>")
+        if one.missing:
+            parts.append(f"<p>{html.escape(one.missing)}</p>")
     parts += [f"<p>Left out: {html.escape(line)}</p>" for line in missing]
     return f"<!doctype html><meta charset=utf-8><title>physexp: results</title><style>{_STYLE}</style>" + (
         "<h1>Results</h1>" + "\n".join(parts) + "\n"

@@ -78,7 +78,6 @@ def played(asked: protocol.Question, seed: int, number: int, episode: episodes.E
       episode: what was played.
     """
     count = len(episode.actions)
-    digests = [digest(timestep.observation) for timestep in episode.timesteps[:-1]]
     return {
         "domain": np.full(count, asked.domain),
         "task": np.full(count, asked.task),
@@ -87,7 +86,7 @@ def played(asked: protocol.Question, seed: int, number: int, episode: episodes.E
         "step": np.arange(count),
         "action": episode.actions,
         "reward": episode.rewards,
-        "observation": np.array(digests, np.uint64),
+        "observation": np.array([digest(seen.observation) for seen in episode.timesteps[:-1]], np.uint64),
     }
 
 
