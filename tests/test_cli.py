@@ -338,6 +338,7 @@ def test_doctor_ends_with_status_1_only_if_the_core_is_broken(run, monkeypatch):
         (["ideal", "which_is_heavier", "--resolution", "0"], ["--resolution is not an option"]),
         (["ideal", "towers", "--task", "feet"], ["task is 'feet'", "fist_features", "direct_features"]),
         (["evaluate", "no/such/run"], ["no/such/run", "holds no run"]),
+        (["evaluate", __file__], [__file__, "is a file; give the folder of a run"]),
         (["train", "which_is_heavier", "features", "--resume", "--run-dir", "no/such/run"], ["holds no run"]),
     ],
 )
@@ -354,6 +355,8 @@ def test_what_cannot_be_done_is_refused_in_one_line(run, arguments, words):
         (["train"], "train needs DOMAIN TASK; see physexp train --help"),
         (["train", "towers"], "train needs TASK; see physexp train --help"),
         (["evaluate", "a", "b"], "evaluate does not take 'b'; see physexp evaluate --help"),
+        # What is close to it, `target`, has no name on a command line.
+        (["evaluate", "a", "--targe=3"], "--targe=3 is not an option of evaluate; see physexp evaluate --help"),
         (
             ["evaluate", "a", "--sed=3"],
             "--sed=3 is not an option of evaluate; perhaps --seed; see physexp evaluate --help",
@@ -439,6 +442,11 @@ def test_a_folder_that_holds_a_run_is_not_overwritten(run, untrained):
 def test_a_run_is_not_resumed_as_another_task(run, untrained):
     done = run("train", "towers", "fist_features", "--run-dir", untrained.path, "--resume")
     assert_refused(done, "which_is_heavier/features")
+
+
+def test_what_is_in_the_folder_of_a_run_is_not_taken_for_an_agent(run, untrained):
+    file = untrained.path / "config.json"
+    assert_refused(run("evaluate", file), f"{file} is a file; give the folder of a run")
 
 
 def test_a_second_trainer_in_the_same_folder_is_refused(run, untrained):

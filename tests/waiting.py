@@ -60,11 +60,15 @@ class Patience:
 
 
 def wait_until(condition, what, **limits):
-    """Waits for something to come true, or fails when what this process has started does not get on (`Patience`)."""
+    """Waits for something to come true, and returns it; fails when what this process has started does not get on.
+
+    See `Patience`.
+    """
     patience = Patience(**limits)
-    while not condition():
+    while not (seen := condition()):
         assert not patience.is_over(), f"waited in vain for {what}: {patience}"
         time.sleep(0.02)
+    return seen
 
 
 def run(command, **kwargs) -> str:

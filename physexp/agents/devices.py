@@ -16,10 +16,10 @@ def choose(device: str, sees_images: bool) -> torch.device:
       sees_images: whether there are convolutions.
 
     Raises:
-      RuntimeError: for `cuda` where torch finds no GPU.
+      ValueError: for `cuda` where torch finds no GPU.
     """
     if device == "cuda" and not torch.cuda.is_available():
-        raise RuntimeError("device is cuda, but torch finds no GPU here; choose cpu or auto")
+        raise ValueError("device is cuda, but torch finds no GPU here; choose cpu or auto")
     wanted = device == "cuda" or (device == "auto" and sees_images)
     return torch.device("cuda" if wanted and torch.cuda.is_available() else "cpu")
 

@@ -49,5 +49,7 @@ class EnvironmentLoop:
         return metrics
 
     def run(self, num_episodes: int) -> list[dict[str, Any]]:
-        """Plays many episodes; returns the metrics of each."""
+        """Plays many episodes; returns the metrics of each; raises ValueError for a number below one."""
+        if num_episodes < 1:
+            raise ValueError(f"num_episodes is {num_episodes}; give a number >= 1")
         return [self.run_episode() for _ in range(num_episodes)]

@@ -6,7 +6,7 @@ import difflib
 import itertools
 import os
 import sys
-from typing import Annotated, Any, NoReturn, Union
+from typing import Annotated, Any, NoReturn, Union, get_type_hints
 
 import tyro
 from tyro import _errors as tyro_errors  # Its hook on what it refuses; not public as yet, so setup.cfg bounds tyro.
@@ -161,7 +161,9 @@ class _Command:
 
     def option_names(self) -> list[str]:
         """Returns the command's options as they are typed, without their dashes."""
-        fields = [*dataclasses.fields(COMMANDS[self.name]), *dataclasses.fields(self.options)]
+        kinds = get_type_hints(COMMANDS[self.name], include_extras=True)
+        named = [field for field in dataclasses.fields(COMMANDS[self.name]) if not _is_positional(kinds[field.name])]
+        fields = [*named, *dataclasses.fields(self.options)]
         if self.name == "train":
             fields += [field for kind in config_lib.ALGORITHMS.values() for field in dataclasses.fields(kind)]
         return [name.replace("_", "-") for name in dict.fromkeys(field.name for field in fields)]
@@ -197,6 +199,11 @@ def _is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def _is_positional(kind: Any) -> bool:
+    """Returns whether arguments of a type are typed without a name."""
+    return tyro.conf.Positional in getattr(kind, "__metadata__", ())
 
 
 def _flags(tokens: Sequence[str]) -> list[str]:

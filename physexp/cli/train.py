@@ -71,6 +71,9 @@ class Train(Generic[Config, options_lib.Options]):
             with contextlib.ExitStack() as stack:
                 stack.enter_context(run.locked())
                 run.check_resumable() if self.resume else run.check_new()
+                if self.resume and run.is_finished:
+                    frames = config.agent.frames
+                    printing.warn(f"{run.path} has had its {frames:,} frames; to train longer, train anew with more")
                 if self.cluster is not None:
                     from physexp.analysis.reproduction import cluster
 

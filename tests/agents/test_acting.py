@@ -245,6 +245,15 @@ def test_an_actor_plays_any_environment_of_the_suite_in_a_loop(domain, task):
         assert episode["episode_return"] in (-1, 1)
 
 
+@pytest.mark.parametrize("number", [0, -1])
+def test_a_loop_of_no_episodes_is_refused(number):
+    environment = suite.load(*suite.ALL_TASKS[0])
+    loop = environment_loop.EnvironmentLoop(environment, acting.RecurrentActor(make_network(environment, 0)))
+    with pytest.raises(ValueError, match=f"num_episodes is {number}; give a number >= 1"):
+        loop.run(number)
+    environment.close()
+
+
 def test_a_greedy_actor_takes_the_likeliest_action_whatever_its_seed():
     seed = fresh_seed()
     environment = suite.load("which_is_heavier", "features", {"random": seed})

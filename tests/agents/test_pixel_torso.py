@@ -100,7 +100,7 @@ def test_features_are_computed_on_the_processor_unless_told_otherwise():
 @pytest.mark.skipif(torch.cuda.is_available(), reason="needs a machine without a GPU")
 def test_a_gpu_that_is_not_there_is_refused_when_asked_for_and_done_without_otherwise():
     assert devices.choose("auto", sees_images=True).type == "cpu"
-    with pytest.raises(RuntimeError, match="device is cuda, but torch finds no GPU here; choose cpu or auto"):
+    with pytest.raises(ValueError, match="device is cuda, but torch finds no GPU here; choose cpu or auto"):
         devices.choose("cuda", sees_images=True)
 
 

@@ -132,6 +132,14 @@ def test_a_control_step_that_is_no_multiple_of_the_physics_step_is_refused(domai
 
 
 @every_feature_task
+@pytest.mark.parametrize("value", [np.float32(0.1), np.float32(0.3), 0.1 * 3])
+def test_a_control_step_may_be_rounded_as_float32_is(domain_name, task_name, value):
+    environment = suite.load(domain_name, task_name, {"control_timestep": value, "time_limit": 10.0})
+    assert environment.task.options.control_timestep == round(float(value), 6)
+    environment.close()
+
+
+@every_feature_task
 def test_a_control_step_lasts_a_minute_at_most_since_it_is_simulated_in_one_go(domain_name, task_name):
     with _refuses("control_timestep", "60.5", "at most 60 s"):
         suite.load(domain_name, task_name, {"control_timestep": 60.5})

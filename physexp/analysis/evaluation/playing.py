@@ -77,7 +77,7 @@ def published(target: str) -> pretrained.Pretrained | None:
       ValueError: if its files are damaged.
     """
     path = Path(target)
-    if path.suffix == ".json" and path.is_file():
+    if path.suffix == ".json" and path.is_file() and path.name != "config.json":  # Which is in the folder of a run.
         return pretrained.load_named(path.stem, path.parent)
     return pretrained.load_named(target) if target in pretrained.names() and not path.exists() else None
 

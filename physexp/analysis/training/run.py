@@ -92,7 +92,8 @@ class Run:
         try:
             fields = files.read_json(self.path / "config.json")
         except (FileNotFoundError, NotADirectoryError):
-            raise ValueError(f"{self.path} holds no run (no config.json); give the folder of a run") from None
+            what = "is a file" if self.path.is_file() else "holds no run (no config.json)"
+            raise ValueError(f"{self.path} {what}; give the folder of a run") from None
         form = fields.get("format") if isinstance(fields, dict) else None
         if form != FORMAT:
             raise ValueError(f"{self.path}/config.json has format {form!r}; this version reads format {FORMAT}")

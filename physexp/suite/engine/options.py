@@ -8,6 +8,7 @@ import numpy as np
 
 from physexp.suite.engine import checks, seeding
 
+_ROUNDING = 1e-6  # A control step is as good as a multiple that it differs from by less: float32 keeps 7 digits.
 _LONGEST = {"control_timestep": 60.0, "time_limit": 1e6}  # s; a control step is simulated in one go.
 
 
@@ -55,11 +56,13 @@ class Options:
         object.__setattr__(self, "noise", checks.between("noise", self.noise, 0, 100, "m"))
         for name in ("reveal", "visualize_reward"):
             object.__setattr__(self, name, checks.flag(name, getattr(self, name)))
-        if self.substeps < 1 or abs(self.substeps * self.physics_timestep - self.control_timestep) > 1e-9:
+        exact = self.substeps * self.physics_timestep
+        if self.substeps < 1 or abs(exact - self.control_timestep) > _ROUNDING * exact:
             raise ValueError(
                 f"control_timestep is {self.control_timestep} s; "
                 f"give a multiple of the physics step, {self.physics_timestep} s"
             )
+        object.__setattr__(self, "control_timestep", round(exact, 9))
         if self.step_variation and self._substeps_range[0] == self.substeps:
             least = math.ceil(1000 / self.substeps) / 1000
             instead = f"0, or at least {least:g}" if least < 1 else "0"

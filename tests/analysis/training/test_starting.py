@@ -91,29 +91,30 @@ def test_a_disk_without_room_for_checkpoints_is_told_before_training(tmp_path, m
 
 @pytest.fixture
 def starting(tmp_path):
-    """`physexp train` in a new folder, as soon as its worker is there: a round of many episodes before it learns.
+    """`physexp train` in a new folder, and its worker, as soon as that is there: many episodes before it learns.
 
     Many more than by default: what takes the test a moment to see takes the worker much longer.
     """
     options = ["--num-workers", 1, "--frames", 10**9, "--run-dir", tmp_path / "a" / "run", "--envs-per-worker", 3000]
     with commands.start("train", *TASK, *options) as process:
-        wait_until(lambda: trainers.workers(process), "a worker")
-        yield process
+        (worker,) = wait_until(lambda: trainers.workers(process), "a worker")
+        yield process, worker
 
 
 def test_a_worker_that_dies_before_it_has_learned_anything_leaves_no_folder(starting, tmp_path):
-    (worker,) = trainers.workers(starting)
+    process, worker = starting
     worker.kill()
-    _, errors = starting.communicate()
-    assert starting.returncode == 1 and errors.count("\n") == 1, errors
+    _, errors = process.communicate()
+    assert process.returncode == 1 and errors.count("\n") == 1, errors
     assert "worker 0 died" in errors and "there is no checkpoint yet" in errors and "whole" not in errors
     assert os.listdir(tmp_path) == []
 
 
 def test_ctrl_c_before_anything_was_learned_leaves_no_folder(starting, tmp_path):
-    os.killpg(starting.pid, signal.SIGINT)
-    _, errors = starting.communicate()
-    assert starting.returncode == 130 and "Traceback" not in errors, errors
+    process, _ = starting
+    os.killpg(process.pid, signal.SIGINT)
+    _, errors = process.communicate()
+    assert process.returncode == 130 and "Traceback" not in errors, errors
     assert "no checkpoint" in errors and "the same command starts anew" in errors
     assert os.listdir(tmp_path) == []
 
@@ -153,6 +154,15 @@ def test_records_without_a_checkpoint_are_not_resumed_but_moved_aside_by_a_new_s
     line = refusal(capsys, "train", *TASK, "--run-dir", run.path, "--resume")
     assert "is finished and has kept its agent alone; evaluate it" in line
     assert everything(run.path) == before
+
+
+def test_a_run_that_has_had_its_frames_says_so_when_it_is_to_go_on(tmp_path, capsys):
+    run = run_lib.Run(tmp_path / "run")
+    run.create(small(frames=100))
+    trainer.train(run)
+    assert run.is_finished
+    parsing._run(["train", *TASK, "--run-dir", str(run.path), "--resume"])
+    assert f"{run.path} has had its 100 frames; to train longer, train anew with more" in capsys.readouterr().err
 
 
 # The demo.
