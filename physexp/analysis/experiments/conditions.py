@@ -48,7 +48,9 @@ _BELIEF_FRAMES = {
 _PAPERS_FRAMES = {"10-F": 2_000_000}  # The same, of the paper's own learner.
 _NOISY_FRAMES = {"5-F": 120_000}  # The same, with noise.
 _TIMED_FRAMES = {"F-F": 200_000}  # The same, with control steps of many lengths.
-_VARIED_FRAMES = {"D-F": 150_000, "F-F": 150_000, "D-P": 200_000, "F-P": 250_000}  # The same, with variation.
+_VARIED_FRAMES = {"D-F": 150_000, "F-F": 150_000, "D-P": 400_000, "F-P": 1_000_000}  # The same, with variation.
+# Environment steps for each step of Adam where images vary: agents who learn more from each learn them by heart.
+_VARIED_FRAMES_PER_STEP = 16
 
 
 def heavier(
@@ -125,7 +127,10 @@ def with_task_kwargs(config: config_lib.TrainConfig, **task_kwargs: Any) -> conf
 
 def with_variation(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
     """Returns a condition of Towers with full variation, and the belief learner's budget for that."""
-    return with_task_kwargs(_trained_for(config, _VARIED_FRAMES), variation=1.0)
+    varied = with_task_kwargs(_trained_for(config, _VARIED_FRAMES), variation=1.0)
+    if observations(config) == "features":
+        return varied
+    return dataclasses.replace(varied, agent=varied.agent.replace(frames_per_step=_VARIED_FRAMES_PER_STEP))
 
 
 def with_step_variation(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
