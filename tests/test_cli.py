@@ -339,6 +339,7 @@ def test_doctor_ends_with_status_1_only_if_the_core_is_broken(run, monkeypatch):
         (["ideal", "towers", "--task", "feet"], ["task is 'feet'", "fist_features", "direct_features"]),
         (["evaluate", "no/such/run"], ["no/such/run", "holds no run"]),
         (["evaluate", __file__], [__file__, "is a file; give the folder of a run"]),
+        (["evaluate", "threshold/features", "--seed", "-1"], ["the seed, is -1; give an integer in [0, 2**63)"]),
         (["train", "which_is_heavier", "features", "--resume", "--run-dir", "no/such/run"], ["holds no run"]),
     ],
 )

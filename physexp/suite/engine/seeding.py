@@ -114,4 +114,6 @@ def seed_from(random) -> int:
         return int(random.randint(2**32, dtype=np.uint64))
     if checks.is_integer(random) and 0 <= random <= LARGEST_SEED:
         return int(random)
-    raise ValueError(f"random is {checks.shown(random)}; give an integer in [0, 2**63), a numpy RandomState, or None")
+    raise ValueError(
+        f"random, the seed, is {checks.shown(random)}; give an integer in [0, 2**63), a numpy RandomState, or None"
+    )
