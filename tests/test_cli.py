@@ -367,6 +367,11 @@ def test_what_cannot_be_done_is_refused_in_one_line(run, arguments, words):
             "--clop is not an option of train; perhaps --clip; see physexp train --help",
         ),
         (["train", "towers", "fist_features", "--ZZ", "1"], "--ZZ is not an option of train; see physexp train --help"),
+        # The learner is the one that is named last.
+        (
+            ["train", "towers", "fist_features", "--agent", "ppo", "--agent", "a3c", "--clip", "1"],
+            "--clip is not an option of --agent a3c; leave it out, or train --agent ppo",
+        ),
         (["evaluate", "a", "--episodes", "many"], "--episodes is 'many'; give INT; see physexp evaluate --help"),
         (["ideal", "towers", "--discount=low"], "--discount is 'low'; give FLOAT; see physexp ideal --help"),
         (

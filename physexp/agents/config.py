@@ -46,6 +46,7 @@ class AgentConfig:
     _POSITIVE: ClassVar[tuple[str, ...]] = ("learning_rate", "max_gradient_norm", "checkpoint_seconds")
     _NOT_NEGATIVE: ClassVar[tuple[str, ...]] = ()
     _SHARES: ClassVar[tuple[str, ...]] = ()  # From 0 to 1.
+    _BELOW_ONE: ClassVar[tuple[str, ...]] = ()  # From 0 to less than 1.
     _FLAGS: ClassVar[tuple[str, ...]] = ()
     _CHOICES: ClassVar[Mapping[str, tuple[str, ...]]] = {"device": get_args(Device)}
 
@@ -81,9 +82,10 @@ class AgentConfig:
             value, positive = getattr(self, name), name in self._POSITIVE
             if not is_number(value) or value < 0 or (positive and value == 0):
                 raise ValueError(f"{name} is {value!r}; give a finite number {'> 0' if positive else '>= 0'}")
-        for name in self._SHARES:
-            if not is_number(getattr(self, name)) or not 0 <= getattr(self, name) <= 1:
-                raise ValueError(f"{name} is {getattr(self, name)!r}; give a number in [0, 1]")
+        for name in (*self._SHARES, *self._BELOW_ONE):
+            value, below = getattr(self, name), name in self._BELOW_ONE
+            if not is_number(value) or not 0 <= value <= 1 or (below and value == 1):
+                raise ValueError(f"{name} is {value!r}; give a number in [0, 1{')' if below else ']'}")
         for name in self._FLAGS:
             if not isinstance(getattr(self, name), bool):
                 raise ValueError(f"{name} is {getattr(self, name)!r}; give True or False")
@@ -100,7 +102,7 @@ class ActorCriticConfig(AgentConfig):
 
     Attributes:
       entropy_cost: initial weight of the entropy bonus.
-      final_entropy_cost: final weight of the entropy bonus; the decay is exponential.
+      final_entropy_cost: final weight of the entropy bonus; the decay is exponential, or linear to 0.
       relative_entropy: regularize the policy towards the action prior (KL divergence) instead of towards the uniform
         policy, as in the paper.
       trace: lambda of generalized advantage estimation; 1, as in the paper, is Monte Carlo returns minus the baseline.
@@ -147,7 +149,10 @@ class ActorCriticConfig(AgentConfig):
 
     def at(self, progress: float) -> tuple[float, float]:
         """Returns step size and weight of the entropy bonus when this share of training is done."""
-        entropy_cost = self.entropy_cost ** (1 - progress) * self.final_entropy_cost**progress
+        if self.entropy_cost and self.final_entropy_cost:
+            entropy_cost = self.entropy_cost ** (1 - progress) * self.final_entropy_cost**progress
+        else:
+            entropy_cost = self.entropy_cost * (1 - progress)
         return self.learning_rate_at(progress), entropy_cost
 
     def __post_init__(self):

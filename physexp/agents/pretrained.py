@@ -87,7 +87,10 @@ def load(
     base = name(domain, task, {})
     siblings = [each for each in names(folder) if each.startswith(f"{base}-")]
     positions = options_of(domain, task, folder)
-    given = {**dict(zip(positions, values, strict=False)), **options}
+    given = dict(zip(positions, values, strict=False))
+    if twice := sorted({*given} & {*options}):
+        raise ValueError(f"{twice[0]} is given twice, {given[twice[0]]!r} and {options[twice[0]]!r}; give it once")
+    given |= options
     if len(values) > len(positions) and any(value is not None for value in values[len(positions) :]):
         raise _MissingError(
             f"no trained agent of {domain}/{task} has options {', '.join(map(repr, values))}; there are: "

@@ -166,9 +166,9 @@ def _ask(environment: suite.Environment, rules: str, read, show) -> int | None:
         if text == _HELP:
             show(rules)
             continue
-        if text.isdecimal() and int(text) < count:
+        if text.isdecimal() and len(text) < 10 and int(text) < count:
             return int(text)
-        show(f"{text!r} is no action; type a number from 0 to {count - 1}, {_HELP} or {_QUIT}")
+        show(f"{text[:40]!r} is no action; type a number from 0 to {count - 1}, {_HELP} or {_QUIT}")
 
 
 def _replay(environment: suite.Environment, domain, task, kwargs, actor: core.Actor) -> tuple[int, float]:

@@ -65,7 +65,8 @@ class Export:
                     show=show,
                 )
         except KeyboardInterrupt:
-            printing.warn(f"the episodes that were played are in {folder}")
+            if (folder / exporting.FILE).exists():
+                printing.warn(f"the episodes that were played are in {folder}")
             raise
         for name, facts in found["tasks"].items():
             if not facts["judged"]:

@@ -130,13 +130,14 @@ class _Command:
         return named if named in config_lib.ALGORITHMS else config_lib.DEFAULT_ALGORITHM
 
     def value(self, flag: str) -> str:
-        """Returns what an option was given."""
+        """Returns what an option was given, the last time."""
         parts = [
             part
             for argument in self.arguments
             for part in (argument.split("=", 1) if argument.startswith("--") else [argument])
         ]
-        return next((value for name, value in itertools.pairwise(parts) if name.replace("_", "-") == flag), "nothing")
+        given = [value for name, value in itertools.pairwise(parts) if name.replace("_", "-") == flag]
+        return given[-1] if given else "nothing"
 
     def check_owner(self, event: tyro_errors.ParseErrorEvent) -> None:
         """Names the learner or domain that an unknown option belongs to; that says more than that there is none."""

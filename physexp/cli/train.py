@@ -105,10 +105,12 @@ class Train(Generic[Config, options_lib.Options]):
     def _refuse_others(self, wanted: config_lib.TrainConfig, config: config_lib.TrainConfig, path: Path) -> None:
         """Refuses options that are chosen and differ from those that a run goes on with: raises ValueError."""
         usual = dataclasses.asdict(config_lib.preset(self.domain, self.task, algorithm=self.agent))
-        agent = {"agent": self.agent} if self.agent != config_lib.DEFAULT_ALGORITHM else {}
+        named = {"agent": config_lib.DEFAULT_ALGORITHM, "replay_every": config_lib.REPLAY_EVERY}
+        own = {name: getattr(self, name) for name, default in named.items() if getattr(self, name) != default}
         chosen = {name: value for name, value in dataclasses.asdict(wanted.agent).items() if value != usual[name]}
-        begun = {"agent": config.agent.algorithm, **config.task_kwargs, **dataclasses.asdict(config.agent)}
-        for name, value in {**agent, **wanted.task_kwargs, **chosen}.items():
+        begun = {"agent": config.agent.algorithm, "replay_every": config.replay_every, **config.task_kwargs}
+        begun |= dataclasses.asdict(config.agent)
+        for name, value in {**own, **wanted.task_kwargs, **chosen}.items():
             if begun.get(name) != value:
                 there = config_lib.shown(begun[name]) if name in begun else "not chosen"
                 raise ValueError(

@@ -55,6 +55,8 @@ BAD_FOR = [
     (belief.BeliefConfig, "cut", 1.5),
     (belief.BeliefConfig, "exploration", -0.1),
     (belief.BeliefConfig, "dropout", 2.0),
+    (belief.BeliefConfig, "dropout", 1.0),  # Nothing would be left to learn from.
+    (belief.BeliefConfig, "averaging", 1.0),  # The network that acts would never change.
     (belief.BeliefConfig, "weight_decay", -0.1),
     (belief.BeliefConfig, "averaging", math.nan),
 ]
@@ -124,6 +126,12 @@ def test_costs_and_rates_decay_over_training():
     # Halfway: the rate has lost half, the entropy cost is the geometric mean of 0.1 and 0.001.
     assert config.at(0.5) == pytest.approx((0.05, 0.01))
     assert config.at(1.0) == pytest.approx((0.0, 0.001))
+
+
+def test_a_bonus_that_ends_at_0_decays_linearly_and_one_that_is_0_stays_so():
+    ending, without = a3c.A3CConfig(entropy_cost=0.1, final_entropy_cost=0.0), a3c.A3CConfig(entropy_cost=0.0)
+    assert [ending.at(done)[1] for done in (0.0, 0.25, 1.0)] == pytest.approx([0.1, 0.075, 0.0])
+    assert [without.at(done)[1] for done in (0.0, 0.25, 1.0)] == [0.0, 0.0, 0.0]
 
 
 def test_values_at_the_edge_of_what_is_allowed_are_taken():

@@ -108,6 +108,11 @@ def test_an_agent_that_is_not_there_is_refused_with_a_list_of_those_that_are():
         agents.load_pretrained("towers", "fist_features", 3)
 
 
+def test_an_option_that_is_given_twice_is_refused():
+    with pytest.raises(ValueError, match="difficulty is given twice, 3 and 10; give it once"):
+        pretrained.load("which_is_heavier", "features", 3, difficulty=10)
+
+
 def test_an_agent_is_found_by_its_learner(small, tmp_path):
     network, card = small
     learners = {"belief": tmp_path, "a3c": tmp_path / "a3c", "ppo": tmp_path / "ppo"}

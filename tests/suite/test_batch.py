@@ -258,6 +258,33 @@ def test_what_cannot_be_saved_or_restored_is_refused():
         batch.restore(moment)
 
 
+def test_another_instance_of_the_same_episode_is_not_restored_into():
+    batch = load_batch("which_is_heavier/features", 2, random=0)
+    batch.reset()
+    moment = batch.save()
+    batch.reset(episode=0)
+    batch.restore(moment)
+    batch.reset(episode=0, hidden=batch.hidden[::-1].copy())
+    with pytest.raises(ValueError, match="other episodes"):
+        batch.restore(moment)
+    batch.reseed(5)
+    batch.reset()
+    with pytest.raises(ValueError, match="other episodes"):
+        batch.restore(moment)
+
+
+def test_a_view_is_of_an_environment_that_is_there():
+    batch = load_batch("which_is_heavier/features", 2, random=0)
+    batch.reset()
+    assert batch.view("qpos", 1).shape == batch.view("qpos", 0).shape
+    for index in (-1, 2, 0.5):
+        with pytest.raises(ValueError, match=f"environment is {index}; give an integer >= 0 and <= 1"):
+            batch.view("qpos", index)
+    batch.close()
+    with pytest.raises(RuntimeError, match="the batch is closed"):
+        batch.view("qpos", 0)
+
+
 @pytest.mark.parametrize("name", [name for name in VARYING if name.endswith("features")])
 def test_a_batch_draws_for_people_what_its_single_environments_draw(seed, name):
     rng = np.random.default_rng(seed)

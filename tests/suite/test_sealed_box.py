@@ -54,6 +54,20 @@ def test_boxes_move_as_if_their_content_were_compiled_into_them(seed):
         np.testing.assert_allclose(_places(batch), [state.qpos for state in data], atol=1e-9)
 
 
+@pytest.mark.parametrize("control_timestep", [0.02, 0.06])
+def test_no_box_leaves_the_bounds_however_it_is_pushed(control_timestep):
+    """Pushed along its velocity all the time, it goes farther than in any other way."""
+    kwargs = {"control_timestep": control_timestep, "time_limit": 12.0, "difficulty": 3}
+    batch = suite.load_batch("sealed_box", "features", len(ALL), {"random": 0, **kwargs})
+    batch.reset(hidden=ALL)
+    before, bound = _places(batch)[:, 0], batch.observation_spec()["place"].maximum.item()
+    for _ in range(batch.task.rules.step_limit - 1):
+        now = _places(batch)[:, 0]
+        assert (np.abs(now) <= bound * 0.003).all()
+        batch.step(np.where(now >= before, FORCES.argmax(), FORCES.argmin()))
+        before = now
+
+
 @pytest.mark.parametrize("difficulty, mark", [(1, 0.010), (2, 0.005), (3, 0.003)])
 def test_only_who_waits_sees_the_box_and_to_a_mark(seed, difficulty, mark):
     rng = np.random.default_rng(seed)

@@ -80,7 +80,8 @@ class BeliefConfig(config.AgentConfig):
         "replay_episodes": (1, 100_000_000),
     }
     _NOT_NEGATIVE: ClassVar[tuple[str, ...]] = ("weight_decay",)
-    _SHARES: ClassVar[tuple[str, ...]] = ("greedy", "cut", "exploration", "trace", "dropout", "averaging")
+    _SHARES: ClassVar[tuple[str, ...]] = ("greedy", "cut", "exploration", "trace")
+    _BELOW_ONE: ClassVar[tuple[str, ...]] = ("dropout", "averaging")
     _FLAGS: ClassVar[tuple[str, ...]] = ("answers_revealed", "every_step")
     _CHOICES: ClassVar[Mapping[str, tuple[str, ...]]] = {
         **config.AgentConfig._CHOICES,

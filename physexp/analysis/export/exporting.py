@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 import contextlib
+import dataclasses
 import functools
 import json
 from pathlib import Path
@@ -75,10 +76,11 @@ def export(
         problem = ""
     except player.PlayerError as error:
         problem = str(error)
-        kept = f"; the {done:,} episodes before are in {folder}" if done else ""
+        count = sum(writer.num_episodes for writer in writers)
+        kept = f"; the {count:,} episodes before are in {folder}" if count else ""
         raise player.PlayerError(f"{problem}{kept}") from None
     finally:
-        if done:
+        if any(writer.num_episodes for writer in writers):
             written = {
                 "target": target,
                 "greedy": greedy,
@@ -130,7 +132,7 @@ class _Writer:
         self.asked, self.num_episodes = asked, 0
         self._steps = steps.Steps(asked, suite.environment_seed(seed, 0))
         self._folder = folder / f"{asked.domain}-{asked.task}" / TABLE
-        self._pending: list[dict[str, np.ndarray]] = []
+        self._pending: list[tuple[dict[str, np.ndarray], episodes.Episode]] = []
         self._num_parts = 0
         self._num_right, self._num_steps, self._returned = 0, 0, 0.0
         self._open_data_set: Callable[[], Any] | None = None
@@ -147,23 +149,26 @@ class _Writer:
 
     def add(self, episode: episodes.Episode) -> None:
         """Adds the next episode."""
-        self._pending.append(self._steps.rows(self.num_episodes, episode))
-        count = len(episode.actions)
-        self.num_episodes += 1
-        self._num_steps += count
-        self._num_right += bool(episode.rewards[-1] > 0)
-        self._returned += float(self.asked.discount ** np.arange(count) @ episode.rewards)
-        if sum(len(rows["step"]) for rows in self._pending) >= _ROWS:
+        rows = self._steps.rows(self.num_episodes + len(self._pending), episode)
+        self._pending.append((rows, dataclasses.replace(episode, timesteps=[])))  # Images of many would be large.
+        if sum(len(rows["step"]) for rows, _ in self._pending) >= _ROWS:
             self._write()
 
     def _write(self) -> None:
-        """Writes what was added since as a part."""
+        """Writes what was added since as a part, and counts it; where that fails, it is still to be written."""
         if not self._pending:
             return
-        table, self._pending = self._steps.table(self._pending), []
+        table = self._steps.table([rows for rows, _ in self._pending])
         self._folder.mkdir(parents=True, exist_ok=True)
         tables.write(self._folder / f"part-{self._num_parts:05d}.parquet", table, compression="zstd")
+        written, self._pending = self._pending, []
         self._num_parts += 1
+        self.num_episodes += len(written)
+        for _, episode in written:
+            count = len(episode.actions)
+            self._num_steps += count
+            self._num_right += bool(episode.rewards[-1] > 0)
+            self._returned += float(self.asked.discount ** np.arange(count) @ episode.rewards)
         if self._open_data_set is not None:
             self._open_data_set().add(table)
 

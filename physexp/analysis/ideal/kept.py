@@ -7,6 +7,7 @@ is simulated.
 from collections.abc import Callable, Iterator, Mapping, Sequence
 import functools
 import hashlib
+import io
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ import mujoco
 import numpy as np
 
 from physexp import suite
+from physexp.agents import files
 from physexp.analysis.ideal import hypotheses as hypotheses_lib
 from physexp.analysis.ideal import situations as situations_lib
 
@@ -117,13 +119,15 @@ def keep(solution: Any) -> None:
     found = dict(_looks(situations, situations.start, b"", most))
     paths = sorted(found, key=lambda path: (len(path), path))
     hypotheses.path.parent.mkdir(exist_ok=True)
+    content = io.BytesIO()
     np.savez_compressed(
-        hypotheses.path,
+        content,
         digest=np.array(hypotheses.digest),
         lengths=np.array([len(path) for path in paths]),
         actions=np.frombuffer(b"".join(paths), np.uint8),
         looks=np.array([found[path] for path in paths]),
     )
+    files.write_atomically(hypotheses.path, content.getvalue())
 
 
 def _looks(

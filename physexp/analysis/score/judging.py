@@ -1,7 +1,7 @@
 """What an ideal experimenter says of the actions of episodes, each that comes again asked once.
 
-The tasks are judged in processes of their own while others are played: to find out what actions were worth can take
-longer than to take them.
+Several tasks are judged in processes of their own, while others are played: to find out what actions were worth can
+take longer than to take them. A single one is judged in a thread, which is there at once.
 """
 
 from collections.abc import Callable, Sequence
@@ -69,19 +69,20 @@ class Judged:
 
 
 class Judges:
-    """Judge tasks, one on each processor core; a context that leaves no process behind."""
+    """Judge tasks, one on each processor core; a context that leaves no process and no thread behind."""
 
     def __init__(self, num_tasks: int, show: Callable[[], None] = lambda: None):
         """Prepares to judge.
 
         Args:
-          num_tasks: how many tasks; a single one is judged in this process.
+          num_tasks: how many tasks.
           show: called again and again while episodes are judged that others wait for.
         """
-        self._show, self._pool = show, None
+        self._show, self._are_needed = show, True
         self._workers: set[multiprocessing.process.BaseProcess] = set()
         context = multiprocessing.get_context("spawn")
         self._counter = context.Value("q", 0)
+        self._pool: futures.Executor = futures.ThreadPoolExecutor(1)
         if num_tasks > 1:
             cores = len(os.sched_getaffinity(0))
             self._pool = futures.ProcessPoolExecutor(
@@ -93,10 +94,10 @@ class Judges:
 
     def __exit__(self, kind, *_):
         if kind is not None:  # Nobody waits any more for what is being judged.
+            self._are_needed = False
             for worker in self._workers:
                 processes.kill(worker)
-        if self._pool is not None:
-            self._pool.shutdown(cancel_futures=True)
+        self._pool.shutdown(cancel_futures=True)
 
     @property
     def count(self) -> int:
@@ -111,19 +112,28 @@ class Judges:
 
     def begin(self, asked: protocol.Question, played: Sequence[episodes.Episode]) -> "futures.Future[Judged]":
         """Begins to judge the episodes of a task, by what is hidden and was done; returns what will be said."""
-        if self._pool is not None:
-            others = set(multiprocessing.active_children())
-            with processes.inherited_by_workers():
-                judged = self._pool.submit(_judged_by_worker, asked.name, played)
-            self._workers |= set(multiprocessing.active_children()) - others
-            return judged
-        done: futures.Future[Judged] = futures.Future()
-        done.set_result(_judged(asked, played, self._count_and_show))
-        return done
+        if isinstance(self._pool, futures.ThreadPoolExecutor):
+            return self._pool.submit(_judged, asked, played, self._count_if_needed)
+        others = set(multiprocessing.active_children())
+        with processes.inherited_by_workers():
+            judged = self._pool.submit(_judged_by_worker, asked.name, played)
+        self._workers |= set(multiprocessing.active_children()) - others
+        return judged
 
-    def _count_and_show(self) -> None:
+    def judged(
+        self, asked: protocol.Question, played: Sequence[episodes.Episode], begun: "futures.Future[Judged]"
+    ) -> Judged:
+        """Returns what is said of a task that `begin` was given; judges it anew where a process was killed over it."""
+        try:
+            return begun.result()
+        except futures.BrokenExecutor:
+            return _judged(asked, played, self._show)
+
+    def _count_if_needed(self) -> None:
+        """Counts an episode; ends the thread that judges where nobody waits for it any more."""
+        if not self._are_needed:
+            raise futures.CancelledError
         _count(self._counter)
-        self._show()
 
 
 def _judged(asked: protocol.Question, played: Sequence[episodes.Episode], count: Callable[[], None]) -> Judged:

@@ -56,6 +56,8 @@ def read(results: Path) -> list[Row]:
     """
     questions = protocol.observing("features")
     rows = [_row(folder, questions) for folder in sorted((results / FOLDER).iterdir()) if folder.is_dir()]
+    if not rows:
+        raise FileNotFoundError(f"{results / FOLDER} has no scores; `physexp score` one into a folder there")
     return sorted(rows, key=lambda row: (-row.whole["score"], row.name))
 
 

@@ -90,7 +90,8 @@ def score(
             if parts:
                 judges.wait([part.judged for part in parts])
                 ended = {"complete": not problem, "problem": problem}
-                written = _write(folder, parts, begun, {**facts, **ended})
+                said = {part.asked.name: judges.judged(part.asked, part.played, part.judged) for part in parts}
+                written = _write(folder, parts, said, begun, {**facts, **ended})
             else:
                 with contextlib.suppress(OSError):  # Somebody else has put something there.
                     folder.rmdir()
@@ -102,6 +103,7 @@ class _Part:
     """What was played of a task, a dictionary of columns for each episode, and what is going to be said of it."""
 
     asked: protocol.Question
+    played: list[episodes.Episode]
     rows: list[dict[str, Any]]
     judged: "futures.Future[judging.Judged]"
 
@@ -124,12 +126,13 @@ def _play(
             show()
     finally:
         if played:
-            parts.append(_Part(asked, rows[: len(played)], judges.begin(asked, played)))
+            parts.append(_Part(asked, played, rows[: len(played)], judges.begin(asked, played)))
 
 
-def _write(folder: Path, parts: Sequence[_Part], begun: float, facts: dict[str, Any]) -> dict[str, Any]:
+def _write(
+    folder: Path, parts: Sequence[_Part], said: Mapping[str, judging.Judged], begun: float, facts: dict[str, Any]
+) -> dict[str, Any]:
     """Writes the log, first, and its figures beside facts; returns the latter two."""
-    said = {part.asked.name: part.judged.result() for part in parts}
     rows = [
         {**row, **log.said(part.asked, row["action"], judged)}
         for part in parts

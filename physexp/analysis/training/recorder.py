@@ -1,8 +1,9 @@
 """Recording: writes the metrics, episodes and checkpoints of a run as it trains."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 import functools
 import io
+import math
 import time
 
 import numpy as np
@@ -192,16 +193,19 @@ class Recorder:
             "episode_return": float(episodes.returns(self._config.agent.discount).mean()),
             "interactions": float(episodes.interactions.mean()),
             "timeouts": float(episodes.is_timeout.mean()),
-            **{
-                name: float(np.mean([update.metrics[name] for update in self._window]))
-                for name in self._config.agent.metrics
-            },
+            **{name: _mean([update.metrics[name] for update in self._window]) for name in self._config.agent.metrics},
         }
 
     def _episodes_of(self, update: core.Update) -> episodes_lib.Episodes:
         played = update.episodes
         seeds = _environment_seeds(update.seed, len(played.lengths))
         return episodes_lib.Episodes.of_round(played, self._num_interactions, seeds, update.episode)
+
+
+def _mean(values: Sequence[float]) -> float:
+    """Returns the mean of those that are numbers: an update without a step of Adam has no losses."""
+    numbers = [value for value in values if not math.isnan(value)]
+    return float(np.mean(numbers)) if numbers else math.nan
 
 
 @functools.lru_cache(maxsize=256)  # A worker's batch of environments has one seed for all of its updates.

@@ -32,8 +32,7 @@ class Weights:
             except ValueError as error:
                 raise ValueError(f"the network {error}; put back the run's own, or remove it") from None
 
-        most = 4 * checkpointing.num_bytes(like.values())  # Adam keeps two statistics of each.
-        return self._network(self.checkpointer.latest(accept=accept, most=most))
+        return self._network(self.checkpointer.latest(accept=accept))
 
     def keep_network(self) -> None:
         """Writes the network of the last checkpoint, in half precision, unless that has been done; see `Run`."""

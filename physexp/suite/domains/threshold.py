@@ -55,10 +55,15 @@ class Options(options_lib.Options):
     def __post_init__(self):
         super().__post_init__()
         self.check_step(_SHORTEST_STEP, "a block gets from one stop to the other")
+        meanwhile = "a block that is held creeps too little to be read"
         if self.time_limit > _LONGEST_EPISODE:
             raise ValueError(
-                f"time_limit is {self.time_limit} s; give at most {_LONGEST_EPISODE:g} s, in which a block that is "
-                "held creeps too little to be read"
+                f"time_limit is {self.time_limit} s; give at most {_LONGEST_EPISODE:g} s, in which {meanwhile}"
+            )
+        if self.longest_episode > _LONGEST_EPISODE + 1e-9:
+            raise ValueError(
+                f"time_limit is {self.time_limit} s, with which episodes last up to {self.longest_episode:g} s; give "
+                f"less: at most {_LONGEST_EPISODE:g} s, in which {meanwhile}"
             )
         object.__setattr__(
             self, "difficulty", checks.number("difficulty", self.difficulty, 1, "the skew of the prior over levels")

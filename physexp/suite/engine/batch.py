@@ -25,6 +25,7 @@ class Moment:
     Attributes:
       environments: which they are, int64 [N].
       episodes: indices of the episodes, int64 [N].
+      hidden: their hidden properties, [N, ...].
       steps: control steps taken, int64 [N].
       touched: whether each held entity has moved, bool [N, number of held entities].
       observed: what was observed last, arrays [N, ...].
@@ -34,6 +35,7 @@ class Moment:
 
     environments: np.ndarray
     episodes: np.ndarray
+    hidden: np.ndarray
     steps: np.ndarray
     touched: np.ndarray
     observed: dict[str, np.ndarray]
@@ -54,6 +56,7 @@ class Moment:
         return Moment(
             environments=tiled(self.environments) + shifts,
             episodes=tiled(self.episodes),
+            hidden=tiled(self.hidden),
             steps=tiled(self.steps),
             touched=tiled(self.touched),
             observed={name: tiled(values) for name, values in self.observed.items()},
@@ -236,6 +239,7 @@ class BatchEnvironment:
             return Moment(
                 environments=chosen.copy(),
                 episodes=self.episodes[chosen],
+                hidden=self.hidden[chosen],
                 steps=self._ledger.steps[chosen],
                 touched=self._ledger.touched[chosen],
                 observed={name: values[chosen] for name, values in self._observations.items()},
@@ -252,7 +256,8 @@ class BatchEnvironment:
         """
         with self._guard:
             chosen = self._choose(moment.environments)
-            if not np.array_equal(self.episodes[chosen], moment.episodes):
+            are_same = np.array_equal(self.episodes[chosen], moment.episodes)
+            if not are_same or not np.array_equal(self._ledger.hidden[chosen], moment.hidden):
                 raise ValueError("environments have begun other episodes since this was saved; restore before that")
             ledger = self._ledger
             ledger.steps[chosen], ledger.touched[chosen], ledger.over[chosen] = moment.steps, moment.touched, False
@@ -265,10 +270,16 @@ class BatchEnvironment:
         """Returns a field of `MjData` in one environment, as it is after a step; it may be written to.
 
         It is for analysis: an episode that was written to cannot be rebuilt from its seed and actions.
+
+        Raises:
+          ValueError: for an index out of range.
+          RuntimeError: if the batch is closed, or another thread is using it.
         """
         with self._guard:
-            structure = int(self._ledger.structures[environment])
-            return self._grouped([structure])[0].view(field)[environment]
+            last = self.num_environments - 1
+            (chosen,) = self._choose([checks.integer("environment", environment, 0, last)])
+            structure = int(self._ledger.structures[chosen])
+            return self._grouped([structure])[0].view(field)[chosen]
 
     def render(self, size: int = rendering.SIZE_FOR_PEOPLE) -> np.ndarray:
         """Returns images for people of all environments, uint8 [B, size, size, 3].

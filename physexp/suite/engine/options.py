@@ -115,6 +115,11 @@ class Options:
         return fewest + np.floor(seeding.timings(seeds, episodes) * (most - fewest + 1)).astype(np.int64)
 
     @property
+    def longest_episode(self) -> float:
+        """How long an unanswered episode lasts where control steps are longest, s."""
+        return self.step_limit * self._substeps_range[1] * self.physics_timestep
+
+    @property
     def step_limit(self) -> int:
         """Control steps in an unanswered episode."""
         return max(1, math.ceil(self.time_limit / self.control_timestep - 1e-6))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy import stats
 import torch
+import trainers
 from trainers import fresh_seed
 
 from physexp import suite
@@ -15,6 +16,7 @@ from physexp.agents import pretrained
 from physexp.analysis.data import episodes, estimates
 from physexp.analysis.evaluation import playing
 from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer
 
 
 def test_the_summary_of_four_episodes_is_the_one_computed_by_hand():
@@ -204,6 +206,15 @@ def test_whole_rounds_are_played_until_there_are_enough_steps(untrained):
     assert played.length.sum() >= 5000
     assert len(played) % 256 == 0  # Nothing is cut off, which would leave out long episodes.
     assert played.length[:-256].sum() < 5000
+
+
+@pytest.mark.parametrize("changes", [{"num_members": 16, "units": 4}, {"memory": "lstm"}, {"most_interactions": 39}])
+def test_a_belief_learner_of_any_size_is_found_in_its_checkpoint(changes, tmp_path):
+    """It keeps four networks there, with Adam's statistics, and what was done in the episodes of its replay."""
+    run = trainers.create(tmp_path / "run", "belief", frames=100, replay_episodes=100_000, **changes)
+    trainer.train(run)
+    network = playing.load_network(run)
+    assert len(playing.play(network, run.config, 20)) == 20
 
 
 def test_a_run_that_keeps_its_agent_only_plays_as_before_to_half_precision(untrained):

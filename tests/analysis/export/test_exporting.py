@@ -213,6 +213,26 @@ def test_ctrl_c_keeps_what_was_played(here):
     assert len(list(log.split(columns_of(*THRESHOLD, folder="kept")))) == 2
 
 
+@pytest.mark.parametrize("is_lasting", [True, False])
+def test_what_is_counted_is_what_was_written(is_lasting, monkeypatch):
+    """A disk that is full when the second part is written, for good or for a moment."""
+    monkeypatch.setattr(exporting, "_ROWS", 8)  # Episodes of four steps: two make a part.
+    write, fails = tables.write, [False, True, is_lasting]
+
+    def write_or_fail(*args, **kwargs):
+        if fails and fails.pop(0):
+            raise OSError("no space left")
+        write(*args, **kwargs)
+
+    monkeypatch.setattr(tables, "write", write_or_fail)
+    with pytest.raises(OSError, match="no space left"):
+        export("halving:policy", count=9)
+    written = json.loads(Path("exported/export.json").read_text())
+    facts, columns = written["tasks"]["threshold/features"], columns_of(*THRESHOLD)
+    assert not written["complete"] and facts["steps"] == len(columns["step"])
+    assert facts["episodes"] == len(list(log.split(columns))) == (2 if is_lasting else 4)
+
+
 def test_the_command_exports(here):
     words = ["export", "halving:policy", "--tasks", "threshold/features", "--episodes", "3", "--minari"]
     done = commands.run(*words, cwd=here)

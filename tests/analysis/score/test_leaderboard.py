@@ -96,6 +96,9 @@ def test_a_score_that_was_ended_early_is_no_row(results, tmp_path, monkeypatch):
 def test_without_scores_there_is_no_leaderboard(tmp_path):
     done = commands.run("leaderboard", "--results-dir", tmp_path)
     assert done.returncode == 2 and str(tmp_path / "scores") in done.stderr
+    (tmp_path / "scores").mkdir()
+    done = commands.run("leaderboard", "--results-dir", tmp_path)
+    assert done.returncode == 2 and done.stderr.startswith(f"physexp: {tmp_path / 'scores'} has no scores")
 
 
 def test_the_pages_of_this_project_say_what_its_folders_give():

@@ -7,6 +7,7 @@ from pathlib import Path
 import re
 import signal
 import sys
+import threading
 
 import commands
 import made_agents
@@ -280,16 +281,61 @@ def test_ctrl_c_keeps_what_was_played(here):
 
 
 def test_judges_that_nobody_waits_for_are_ended():
-    (asked,) = protocol.named(["sealed_box/features"])
-    hidden, ways = protocol.drawn(asked, 100), np.random.default_rng(0).integers(asked.num_interactions, size=(100, 20))
-    # A hundred wanderers take half a minute to judge.
-    played = [episodes.Episode(one, way, np.zeros(20), []) for one, way in zip(hidden, ways, strict=True)]
+    asked, played = wanderers(100)
     with pytest.raises(KeyboardInterrupt), judging.Judges(num_tasks=2) as judges:
         judged = judges.begin(asked, played)
         waiting.wait_until(judged.running, "a judge")
         raise KeyboardInterrupt
     assert isinstance(judged.exception(), futures.BrokenExecutor)
     assert not multiprocessing.active_children()
+
+
+def wanderers(count):
+    """Sealed Box, and episodes of it in which somebody wanders about: a hundred take half a minute to judge."""
+    (asked,) = protocol.named(["sealed_box/features"])
+    ways = np.random.default_rng(0).integers(asked.num_interactions, size=(count, 20))
+    hidden = protocol.drawn(asked, count)
+    return asked, [episodes.Episode(one, way, np.zeros(20), []) for one, way in zip(hidden, ways, strict=True)]
+
+
+def test_a_judge_of_one_task_that_nobody_waits_for_ends_after_an_episode():
+    asked, played = wanderers(100)
+    with pytest.raises(KeyboardInterrupt), judging.Judges(num_tasks=1) as judges:
+        judged = judges.begin(asked, played)
+        waiting.wait_until(lambda: judges.count, "a judgement")
+        raise KeyboardInterrupt
+    assert isinstance(judged.exception(), futures.CancelledError) and judges.count < 100
+    assert threading.active_count() == 1
+
+
+def test_ctrl_c_while_one_task_is_judged_keeps_what_was_played():
+    interrupted = []
+
+    def show(done):  # What was played counts half: beyond that, it is being judged.
+        if done > 30 and not interrupted:
+            interrupted.append(done)
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        score("random", protocol.named(["sealed_box/features"]), count=60, folder="kept", show=show)
+    kept = scoring.read(Path("kept"))
+    assert interrupted and kept["tasks"]["sealed_box/features"]["episodes"] == 60
+    assert verifying.verify(Path("kept"))["episodes"] == 60
+
+
+def test_what_a_killed_judge_was_to_judge_is_judged_again():
+    asked, played = wanderers(10)
+    with judging.Judges(num_tasks=2) as judges:
+        begun = judges.begin(asked, played)
+        waiting.wait_until(begun.running, "a judge")
+        for worker in multiprocessing.active_children():
+            worker.kill()
+        judges.wait([begun])
+        assert isinstance(begun.exception(), futures.BrokenExecutor)
+        judged = judges.judged(asked, played, begun)
+    with judging.Judges(num_tasks=1) as judges:
+        expected = judges.begin(asked, played).result()
+    assert [repr(one) for one in judged.actions] == [repr(one) for one in expected.actions]
 
 
 def test_an_episode_is_done_once_it_is_judged():

@@ -124,6 +124,7 @@ def test_ctrl_c_before_anything_was_learned_leaves_no_folder(starting, tmp_path)
     [
         (["--frames", 9000], "frames is 9000, and in {} it is 2000; leave it out"),
         (["--agent", "belief"], "agent is belief, and in {} it is ppo; leave it out"),
+        (["--replay-every", 9000], "replay_every is 9000, and in {} it is 0; leave it out"),
         (["--difficulty", 3], "difficulty is 3, and in {} it is 10; leave it out"),
         (["--variation", 0.5], "variation is 0.5, and in {} it is not chosen; leave it out"),
     ],
