@@ -82,6 +82,9 @@ def load(
       ValueError: where there is no such agent, and it lists those that there are; or if its files are damaged.
     """
     folder = Path(folder)
+    for what, value in (("domain", domain), ("task", task), ("agent", agent)):
+        if not isinstance(value, str) and (what, value) != ("agent", None):
+            raise ValueError(f"{what} is {value!r}; give a name")
     if agent is not None:
         return _load_of(agent, domain, task, values, folder, options)
     base = name(domain, task, {})

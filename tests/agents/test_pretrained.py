@@ -108,6 +108,20 @@ def test_an_agent_that_is_not_there_is_refused_with_a_list_of_those_that_are():
         agents.load_pretrained("towers", "fist_features", 3)
 
 
+@pytest.mark.parametrize(
+    ("names", "what"),
+    [
+        ((None, "features"), "domain is None"),
+        (("towers", 3), "task is 3"),
+        (("towers", "fist_pixels", 3), "agent is 3"),
+    ],
+)
+def test_what_is_no_name_is_refused(names, what):
+    domain, task, *agent = names
+    with pytest.raises(ValueError, match=f"{what}; give a name"):
+        pretrained.load(domain, task, **({"agent": agent[0]} if agent else {}))
+
+
 def test_an_option_that_is_given_twice_is_refused():
     with pytest.raises(ValueError, match="difficulty is given twice, 3 and 10; give it once"):
         pretrained.load("which_is_heavier", "features", 3, difficulty=10)

@@ -144,8 +144,8 @@ def maker(target: str, greedy: bool = False) -> MakeActor:
 
 
 def file_name(target: str) -> str:
-    """Returns the name that files of a target have: letters, digits and underscores."""
-    return re.sub(r"\W+", "_", target).strip("_")
+    """Returns the name that files of a target have: letters, digits and underscores, of a folder at least its own."""
+    return re.sub(r"\W+", "_", target).strip("_") or file_name(Path(target).resolve().name)
 
 
 def facts(target: str, tasks: Collection[str] | None = None) -> dict[str, Any]:
