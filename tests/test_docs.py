@@ -17,7 +17,7 @@ DOCS = Path(__file__).parent.parent / "docs"
 sys.path.insert(0, str(DOCS / "examples"))
 
 import bolted  # noqa: E402
-import patience  # noqa: E402
+import haste  # noqa: E402
 import poke_all  # noqa: E402
 import train_bolted  # noqa: E402
 
@@ -128,9 +128,7 @@ def test_an_agent_of_ours_learns_the_example_task():
 def test_the_example_experiment_runs_from_nothing_to_a_verdict(tmp_path):
     lines = []
     results = base.Results(tmp_path)
-    reproduce.run(
-        [patience.EXPERIMENT], results, observations=("features",), num_seeds=2, frames=5_000, tell=lines.append
-    )
-    assert (tmp_path / "figures" / "patience.svg").exists()
+    reproduce.run([haste.EXPERIMENT], results, observations=("features",), num_seeds=2, frames=5_000, tell=lines.append)
+    assert (tmp_path / "figures" / "haste.svg").exists()
     (verdict,) = [line for line in lines if "An agent that is in a hurry" in line]
     assert verdict.split()[0] in ("holds", "fails", "undecided")

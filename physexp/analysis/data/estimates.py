@@ -117,11 +117,14 @@ def proportion(outcomes: Sequence[bool] | np.ndarray) -> Estimate:
 
 
 def mean(values: Sequence[float] | np.ndarray) -> Estimate:
-    """Returns the mean of independent values, [N], with Student's interval; infinite for less than two values."""
+    """Returns the mean of independent values, [N], with Student's interval.
+
+    It is infinite for less than two values, and where one is not known, NaN.
+    """
     from scipy import stats
 
     average = float(np.mean(values)) if len(values) else math.nan
-    if len(values) < 2:
+    if len(values) < 2 or math.isnan(average):
         return Estimate(average, -math.inf, math.inf)
     error = float(np.std(values, ddof=1)) / math.sqrt(len(values))
     return _around(average, error, stats.t(len(values) - 1)) if error else _exact(average)
@@ -275,15 +278,15 @@ def bootstrap(
 
 
 def correlation(x: np.ndarray, y: np.ndarray) -> Estimate:
-    """Returns Pearson's correlation of pairs, x and y [N >= 4], with an interval on Fisher's scale.
+    """Returns Pearson's correlation of pairs, x and y [N], with an interval on Fisher's scale.
 
     Its standard error is Fisher's, which is that of normal pairs, or the one that follows from how much each pair
     weighs (the influence function), whichever is larger. The interval is that of all correlations where all x or all y
-    are the same.
+    are the same, and for fewer than four pairs.
     """
     from scipy import stats
 
-    if not np.ptp(x) or not np.ptp(y):
+    if len(x) < 4 or not np.ptp(x) or not np.ptp(y):
         return Estimate(math.nan, -1.0, 1.0)
     value = float(stats.pearsonr(x, y).statistic)
     if abs(value) > 1 - 1e-12:

@@ -16,12 +16,19 @@ _DIGITS = 40  # Of a commit.
 def commit() -> str:
     """Returns the commit of the source that is running, with `+` where files differ from it.
 
-    `unknown` outside a checkout, and where git does not answer.
+    `unknown` outside a checkout, also where the package is installed within that of another project, and where git does
+    not answer.
     """
     if shutil.which("git") is None:
         return "unknown"
-    git = ["git", "-C", str(Path(physexp.__file__).parent)]
+    source = Path(physexp.__file__)
+    git = ["git", "-C", str(source.parent)]
     try:
+        ours = subprocess.run(
+            [*git, "ls-files", "--error-unmatch", source.name], capture_output=True, timeout=_GIT_SECONDS
+        )
+        if ours.returncode:
+            return "unknown"
         found = subprocess.run([*git, "rev-parse", "HEAD"], capture_output=True, text=True, timeout=_GIT_SECONDS)
         if found.returncode:
             return "unknown"

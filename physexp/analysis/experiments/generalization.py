@@ -73,8 +73,7 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
                         "return": float((rewards * task.agent.discount ** (lengths - 1)).mean()),
                     }
                 )
-        if len(rows) > len(done):
-            base.keep_made(path, rows)
+                base.keep_made(path, rows)
 
 
 def _path(results: base.Results, task: str):

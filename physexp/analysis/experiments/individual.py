@@ -1,5 +1,6 @@
 """Individual strategy differentiation (paper, Section 5.3; right of Figure 3): hard instances take longer."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -30,10 +31,10 @@ def find_claims(frame) -> list[claims.Claim]:
         gaps = [agent.mass_gap.to_numpy(float) for agent in agents]
         pokes, blocks_seen = ([agent[name].to_numpy(float) for agent in agents] for name in ("interactions", "blocks"))
         correlations = list(map(estimates.correlation, gaps, pokes))
-        shares = [
-            estimates.slope(gap, seen).value / estimates.slope(gap, poked).value
-            for gap, seen, poked in zip(gaps, blocks_seen, pokes, strict=True)
+        slopes = [
+            [estimates.slope(*pair).value for pair in zip(gaps, each, strict=True)] for each in (blocks_seen, pokes)
         ]
+        shares = [seen / poked if poked else math.nan for seen, poked in zip(*slopes, strict=True)]
         common: dict[str, Any] = dict(
             text="The smaller the mass gap, the longer an agent experiments",
             section="5.3",

@@ -92,8 +92,8 @@ def find_claims(frame) -> list[claims.Claim]:
                 "is a multiple, less that at the others, mean of agents; found in these data",
                 estimate=estimates.mean(_on_time(agents[agents.condition == condition])),
                 above=0.03,
-                reason="It is so from pixels. From features, the finer time is, the earlier agents answer, and nearly "
-                "all of their wrong answers count too many bodies.",
+                reason="It is so from pixels. From features, the finer time is, the earlier agents answer, and nine "
+                "in ten of their wrong answers count too many bodies.",
             )
         )
     return found

@@ -171,7 +171,7 @@ class Search:
           passed: where it has been, and whether that is to be looked beyond; written to.
         """
         low, high = self._bounds(situation, group, left)
-        if high - low < PRECISION or (situation, group, left) in passed:
+        if left == 1 or high - low < PRECISION or (situation, group, left) in passed:
             return
         is_expanded = self.situations.is_expanded(situation)
         passed[situation, group, left] = not is_expanded and left > least_left

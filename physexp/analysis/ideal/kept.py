@@ -97,6 +97,11 @@ class _Place:
         """The states of the simulations, a `batch.Moment`."""
         return self._simulate()
 
+    @property
+    def coordinates(self) -> Any:
+        """Where things are then, as `batch.Moment` has it."""
+        return self.moment.coordinates
+
 
 def _reached(path: bytes, moment: Any) -> _Place:
     """Returns a place whose moment has been simulated."""

@@ -70,7 +70,8 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
     if not results.path.is_dir():
         raise ValueError(f"{results.path} is no folder; `physexp reproduce` makes one with results")
     shown: list[_Shown] = []
-    found, missing = [], []
+    tested: list[_Tested] = []
+    missing = []
     for experiment in EXPERIMENTS.values():
         try:
             frame = experiment.load(results)
@@ -81,10 +82,10 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
         figures.save(experiment.figure(frame), results.path / "figures", experiment.name)
         table = experiment.table(frame) if experiment.table else []
         shown.append(_Shown(experiment, table, _missing(experiment, results)))
-        found += [(claim, experiment) for claim in experiment.claims(frame)]
+        found = experiment.claims(frame)
+        verdicts = claims_lib.corrected(found)
+        tested += [_Tested(claim, verdict, experiment) for claim, verdict in zip(found, verdicts, strict=True)]
         tell(f"drew {experiment.name}")
-    verdicts = claims_lib.corrected([claim for claim, _ in found])
-    tested = [_Tested(claim, verdict, experiment) for (claim, experiment), verdict in zip(found, verdicts, strict=True)]
     markdown = results.path / "report.md"
     files.write_atomically(markdown, _markdown(shown, tested, missing, results).encode())
     files.write_atomically(results.path / "report.html", _page(shown, tested, missing, results).encode())
@@ -103,10 +104,13 @@ def _missing(experiment: base.Experiment, results: base.Results) -> str:
 
 
 def _provenance(results: base.Results) -> list[str]:
-    """Which commits made the agents and how many there are."""
+    """Which commits made the agents and how many there are; those that are still in training are left out."""
     counts: dict[str, int] = {}
-    for folder in sorted((results.path / "runs").glob("*")):
-        commit = provenance.shortened(run_lib.Run(folder).facts.get("commit", "unknown"))
+    for folder in sorted(path.parent for path in (results.path / "runs").glob("*/config.json")):
+        run = run_lib.Run(folder)
+        if not run.is_finished:
+            continue
+        commit = provenance.shortened(run.facts.get("commit", "unknown"))
         counts[commit] = counts.get(commit, 0) + 1
     made = ", ".join(f"{number} by {commit}" for commit, number in counts.items())
     return [

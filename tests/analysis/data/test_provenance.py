@@ -1,8 +1,36 @@
-"""Commits are told in few digits."""
+"""The commit of the source that runs is named, and told in few digits."""
+
+from pathlib import Path
+import subprocess
 
 import pytest
 
 from physexp.analysis.data import provenance
+
+
+def git(folder: Path, *words: str) -> str:
+    identity = ["-c", "user.name=somebody", "-c", "user.email=somebody@example.org"]
+    return subprocess.run(
+        ["git", "-C", str(folder), *identity, *words], check=True, capture_output=True, text=True
+    ).stdout.strip()
+
+
+def test_a_commit_is_of_a_checkout_of_this_source_and_not_of_a_project_that_it_is_installed_in(tmp_path, monkeypatch):
+    source = tmp_path / "venv" / "physexp" / "__init__.py"
+    source.parent.mkdir(parents=True)
+    source.touch()
+    (tmp_path / "theirs").touch()
+    git(tmp_path, "init", "-q")
+    git(tmp_path, "add", "theirs")
+    git(tmp_path, "commit", "-qm", "theirs")
+    monkeypatch.setattr(provenance.physexp, "__file__", str(source))
+    assert provenance.commit() == "unknown"
+    git(tmp_path, "add", "venv")
+    git(tmp_path, "commit", "-qm", "ours")
+    head = git(tmp_path, "rev-parse", "HEAD")
+    assert provenance.commit() == head
+    source.write_text("changed")
+    assert provenance.commit() == f"{head}+"
 
 
 @pytest.mark.parametrize(

@@ -303,9 +303,17 @@ def test_a_ratio_of_pairs_with_a_zero_or_of_one_pair_has_an_infinite_interval():
         assert (estimate.low, estimate.high) == (0.0, math.inf)
 
 
-def test_the_mean_of_nothing_says_nothing():
-    estimate = estimates.mean([])
+@pytest.mark.parametrize("values", [[], [1.0, math.nan, 2.0]])
+def test_the_mean_of_nothing_or_of_what_is_not_known_says_nothing(values):
+    estimate = estimates.mean(values)
     assert math.isnan(estimate.value) and (estimate.low, estimate.high) == (-math.inf, math.inf)
+    assert not estimate.can_be_tested
+
+
+def test_the_correlation_of_three_pairs_may_be_any():
+    for count in range(4):
+        estimate = estimates.correlation(np.arange(count), np.array([0.0, 2.0, 1.0])[:count])
+        assert math.isnan(estimate.value) and (estimate.low, estimate.high) == (-1.0, 1.0)
 
 
 def test_the_p_value_of_an_end_of_an_interval_is_what_the_interval_leaves_out_there():

@@ -10,6 +10,7 @@ import commands
 import numpy as np
 from pyarrow import parquet
 import pytest
+import trainers
 from trainers import group
 from waiting import wait_until
 
@@ -163,9 +164,18 @@ def test_episodes_of_a_run_that_is_gone_are_not_taken_for_those_of_the_next(rehe
 
 @pytest.fixture(scope="module")
 def reported(rehearsed):
-    """The report of it, as Markdown and as a page."""
+    """The report of it, as Markdown and as a page, made while another agent begins to train, and one trains."""
     results, _ = rehearsed
-    return report.write(results).read_text(), (results.path / "report.html").read_text()
+    beginning, training = results.path / "runs" / "beginning", results.path / "runs" / "training"
+    beginning.mkdir()
+    (beginning / ".lock").touch()
+    shutil.copytree(results.path / "runs" / NAMES[0], training)
+    trainers.set_frames(run_lib.Run(training), 10**9)
+    try:
+        return report.write(results).read_text(), (results.path / "report.html").read_text()
+    finally:
+        shutil.rmtree(beginning)
+        shutil.rmtree(training)
 
 
 def test_the_report_has_every_figure_there_is_data_for_and_says_what_is_left_out(rehearsed, reported):
@@ -182,6 +192,7 @@ def test_the_report_has_every_figure_there_is_data_for_and_says_what_is_left_out
     for text in (markdown, page):  # One agent of each condition was trained.
         assert f"{condition} ({', '.join(absent)})" in text and f"{condition} ({seed}" not in text
     assert provenance.commit()[:10] in markdown
+    assert f"Agents: {len(NAMES)}, trained by" in markdown  # Who is still in training is none.
 
 
 def test_the_report_begins_with_the_claims_of_the_paper_failures_first_and_sanity_checks_last(reported):

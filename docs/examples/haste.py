@@ -1,4 +1,4 @@
-"""Does an agent that is in a hurry experiment less? Agents with a gamma of 0.9 against agents with 0.99."""
+"""Does an agent that is in a hurry experiment less? Agents with a gamma of 0.9 against agents with 0.98."""
 
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
@@ -6,7 +6,7 @@ from physexp.analysis.experiments import base, claims, conditions
 
 HASTY, PATIENT = (
     conditions.heavier(difficulty=5.0, observations="features", frames=2_000_000, discount=discount)
-    for discount in (0.9, 0.99)
+    for discount in (0.9, 0.98)
 )
 
 
@@ -28,7 +28,7 @@ def find_claims(frame):
             text="An agent that is in a hurry experiments less",
             section="ours",
             condition="5-F",
-            statistic="mean pokes at gamma 0.9 over those at 0.99, ratio of geometric means over agents",
+            statistic="mean pokes at gamma 0.9 over those at 0.98, ratio of geometric means over agents",
             estimate=estimates.ratio_of_means(mean_pokes(frame, HASTY), mean_pokes(frame, PATIENT)),
             below=1,
         )
@@ -41,13 +41,13 @@ def draw(frame):
     for number, config in enumerate((HASTY, PATIENT)):
         pokes = mean_pokes(frame, config)
         axes.plot([number] * len(pokes), pokes, figures.MARKERS[number], color=figures.COLORS[number])
-    axes.set_xticks([0, 1], ["0.9", "0.99"])
+    axes.set_xticks([0, 1], ["0.9", "0.98"])
     axes.set(xlabel="the agent's gamma", ylabel="pokes in an episode", xlim=(-0.5, 1.5), ylim=(0, None))
     return figure
 
 
 EXPERIMENT = base.Experiment(
-    name="patience",
+    name="haste",
     title="Haste and patience",
     section="ours",
     caption="Mean pokes of each agent.",
