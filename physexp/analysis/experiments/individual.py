@@ -31,10 +31,11 @@ def find_claims(frame) -> list[claims.Claim]:
         gaps = [agent.mass_gap.to_numpy(float) for agent in agents]
         pokes, blocks_seen = ([agent[name].to_numpy(float) for agent in agents] for name in ("interactions", "blocks"))
         correlations = list(map(estimates.correlation, gaps, pokes))
-        slopes = [
-            [estimates.slope(*pair).value for pair in zip(gaps, each, strict=True)] for each in (blocks_seen, pokes)
-        ]
-        shares = [seen / poked if poked else math.nan for seen, poked in zip(*slopes, strict=True)]
+        of_blocks, of_pokes = (
+            [estimates.slope(gap, one).value for gap, one in zip(gaps, each, strict=True)]
+            for each in (blocks_seen, pokes)
+        )
+        shares = [seen / poked if poked else math.nan for seen, poked in zip(of_blocks, of_pokes, strict=True)]
         common: dict[str, Any] = dict(
             text="The smaller the mass gap, the longer an agent experiments",
             section="5.3",

@@ -1,8 +1,8 @@
 """What random interactions earn among finitely many hypotheses, with good answers at a good moment.
 
 Somebody who draws interactions does not know which come next. From below: who answers as soon as the likeliest label
-has some probability, one for all episodes that was best in others. From above: who is told the interactions that will be
-drawn. Both are means over drawn sequences of interactions, which leave a standard error of less than 0.01.
+has some probability, one for all episodes that was best in others. From above: who is told the interactions that will
+be drawn. Both are means over drawn sequences of interactions, which leave a standard error of less than 0.01.
 """
 
 from collections.abc import Iterator
