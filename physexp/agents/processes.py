@@ -1,9 +1,10 @@
-"""Child processes: what they inherit, and that none outlives its parent."""
+"""Processes: how many can work side by side, what children inherit, and that none outlives its parent."""
 
 import contextlib
 import multiprocessing
 from multiprocessing import resource_tracker
 import os
+from pathlib import Path
 import signal
 import threading
 
@@ -11,6 +12,17 @@ STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 """Requests to end, from Ctrl-C, from schedulers and containers, and from a terminal that is gone."""
 
 _DEATH_SECONDS = 5.0  # For the system to take away what was killed.
+_QUOTA = Path("/sys/fs/cgroup/cpu.max")  # Of a container: processor time in each period, and the period, us.
+
+
+def num_cores() -> int:
+    """Returns how many cores this process may use: those that it may run on, or fewer by a container's quota."""
+    cores = len(os.sched_getaffinity(0))
+    if _QUOTA.exists():
+        quota, period = _QUOTA.read_text().split()
+        if quota != "max":
+            cores = min(cores, max(1, int(quota) // int(period)))
+    return cores
 
 
 @contextlib.contextmanager

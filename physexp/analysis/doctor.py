@@ -11,6 +11,7 @@ import shutil
 from packaging import requirements
 
 from physexp import extras
+from physexp.agents import processes
 
 OK, MISSING, BROKEN = "ok", "missing", "broken"
 """Verdicts, which mean fine; some commands or some speed need it; the environments themselves do not work."""
@@ -43,7 +44,7 @@ def _facts() -> dict:
 
     return {
         **provenance.versions(),
-        "processors": len(os.sched_getaffinity(0)),
+        "processors": processes.num_cores(),
         "torch_threads": torch.get_num_threads(),
         "omp_num_threads": os.environ.get("OMP_NUM_THREADS", "not set"),
         "gpu": torch.cuda.get_device_name() if torch.cuda.is_available() else "none",

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 import sys
 
+from physexp.agents import processes
 from physexp.analysis.bench import measuring
 from physexp.analysis.evaluation import records
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions, ideal_gap
@@ -18,7 +19,7 @@ def figures(results_dir: Path) -> Iterator[dict]:
     """Trains the agents that are missing, reads what all of them reached, and takes the time of the rest."""
     results = base.Results(results_dir)
     features = sweep.jobs(list(EXPERIMENTS.values()), ["features"], conditions.SEEDS.__getitem__)
-    sweep.run(features, results, sweep.num_cores(), lambda line: print(line, file=sys.stderr, flush=True))
+    sweep.run(features, results, processes.num_cores(), lambda line: print(line, file=sys.stderr, flush=True))
     for condition in (*conditions.HEAVIER, *conditions.TOWERS):
         if conditions.observations(condition) == "features":
             yield from _reached(results, condition)

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from concurrent import futures
 
+from physexp.agents import processes
 from physexp.analysis import callbacks
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import EXPERIMENTS, base, claims, conditions
@@ -55,7 +56,7 @@ def run(
         if value is not None and not 1 <= value <= most:
             raise ValueError(f"{name} is {value}; give an integer >= 1 and <= {most}")
     jobs = sweep.jobs(experiments, observations, lambda kind: num_seeds or conditions.SEEDS[kind], frames)
-    sweep.run(jobs, results, num_processes or sweep.num_cores(), tell, submit)
+    sweep.run(jobs, results, num_processes or processes.num_cores(), tell, submit)
     for experiment in experiments:
         if experiment.prepare is not None:
             experiment.prepare(results, tell)

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Mapping, Sequence
 from concurrent import futures
 import dataclasses
-import os
 from pathlib import Path
 import tempfile
 import time
@@ -55,11 +54,6 @@ def jobs(
                 trials = played.setdefault(dataclasses.replace(condition, agent=agent), [])
                 trials += [trial for trial in experiment.trials if trial not in trials]
     return [Job(config, tuple(played[config])) for config in sorted(played, key=lambda config: config.agent.seed)]
-
-
-def num_cores() -> int:
-    """Returns how many agents to train at a time: each has one busy process."""
-    return len(os.sched_getaffinity(0))
 
 
 def run(

@@ -9,7 +9,6 @@ from concurrent import futures
 import dataclasses
 import functools
 import multiprocessing
-import os
 from typing import Any
 
 import numpy as np
@@ -84,9 +83,8 @@ class Judges:
         self._counter = context.Value("q", 0)
         self._pool: futures.Executor = futures.ThreadPoolExecutor(1)
         if num_tasks > 1:
-            cores = len(os.sched_getaffinity(0))
             self._pool = futures.ProcessPoolExecutor(
-                min(cores, num_tasks), context, initializer=_begin, initargs=(self._counter,)
+                min(processes.num_cores(), num_tasks), context, initializer=_begin, initargs=(self._counter,)
             )
 
     def __enter__(self):

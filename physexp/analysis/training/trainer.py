@@ -2,11 +2,10 @@
 
 import contextlib
 import functools
-import os
 import shutil
 
 from physexp import suite
-from physexp.agents import core, devices, registry
+from physexp.agents import core, devices, processes, registry
 from physexp.analysis import callbacks
 from physexp.analysis.data import provenance
 from physexp.analysis.training import config as config_lib
@@ -45,7 +44,7 @@ def check(config: config_lib.TrainConfig, on_cluster: bool = False) -> None:
         raise ValueError(
             f"agent is {config.agent.algorithm}, which has one process; on a cluster train {' or '.join(able)}"
         )
-    cores = os.cpu_count() or 1
+    cores = processes.num_cores()
     most = _WORKERS_PER_CORE * cores
     if not on_cluster and config.agent.num_workers > most:
         raise ValueError(
