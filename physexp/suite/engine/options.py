@@ -115,9 +115,9 @@ class Options:
         return fewest + np.floor(seeding.timings(seeds, episodes) * (most - fewest + 1)).astype(np.int64)
 
     @property
-    def longest_episode(self) -> float:
-        """How long an unanswered episode lasts where control steps are longest, s."""
-        return self.step_limit * self._substeps_range[1] * self.physics_timestep
+    def longest_play(self) -> float:
+        """How long interactions may last before the last action, where control steps are longest, s."""
+        return (self.step_limit - 1) * self._substeps_range[1] * self.physics_timestep
 
     @property
     def step_limit(self) -> int:
