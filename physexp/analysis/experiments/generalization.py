@@ -163,8 +163,8 @@ def find_claims(frame) -> list[claims.Claim]:
                     statistic=f"share of right answers in the worst held-out test, {word} of agents",
                     estimate=middle(varied[list(HELD_OUT)].min(axis=1)),
                     above=LEAST_RIGHT_HELD_OUT,
-                    reason="With the fist, agents know how towers move in the control steps that they were trained "
-                    "with, and take others for other towers: timing tests that.",
+                    reason="Agents know how towers move with the control steps and the friction that they were trained "
+                    "with, and take others for other towers: timing tests that for control steps and the fist.",
                 ),
             ]
         if len(varied) and len(usual):

@@ -62,8 +62,8 @@ class Options(options_lib.Options):
             )
         if self.longest_play > _LONGEST_EPISODE:
             raise ValueError(
-                f"time_limit is {self.time_limit} s, in which pushes may last {self.longest_play:g} s where control steps "
-                f"are long; give less: at most {_LONGEST_EPISODE:g} s of pushes, in which {meanwhile}"
+                f"time_limit is {self.time_limit} s, in which pushes may last {self.longest_play:g} s where control "
+                f"steps are long; give less: at most {_LONGEST_EPISODE:g} s of pushes, in which {meanwhile}"
             )
         object.__setattr__(
             self, "difficulty", checks.number("difficulty", self.difficulty, 1, "the skew of the prior over levels")
