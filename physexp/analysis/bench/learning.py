@@ -1,4 +1,6 @@
-"""The returns of the experiments' feature agents, and the time of experiments, report and ideal experimenters."""
+"""The returns of the agents of the paper's learning curves from features, and the time that they, a report and an ideal
+experimenter take.
+"""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,20 +14,22 @@ from physexp.analysis.reproduction import sweep
 
 RETURN = {3.0: 0.79, 5.0: 0.83, 10.0: 0.86}  # Mean discounted return in the median of the better half of the agents.
 SUCCESS = {"fist_features": 0.98, "direct_features": 0.95}  # Share of right answers, in the same.
-HOURS = 12.0  # For all experiments on features.
+HOURS = 12.0  # For all of these agents.
+_EXPERIMENTS = ("learning_heavier", "learning_towers")
 
 
 def figures(results_dir: Path) -> Iterator[dict]:
     """Trains the agents that are missing, reads what all of them reached, and takes the time of the rest."""
     results = base.Results(results_dir)
-    features = sweep.jobs(list(EXPERIMENTS.values()), ["features"], conditions.SEEDS.__getitem__)
+    experiments = [EXPERIMENTS[name] for name in _EXPERIMENTS]
+    features = sweep.jobs(experiments, ["features"], conditions.SEEDS.__getitem__)
     sweep.run(features, results, processes.num_cores(), lambda line: print(line, file=sys.stderr, flush=True))
     for condition in (*conditions.HEAVIER, *conditions.TOWERS):
         if conditions.observations(condition) == "features":
             yield from _reached(results, condition)
     seconds = [results.run(job.config).metrics()[-1]["seconds"] for job in features]
     yield measuring.row(
-        "training all agents of the experiments on features, two at a time",
+        "training the agents of the learning curves from features, two at a time",
         sum(seconds) / 2 / 3600,
         "h",
         HOURS,

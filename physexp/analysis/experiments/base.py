@@ -8,6 +8,8 @@ import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from physexp.agents import files
 from physexp.analysis.evaluation import figures, records
 from physexp.analysis.experiments import claims as claims_lib
@@ -135,10 +137,13 @@ def _without_seed(config: config_lib.TrainConfig) -> str:
     return config.name.removesuffix(f"-seed{config.agent.seed}")
 
 
-def _labels(frame) -> list[str]:
+def _labels(frame) -> np.ndarray:
     """Returns the names of the conditions of rows, of which many have the same."""
-    keys = zip(frame.domain, frame.task, frame.difficulty, strict=True)
-    return [_label(domain, task, None if value is None or math.isnan(value) else value) for domain, task, value in keys]
+    kinds = frame[["domain", "task", "difficulty"]].astype({"difficulty": float})
+    numbers = kinds.groupby(list(kinds), dropna=False, sort=False, observed=True).ngroup().to_numpy()
+    rows = kinds.iloc[np.unique(numbers, return_index=True)[1]].itertuples(index=False)
+    labels = [_label(row.domain, row.task, None if math.isnan(row.difficulty) else row.difficulty) for row in rows]
+    return np.array(labels, object)[numbers]
 
 
 def keep_made(path: Path, made: Any) -> None:
