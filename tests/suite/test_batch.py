@@ -256,12 +256,7 @@ def test_what_cannot_be_saved_or_restored_is_refused():
     batch.reset()
     with pytest.raises(ValueError, match="other episodes"):
         batch.restore(moment)
-
-
-def test_another_instance_of_the_same_episode_is_not_restored_into():
-    batch = load_batch("which_is_heavier/features", 2, random=0)
-    batch.reset()
-    moment = batch.save()
+    # Nor is another instance of the same episode.
     batch.reset(episode=0)
     batch.restore(moment)
     batch.reset(episode=0, hidden=batch.hidden[::-1].copy())

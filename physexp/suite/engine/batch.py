@@ -239,7 +239,7 @@ class BatchEnvironment:
             return Moment(
                 environments=chosen.copy(),
                 episodes=self.episodes[chosen],
-                hidden=self.hidden[chosen],
+                hidden=self._ledger.hidden[chosen],
                 steps=self._ledger.steps[chosen],
                 touched=self._ledger.touched[chosen],
                 observed={name: values[chosen] for name, values in self._observations.items()},
