@@ -119,12 +119,13 @@ def proportion(outcomes: Sequence[bool] | np.ndarray) -> Estimate:
 def mean(values: Sequence[float] | np.ndarray) -> Estimate:
     """Returns the mean of independent values, [N], with Student's interval.
 
-    It is infinite for less than two values, and where one is not known, NaN.
+    It is infinite for less than two values, for two that are the same, which may be chance, and where one is not known,
+    NaN.
     """
     from scipy import stats
 
     average = float(np.mean(values)) if len(values) else math.nan
-    if len(values) < 2 or math.isnan(average):
+    if len(values) < 2 or math.isnan(average) or (len(values) == 2 and not np.ptp(values)):
         return Estimate(average, -math.inf, math.inf)
     error = float(np.std(values, ddof=1)) / math.sqrt(len(values))
     return _around(average, error, stats.t(len(values) - 1)) if error else _exact(average)

@@ -235,10 +235,18 @@ def test_a_line_without_spread_has_an_interval_without_width():
 
 
 def test_equal_values_have_intervals_without_width():
-    for count in (2, 7):
+    for count in (3, 7):
         assert_same(estimates.mean([0.1] * count), (0.1, 0.1, 0.1))
         assert_same(estimates.bootstrap([0.1] * count, np.median), (0.1, 0.1, 0.1))
     assert_same(estimates.median([0.1] * 7), (0.1, 0.1, 0.1))
+
+
+def test_two_values_that_are_the_same_say_nothing_of_the_spread():
+    assert_same(estimates.mean([0.1, 0.1]), (0.1, -math.inf, math.inf))
+    for groups in (([3, 3], [2, 2]), ([3, 3], [2, 2, 2])):
+        estimate = estimates.ratio_of_means(*groups)
+        assert_same(estimate, (1.5, 0.0, math.inf))
+        assert not estimate.can_be_tested
 
 
 def test_a_single_value_says_nothing_of_the_spread():
@@ -355,7 +363,7 @@ def test_p_values_of_the_bootstrap_count_what_was_drawn_beyond_and_are_never_not
 
 
 def test_figures_without_a_spread_are_certain_and_single_values_tell_nothing():
-    for estimate in (estimates.mean([2.0, 2.0]), estimates.normal(2.0, 0.0), estimates.ratio_of_means([4, 4], [2, 2])):
+    for estimate in (estimates.mean([2.0] * 3), estimates.normal(2.0, 0.0), estimates.ratio_of_means([4] * 3, [2] * 3)):
         assert estimate.p_value(1.0, "greater") == estimate.p_value(3.0, "less") == 0
         assert estimate.p_value(1.0, "less") == estimate.p_value(2.0, "greater") == estimate.p_value(2.0, "less") == 1
     for estimate in (
