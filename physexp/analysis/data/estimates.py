@@ -119,13 +119,13 @@ def proportion(outcomes: Sequence[bool] | np.ndarray) -> Estimate:
 def mean(values: Sequence[float] | np.ndarray) -> Estimate:
     """Returns the mean of independent values, [N], with Student's interval.
 
-    It is infinite for less than two values, for two that are the same, which may be chance, and where one is not known,
-    NaN.
+    It is infinite for less than two values, for two that are the same, and where one is not known, NaN.
     """
     from scipy import stats
 
     average = float(np.mean(values)) if len(values) else math.nan
-    if len(values) < 2 or math.isnan(average) or (len(values) == 2 and not np.ptp(values)):
+    tells_no_spread = len(values) < 3 and len(np.unique(values)) < 2  # Two may be the same by chance.
+    if tells_no_spread or math.isnan(average):
         return Estimate(average, -math.inf, math.inf)
     error = float(np.std(values, ddof=1)) / math.sqrt(len(values))
     return _around(average, error, stats.t(len(values) - 1)) if error else _exact(average)
@@ -165,7 +165,7 @@ def median(values: Sequence[float] | np.ndarray) -> Estimate:
 def geometric_mean(values: Sequence[float] | np.ndarray) -> Estimate:
     """Returns the geometric mean of independent values, [N], with Student's interval of their logarithms.
 
-    The interval is infinite for a single value and where one is not positive and finite.
+    The interval is infinite for a single value, for two that are the same, and where one is not positive and finite.
     """
     return _exponential(mean(np.log(values))) if _are_positive(values) else _UNKNOWN_POSITIVE
 
@@ -175,7 +175,8 @@ def ratio_of_means(numerators: Sequence[float] | np.ndarray, denominators: Seque
 
     Args:
       numerators, denominators: independent values, [N] and [M]; Welch's interval of the logarithms, which is infinite
-        for a single value and where one is not positive and finite.
+        for a single value, where both groups have no spread and the first is of two, and where one is not positive and
+        finite.
     """
     from scipy import stats
 
@@ -220,7 +221,7 @@ def at_most(estimate: Estimate) -> Estimate:
 def ratio_of_pairs(numerators: Sequence[float] | np.ndarray, denominators: Sequence[float] | np.ndarray) -> Estimate:
     """Returns the geometric mean of ratios, [N] of independent pairs, with Student's interval of their logarithms.
 
-    The interval is infinite for a single pair and where a value is not positive and finite.
+    The interval is infinite for a single pair, for two of the same ratio, and where a value is not positive and finite.
     """
     top, bottom = np.asarray(numerators, float), np.asarray(denominators, float)
     return geometric_mean(top / bottom) if _are_positive([*top, *bottom]) else _UNKNOWN_POSITIVE
