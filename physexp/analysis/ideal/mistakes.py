@@ -68,12 +68,14 @@ def of_episodes(
     chosen, values = np.concatenate(taken), np.concatenate([judgement.values for judgement in judged])
     num_interactions = values.shape[1] - judged[0].beliefs.shape[1]
     are_answers, rows = chosen >= num_interactions, np.arange(len(chosen))
+    bits = information(np.concatenate([judgement.beliefs for judgement in judged]))
+    between = (lengths + 1).cumsum()[:-1] - 1  # From the last belief of an episode to the first of the next one.
     together = Actions(
         value=values.max(axis=1),
         worth=values[rows, chosen],
         answering=values[:, num_interactions:].max(axis=1),
         tells=np.concatenate([judgement.tells for judgement in judged]),
-        bits=np.concatenate([information(judgement.beliefs) for judgement in judged]),
+        bits=np.delete(bits, between),
     )
     found = costs(together, are_answers, ~are_answers & np.isin(rows, ends - 1))
     factors = discount ** (rows - np.repeat(ends - lengths, lengths))
