@@ -186,8 +186,9 @@ EXPERIMENT = base.Experiment(
     title="Agents against the ideal experimenter",
     section="ours",
     caption="Left: each agent's mean discounted return over 10,000 episodes, actions drawn, as a share of the ideal "
-    "experimenter's. Middle: what of the ideal's return is lost to which kind of mistake, mean of agents. Right: the "
-    "least expected time after which the number of bodies of a tower can be known, by the observer's resolution.",
+    "experimenter's; in Towers, of the one to whom every bit tells something. Middle: what of the ideal's return is "
+    "lost to which kind of mistake, mean of agents. Right: the least expected time after which the number of bodies "
+    "of a tower can be known, by the observer's resolution.",
     conditions=CONDITIONS,
     trials=(base.EVALUATION,),
     prepare=ideal_towers.prepare,

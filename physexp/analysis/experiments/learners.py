@@ -70,7 +70,7 @@ EXPERIMENT = base.Experiment(
     title="A3C and PPO",
     section="ours",
     caption="Share of right answers in training of the paper's learner and of PPO, on the same network and the same "
-    "environments, against environment steps and against time (on machines of two cores, not all equally fast, with "
+    "environments, against environment steps and against time (on several machines, not all equally fast, with "
     "other agents beside). Light lines: the better half of the agents; dark: their median.",
     conditions=CONDITIONS,
     load=load,

@@ -70,8 +70,8 @@ def find_claims(frame) -> list[claims.Claim]:
                 above=0.9,
                 words="a small drop",
                 reason="Agents have learned how towers move in the control steps of training: from pixels they are "
-                "right where a frame falls on the time at which they answer in training, as is tested below. Towers "
-                "that vary do not prevent that (generalization), control steps that vary do (timing).",
+                "right more often where a frame falls on the time at which they answer in training, as is tested "
+                "below. Towers that vary do not prevent that (generalization), control steps that vary do (timing).",
             )
         )
         found.append(
@@ -87,7 +87,8 @@ def find_claims(frame) -> list[claims.Claim]:
         found.append(
             claims.Claim(
                 condition=condition,
-                text="In finer time agents are right where a frame falls on the time of their answers in training",
+                text="In finer time agents are right more often where a frame falls on the time of their answers in "
+                "training",
                 statistic="share of right answers at control steps of which the median time to the answer in training "
                 "is a multiple, less that at the others, mean of agents; found in these data",
                 estimate=estimates.mean(_on_time(agents[agents.condition == condition])),

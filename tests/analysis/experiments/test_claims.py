@@ -75,7 +75,7 @@ FALSE_IN = {
         "Agents wait for information, not for a number of steps": {"as many steps"},
         "Accuracy drops little with the control step": {"lost in fine time"},
         "No test episode ends by timeout": {"silent in the end"},
-        "In finer time agents are right where a frame falls on the time of their answers in training": {
+        "In finer time agents are right more often where a frame falls on the time of their answers in training": {
             "lost in fine time",
             "any frame will do",
         },
