@@ -6,31 +6,29 @@ from collections.abc import Iterator
 from pathlib import Path
 import sys
 
-from physexp.agents import processes
 from physexp.analysis.bench import measuring
 from physexp.analysis.evaluation import records
-from physexp.analysis.experiments import EXPERIMENTS, base, conditions, ideal_gap
+from physexp.analysis.experiments import base, conditions, ideal_gap
 from physexp.analysis.reproduction import sweep
 
 RETURN = {3.0: 0.79, 5.0: 0.83, 10.0: 0.86}  # Mean discounted return in the median of the better half of the agents.
 SUCCESS = {"fist_features": 0.98, "direct_features": 0.95}  # Share of right answers, in the same.
-HOURS = 12.0  # For all of these agents.
-_EXPERIMENTS = ("learning_heavier", "learning_towers")
+HOURS = 12.0  # For all of these agents, as many at a time.
+_NUM_PROCESSES = 2
 
 
 def figures(results_dir: Path) -> Iterator[dict]:
     """Trains the agents that are missing, reads what all of them reached, and takes the time of the rest."""
     results = base.Results(results_dir)
-    experiments = [EXPERIMENTS[name] for name in _EXPERIMENTS]
-    features = sweep.jobs(experiments, ["features"], conditions.SEEDS.__getitem__)
-    sweep.run(features, results, processes.num_cores(), lambda line: print(line, file=sys.stderr, flush=True))
-    for condition in (*conditions.HEAVIER, *conditions.TOWERS):
+    features = sweep.jobs([ideal_gap.EXPERIMENT], ["features"], conditions.SEEDS.__getitem__)
+    sweep.run(features, results, _NUM_PROCESSES, lambda line: print(line, file=sys.stderr, flush=True))
+    for condition in ideal_gap.CONDITIONS:
         if conditions.observations(condition) == "features":
             yield from _reached(results, condition)
     seconds = [results.run(job.config).metrics()[-1]["seconds"] for job in features]
     yield measuring.row(
         "training the agents of the learning curves from features, two at a time",
-        sum(seconds) / 2 / 3600,
+        sum(seconds) / _NUM_PROCESSES / 3600,
         "h",
         HOURS,
         at_most=True,
@@ -42,7 +40,7 @@ def figures(results_dir: Path) -> Iterator[dict]:
 
 
 def _reached(results: base.Results, condition) -> Iterator[dict]:
-    frame = results.episodes([base.EVALUATION], [condition], ["reward", "length", "label"])
+    frame = results.episodes([base.EVALUATION], [condition], ["reward", "length"])
     agents = frame.assign(agent_return=records.discounted_return(frame), right=frame.reward > 0).groupby(
         "training_seed"
     )

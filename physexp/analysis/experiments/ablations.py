@@ -4,7 +4,7 @@ from typing import Any
 
 from physexp.agents.belief import config as belief
 from physexp.analysis.evaluation import figures
-from physexp.analysis.experiments import base, claims, conditions, learning, scores
+from physexp.analysis.experiments import base, claims, conditions, ideal_towers, learning, scores
 
 _WHOLE = "belief"
 # Without replay only the last round is learned from.
@@ -78,12 +78,13 @@ def draw(frame):
 EXPERIMENT = base.Experiment(
     name="ablations",
     title="What the parts of the belief learner are good for",
-    section="ours",
+    section=claims.OURS,
     caption="The belief learner without one of its parts, and with answers revealed, against environment steps: return "
     "in the quarter of the episodes that are played greedily, averaged over the last 2000 episodes. An agent without "
     "replay learns from the last round of episodes alone, as often. Light: from the worst agent to the best; dark: "
     "their median.",
     conditions=CONDITIONS,
+    prepare=ideal_towers.prepare,
     load=load,
     claims=find_claims,
     draw=draw,

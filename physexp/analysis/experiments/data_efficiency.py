@@ -4,7 +4,7 @@ from typing import Any
 
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import figures
-from physexp.analysis.experiments import base, claims, conditions, learning, scores
+from physexp.analysis.experiments import base, claims, conditions, ideal_towers, learning, scores
 
 LEARNERS = {
     "a3c": "A3C",
@@ -223,7 +223,7 @@ def _without_kind(task) -> str:
 EXPERIMENT = base.Experiment(
     name="data_efficiency",
     title="Learning from few frames",
-    section="ours",
+    section=claims.OURS,
     caption="How well agents play while they learn, against environment steps and against time (on several "
     "machines, not all equally fast, with other agents beside), averaged over the last 2000 episodes. Belief: the "
     "quarter of the episodes that are played greedily; A3C and PPO: all, with drawn actions. Light: from the worst "
@@ -232,6 +232,7 @@ EXPERIMENT = base.Experiment(
     "from features, the ideal is the one to whom readings that differ by less than 1 mm are alike.",
     conditions=CONDITIONS,
     trials=(base.EVALUATION,),
+    prepare=ideal_towers.prepare,
     load=load,
     claims=find_claims,
     draw=draw,

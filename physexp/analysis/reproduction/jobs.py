@@ -74,7 +74,7 @@ class Processes:
             process.start()
         theirs.close()
         try:
-            self._follow(f"{name} (process {process.pid})", ours)
+            error = self._follow(f"{name} (process {process.pid})", ours)
             process.join(_LEAVE_SECONDS)
         except (EOFError, OSError):
             process.join(_LEAVE_SECONDS)
@@ -82,9 +82,11 @@ class Processes:
         finally:
             processes.kill(process)
             ours.close()
+        if error is not None:
+            raise error
 
-    def _follow(self, name: str, job) -> None:
-        """Listens to a job until it is done."""
+    def _follow(self, name: str, job) -> BaseException | None:
+        """Listens to a job until it is done; returns what it raised."""
         silent, stopping_for, told, asked = 0.0, 0.0, False, False
         while True:
             if self._stopping and not asked:
@@ -100,9 +102,7 @@ class Processes:
                 if kind == "line":
                     self._tell(content)
                 elif kind == "end":
-                    if content is not None:
-                        raise content
-                    return
+                    return content
             passed = min(time.monotonic() - start, _BEAT_SECONDS)  # More, and this process was stopped as well.
             silent, stopping_for = silent + passed, stopping_for + passed if asked else 0.0
             if silent >= self._silent_seconds and not told:

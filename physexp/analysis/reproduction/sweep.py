@@ -12,7 +12,7 @@ import pyarrow
 from physexp import suite
 from physexp.agents import files
 from physexp.analysis import callbacks
-from physexp.analysis.evaluation import playing, records
+from physexp.analysis.evaluation import finding, playing, records
 from physexp.analysis.experiments import base, conditions
 from physexp.analysis.reproduction import jobs as jobs_lib
 from physexp.analysis.training import config as config_lib
@@ -203,7 +203,7 @@ def _play(run: run_lib.Run, trial: base.Trial) -> pyarrow.Table:
     config = run.config
     played_as = dataclasses.replace(config, task_kwargs={**config.task_kwargs, **trial.task_kwargs})
     played = playing.play(
-        playing.load_network(run),
+        finding.load_network(run),
         played_as,
         trial.num_episodes,
         trial.interaction,
@@ -212,7 +212,7 @@ def _play(run: run_lib.Run, trial: base.Trial) -> pyarrow.Table:
     )
     options = suite.options(config.domain)(**played_as.task_kwargs)
     timestep = options.draw_substeps(played.seed, played.episode) * options.physics_timestep
-    return records.table(played, config, trial.interaction, timestep)
+    return records.table(played, played_as, trial.interaction, timestep)
 
 
 class Meter:

@@ -9,7 +9,7 @@ import made_data
 import numpy as np
 import pytest
 
-from physexp.analysis.experiments import base, generalization, ideal_gap, laboratory, timing
+from physexp.analysis.experiments import EXPERIMENTS, base, conditions, generalization, ideal_gap, laboratory, timing
 
 RESULTS = blocks.ROOT / "results"
 
@@ -37,6 +37,19 @@ def test_a_domain_that_is_new_in_the_laboratory_is_solved_and_the_others_are_kep
     found = json.loads(path.read_text())
     assert {label: found[label] for label in known} == known
     assert 0 < found[new.label]["random_value"] < found[new.label]["value"] < 1
+
+
+@pytest.mark.parametrize("name", ["data_efficiency", "ablations"])
+def test_the_ideal_that_learning_is_measured_by_is_searched_for_if_it_is_not_there(name, results, monkeypatch):
+    pushes = conditions.towers("direct", "features")
+    monkeypatch.setattr(conditions, "TOWERS", (pushes,))
+    run = results.run(conditions.with_belief(pushes, answers_revealed=True))
+    run.path.parent.mkdir()
+    run.path.symlink_to(RESULTS / "runs" / run.path.name)
+    EXPERIMENTS[name].prepare(results, print)
+    frame = EXPERIMENTS[name].load(results)
+    assert set(frame.condition) == {"D-F"}
+    assert 0.95 < frame.score.iloc[-1] < 1.01
 
 
 def test_experimenters_that_nobody_trained_play_only_the_tests_that_are_new(results, monkeypatch):

@@ -29,6 +29,10 @@ def until_asked(tell, path):
     raise interruption.happened
 
 
+def find_nothing(tell, path):
+    path.read_text()
+
+
 def begun(lines):
     return [int(line.split()[1]) for line in lines if line.startswith("started")]
 
@@ -50,6 +54,11 @@ def test_a_killed_job_fails_alone(tmp_path):
         (tmp_path / "go").touch()
         (other,) = set(pending) - {first}
         assert other.result() is None
+
+
+def test_what_a_job_raises_is_told_even_if_it_is_an_error_of_files(tmp_path):
+    with jobs.Processes(find_nothing, 1, print) as pool, pytest.raises(FileNotFoundError, match="no such folder"):
+        result_of(pool.submit("one", tmp_path / "no such folder" / "file"))
 
 
 def test_a_stopped_job_is_told_of_and_killed_when_all_are_asked_to_end(tmp_path):
