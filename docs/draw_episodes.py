@@ -9,7 +9,7 @@ from matplotlib.backends import backend_agg
 import numpy as np
 from PIL import Image
 
-from physexp.analysis.evaluation import playing
+from physexp.analysis.evaluation import finding
 from physexp.analysis.replay import beliefs, palette, recording
 from physexp.suite.engine import rendering
 
@@ -57,7 +57,7 @@ class Frame:
 def recorded(name: str) -> recording.Episode:
     """Returns the episode that a picture shows."""
     target, seed, index = EPISODES[name]
-    network, config = playing.find_agent(target)
+    network, config = finding.find_agent(target)
     return recording.reenact(network, config, seed, index, None)
 
 

@@ -19,7 +19,7 @@ import pytest
 import physexp as package
 from physexp import extras, suite
 from physexp.analysis import bench, doctor, experiments
-from physexp.analysis.evaluation import playing
+from physexp.analysis.evaluation import finding, playing
 from physexp.analysis.experiments import conditions
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import progress
@@ -514,7 +514,7 @@ def test_a_bar_moves_on_a_terminal_and_nothing_is_shown_elsewhere(tmp_path, monk
 
 def test_an_evaluation_tells_how_many_episodes_are_played(untrained):
     told = []
-    playing.play(playing.load_network(untrained), untrained.config, 300, show=told.append)
+    playing.play(finding.load_network(untrained), untrained.config, 300, show=told.append)
     assert told == [256, 300]  # A round is 256 episodes.
 
 

@@ -21,7 +21,8 @@ MAY_NAME_A_DOMAIN = ("suite/domains/", "analysis/domains/", "analysis/experiment
 
 # Rooms of the analysis, each of which imports from those before it alone.
 FLOORS = (
-    ("data",),
+    ("callbacks", "readings"),
+    ("data", "terminal"),
     ("ideal",),
     ("domains",),
     ("training",),
@@ -143,11 +144,11 @@ def test_the_rooms_of_the_analysis_import_from_the_floors_below_alone():
     upwards = []
     for name, others in imports().items():
         room = name.removeprefix("physexp.analysis.").split(".")[0] if name.startswith("physexp.analysis.") else None
-        if room not in floor:
+        if room is None:
             continue
         for other in others:
             its = other.removeprefix("physexp.analysis.").split(".")[0]
-            if other.startswith("physexp.analysis.") and its in floor and its != room and floor[its] > floor[room]:
+            if other.startswith("physexp.analysis.") and its != room and floor[its] > floor[room]:
                 upwards.append(f"{name} imports {other}")
     assert not upwards
 

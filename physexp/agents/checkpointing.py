@@ -19,6 +19,7 @@ from physexp.agents import core, files
 
 FORMAT = 1
 """The format of checkpoints."""
+_KEPT = 2  # Checkpoints: if the last one is damaged, there is the one before.
 _MOST_HEADER = 1_000_000  # Bytes, of the names and shapes of tensors; those of a checkpoint take five thousand.
 
 
@@ -143,9 +144,9 @@ def _parse(content: bytes) -> tuple[dict[str, torch.Tensor], dict[str, str]]:
 class Checkpointer:
     """Keeps the latest checkpoints of a run in a folder."""
 
-    def __init__(self, folder: Path, keep: int = 2):
-        """Uses `folder`, which is made when needed, for the `keep` latest checkpoints."""
-        self._folder, self._keep = Path(folder), keep
+    def __init__(self, folder: Path):
+        """Uses `folder`, which is made when needed, for the two latest checkpoints."""
+        self._folder = Path(folder)
 
     def save(self, tensors: Mapping[str, torch.Tensor], facts: Mapping[str, Any]) -> Path:
         """Writes a checkpoint and removes those that are too old.
@@ -174,7 +175,7 @@ class Checkpointer:
         # The JSON comes first: a checkpoint is there once its tensors are.
         files.write_atomically(path.with_suffix(".json"), (json.dumps(card, indent=1) + "\n").encode())
         files.write_atomically(path, content)
-        for old in self.paths()[: -self._keep]:
+        for old in self.paths()[:-_KEPT]:
             old.unlink()
             old.with_suffix(".json").unlink(missing_ok=True)
         return path

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 import dataclasses
 import math
-from typing import ClassVar, Literal, Self, get_args
+from typing import Any, ClassVar, Literal, Self, get_args
 
 Device = Literal["auto", "cpu", "cuda"]
 LARGEST = 2**63 - 1
@@ -164,3 +164,11 @@ class ActorCriticConfig(AgentConfig):
 def is_number(value) -> bool:
     """Returns whether a value is a finite number."""
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def shown(value: Any) -> str:
+    """Returns an option's value in the shortest words that mean it to the last digit: 5 for 5.0."""
+    if not isinstance(value, float):
+        return str(value)
+    short = f"{value:g}"
+    return short if float(short) == value else str(value)

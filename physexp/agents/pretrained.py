@@ -47,15 +47,7 @@ class Pretrained:
 def name(domain: str, task: str, options: Mapping[str, Any]) -> str:
     """Returns the name of an agent's files: domain, task, and each option that was chosen for the task."""
     chosen = sorted((option, value) for option, value in options.items() if value is not None)
-    return "-".join([domain, task, *(f"{option}{_short(value)}" for option, value in chosen)])
-
-
-def _short(value: Any) -> str:
-    """Returns a value as it is in a name, 5 for 5.0."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return str(value)
-    short = f"{value:g}"
-    return short if float(short) == value else repr(value)
+    return "-".join([domain, task, *(f"{option}{config.shown(value)}" for option, value in chosen)])
 
 
 def names(folder: Path = FOLDER) -> list[str]:
@@ -144,9 +136,9 @@ def _default(candidates: Sequence[str], folder: Path) -> str | None:
     return next((base for base, card in cards.items() if isinstance(card, dict) and card.get("default") is True), None)
 
 
-def card_named(base: str, folder: Path = FOLDER) -> dict[str, Any]:
-    """Reads the card of the trained agent whose files have this name, without its network; raises as `load`."""
-    path = _path(base, folder)
+def card_named(base: str) -> dict[str, Any]:
+    """Reads the card of the agent of this name that comes with the package, not its network; raises as `load`."""
+    path = _path(base, FOLDER)
     with _explained(path):
         return _completed(files.read_json(path), path.stem)
 

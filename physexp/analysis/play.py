@@ -7,9 +7,9 @@ from typing import Any
 
 from physexp import suite
 from physexp.agents import acting, core, environment_loop
+from physexp.agents import config as agent_config
 from physexp.analysis import domains, terminal
-from physexp.analysis.evaluation import playing
-from physexp.analysis.training import config as config_lib
+from physexp.analysis.evaluation import finding
 
 _QUIT, _HELP = "q", "?"
 
@@ -93,9 +93,9 @@ def _others(domain: str, task: str, kwargs: dict[str, Any], show) -> tuple[dict[
     others: dict[str, core.Actor] = {}
     discount = domains.find(domain).discount
     try:
-        network, config = playing.shipped_agent(domain, task, kwargs)
+        network, config = finding.shipped_agent(domain, task, kwargs)
     except ValueError:
-        trained = "".join(f" at {name} {config_lib.shown(value)}" for name, value in kwargs.items())
+        trained = "".join(f" at {name} {agent_config.shown(value)}" for name, value in kwargs.items())
         show(f"There is no agent trained{trained} to compare you with.\n")
     else:
         discount = config.agent.discount

@@ -11,7 +11,7 @@ from typing import Annotated, Any, TypeVar, get_args, get_type_hints
 
 import tyro
 
-from physexp.analysis.training import config as config_lib
+from physexp.agents import config as agent_config
 from physexp.cli import arguments
 
 _NOT_OFFERED = ("random", "visualize_reward")  # The seed is an option of commands; a terminal shows no floor.
@@ -99,7 +99,7 @@ def make(domain_names: Sequence[str], default: str | None = None, options_of: Ca
         texts |= _descriptions(options)
     fields: list[tuple[str, Any, Any]] = []
     for name, field in names.items():
-        shown = config_lib.shown(field.default) if default is None else default
+        shown = agent_config.shown(field.default) if default is None else default
         (kind,) = set(get_args(kinds[name]) or (kinds[name],)) - {type(None)}
         argument = tyro.conf.arg(
             metavar=_METAVARS.get(kind),

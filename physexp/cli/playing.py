@@ -39,10 +39,10 @@ class Evaluate(Generic[options_lib.Options]):
     json: Switch = False
 
     def run(self) -> None:
-        from physexp.analysis.evaluation import playing
+        from physexp.analysis.evaluation import finding, playing
         from physexp.analysis.training import progress
 
-        network, config = playing.find_agent(self.target, options_lib.chosen(self.options))
+        network, config = finding.find_agent(self.target, options_lib.chosen(self.options))
         seed = playing.SEED if self.seed is None else self.seed
         with progress.bar("episodes", self.episodes) as show:
             played = playing.play(

@@ -112,9 +112,9 @@ class Train(Generic[Config, options_lib.Options]):
         begun |= dataclasses.asdict(config.agent)
         for name, value in {**own, **wanted.task_kwargs, **chosen}.items():
             if begun.get(name) != value:
-                there = config_lib.shown(begun[name]) if name in begun else "not chosen"
+                there = agent_config.shown(begun[name]) if name in begun else "not chosen"
                 raise ValueError(
-                    f"{name} is {config_lib.shown(value)}, and in {path} it is {there}; leave it out to go on with "
+                    f"{name} is {agent_config.shown(value)}, and in {path} it is {there}; leave it out to go on with "
                     "that, or train anew in another --run-dir"
                 )
 

@@ -10,7 +10,7 @@ import subjects
 
 from physexp.agents import pretrained
 from physexp.analysis.data import tables
-from physexp.analysis.evaluation import playing, records
+from physexp.analysis.evaluation import finding, records
 from physexp.analysis.replay import recording, viewing, writing
 from physexp.analysis.training import run as run_lib
 
@@ -57,7 +57,7 @@ def read_kept(folder):
 
 def read_published(folder):
     agent = pretrained.load("which_is_heavier", "features", 10.0, folder=folder / "published")
-    return agent.card, _bytes(agent.network), playing.config_of(agent.card)
+    return agent.card, _bytes(agent.network), finding.config_of(agent.card)
 
 
 def read_records(folder):
@@ -82,7 +82,7 @@ def verify(path):
 
 
 def _network(path):
-    network, config = playing.find_agent(str(path))
+    network, config = finding.find_agent(str(path))
     return _bytes(network), config
 
 

@@ -12,7 +12,7 @@ import subjects
 import torch
 
 from physexp.agents import checkpointing
-from physexp.analysis.evaluation import playing, records
+from physexp.analysis.evaluation import finding, records
 from physexp.analysis.experiments import base
 from physexp.analysis.replay import recording, writing
 from physexp.analysis.reproduction import sweep
@@ -282,7 +282,7 @@ def test_a_network_that_is_kept_alone_is_there_at_every_moment(uninterrupted, tm
 
 def variables(run):
     """Those of a run's network, to half precision."""
-    return {name: value.half().numpy().tobytes() for name, value in playing.load_network(run).state_dict().items()}
+    return {name: value.half().numpy().tobytes() for name, value in finding.load_network(run).state_dict().items()}
 
 
 def keep(path):

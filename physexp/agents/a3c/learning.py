@@ -58,9 +58,10 @@ class Shared(Protocol):
         """Copies the parameters into a worker's network."""
 
     def push(self, contribution: Contribution) -> dict[str, float] | None:
-        """Applies gradients; returns counters, with `frames` among them.
+        """Applies gradients; returns counters, with `frames` and `updates` among them.
 
-        None if too many other updates have been made since the parameters were taken: then only the round is counted.
+        If too many other updates have been made since the parameters were taken, only the round is counted. Variables
+        of this machine return None then; those of another one return the counters of their last answer in any case.
         """
 
     def save(self) -> dict[str, torch.Tensor]:

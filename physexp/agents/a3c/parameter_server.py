@@ -19,7 +19,7 @@ class Traffic:
       updates: gradients applied.
       dropped: gradients that were too old.
       busy_seconds: time spent on exchanges, s.
-      bytes_in: size of the gradients and records received.
+      bytes_in: size of the gradients and actions received.
       bytes_out: size of the variables sent.
     """
 

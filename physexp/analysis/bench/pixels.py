@@ -140,11 +140,11 @@ def composer_rendering() -> Callable[[], int]:
     return draw
 
 
-def bare_network_rate(task: measuring.Task, num_processes: int = 2) -> float:
-    """Returns frames per second of a preset's network that acts and trains on random images, in as many processes."""
+def bare_network_rate(task: measuring.Task) -> float:
+    """Returns frames per second of a preset's network that acts and trains on random images, in two processes."""
     context = multiprocessing.get_context("spawn")
-    with context.Pool(num_processes) as pool:
-        return sum(pool.map(_bare_network_rate, [task] * num_processes, chunksize=1))
+    with context.Pool(2) as pool:
+        return sum(pool.map(_bare_network_rate, [task] * 2, chunksize=1))
 
 
 def _bare_network_rate(task: measuring.Task) -> float:

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from physexp.agents import pretrained
 from physexp.analysis import domains
 from physexp.analysis.bench import measuring
-from physexp.analysis.evaluation import playing
+from physexp.analysis.evaluation import finding, playing
 
 EPISODES = 10_000
 
@@ -15,7 +15,7 @@ def figures() -> Iterator[dict]:
     targets = {name: target for domain in domains.DOMAINS.values() for name, target in domain.targets.items()}
     for name, (measured, target) in targets.items():
         agent = pretrained.load_named(name)
-        config = playing.config_of(agent.card)
+        config = finding.config_of(agent.card)
         drawn, greedy = (
             playing.play(agent.network, config, EPISODES, greedy=greedy).summary(config.agent.discount)
             for greedy in (False, True)

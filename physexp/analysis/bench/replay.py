@@ -11,7 +11,7 @@ from physexp import suite
 from physexp.agents import environment_loop, pretrained
 from physexp.analysis import replay
 from physexp.analysis.bench import measuring
-from physexp.analysis.evaluation import playing
+from physexp.analysis.evaluation import finding
 from physexp.analysis.replay import recording, writing
 from physexp.analysis.training import config as config_lib
 
@@ -59,7 +59,7 @@ def _recording(name: str, task: measuring.Task) -> dict:
 def _replay_in_training(name: str, task: measuring.Task) -> dict:
     """Returns processor time of a replay over that of training from one to the next, on two workers."""
     agent = pretrained.load(*task)
-    config = playing.config_of(agent.card)
+    config = finding.config_of(agent.card)
     seconds = []
     with tempfile.TemporaryDirectory() as folder:
         for number in range(3):  # The first one imports.

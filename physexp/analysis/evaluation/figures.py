@@ -10,6 +10,7 @@ COLORS = ("#000000", "#0072B2", "#D55E00", "#009E73", "#56B4E9", "#E69F00")
 DASHES = ("solid", (0, (5, 1.5)), (0, (1, 1.2)), (0, (5, 1.5, 1, 1.5)), (0, (3, 1, 1, 1, 1, 1)))
 MARKERS = ("o", "s", "^", "D")
 GREY = "0.45"
+_DOTTED = (0, (1, 2))
 _DPI = 220  # Of PNG; sharp on screens of two dots to a pixel.
 
 _STYLE: Any = {
@@ -78,12 +79,10 @@ def save(figure, folder: Path, name: str) -> list[Path]:
     return paths
 
 
-def reference(
-    axes, level: float, text: str, vertical: bool = False, dashes: Any = (0, (1, 2)), at: float = 1.0
-) -> None:
+def reference(axes, level: float, text: str, vertical: bool = False, at: float = 1.0) -> None:
     """Draws a thin line at a level, with its name at a place along it, from 0 to 1."""
     line, words = (axes.axvline, axes.get_xaxis_transform()) if vertical else (axes.axhline, axes.get_yaxis_transform())
-    line(level, color=GREY, linewidth=0.8, linestyle=dashes, zorder=0)
+    line(level, color=GREY, linewidth=0.8, linestyle=_DOTTED, zorder=0)
     if not text:
         return
     place = dict(x=level, y=at) if vertical else dict(x=at, y=level)

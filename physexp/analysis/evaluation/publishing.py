@@ -6,7 +6,8 @@ from typing import Any
 
 from physexp import suite
 from physexp.agents import checkpointing, pretrained
-from physexp.analysis.evaluation import playing
+from physexp.agents import config as agent_config
+from physexp.analysis.evaluation import finding, playing
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 
@@ -33,7 +34,7 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int, replaces: bool = 
             "--output-dir"
         )
     frames, seconds = progress(run)
-    network = playing.load_network(run)
+    network = finding.load_network(run)
     checkpointing.agent_bytes(network.state_dict())  # Refuses weights that cannot be kept before anything is played.
     network = pretrained.halved(network)
     figures = {
@@ -54,7 +55,7 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int, replaces: bool = 
         "seconds": seconds,
         "evaluation": {"seed": playing.SEED, **figures},
         "agent": config.to_json()["agent"],
-        "network": playing.network_facts(config),
+        "network": finding.network_facts(config),
     }
     return pretrained.save(network.cpu(), card, folder)
 
@@ -102,10 +103,7 @@ def _flag(name: str, value) -> list[str]:
     flag = name.replace("_", "-")
     if isinstance(value, bool):
         return [f"--{flag}" if value else f"--no-{flag}"]
-    return [f"--{flag}", *(_exactly(item) for item in (value if isinstance(value, (list, tuple)) else [value]))]
-
-
-def _exactly(value) -> str:
-    """Returns an option's value in the shortest words that mean it to the last digit."""
-    short = config_lib.shown(value)
-    return short if isinstance(value, float) and float(short) == value else str(value)
+    return [
+        f"--{flag}",
+        *(agent_config.shown(item) for item in (value if isinstance(value, (list, tuple)) else [value])),
+    ]

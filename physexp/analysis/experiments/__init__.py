@@ -39,8 +39,6 @@ NAMES = (
 
 def __getattr__(name: str) -> Any:
     """Imports an experiment when it is used: the command line's help needs only names, and imports take seconds."""
-    if name == "Experiment":
-        return importlib.import_module(f"{__name__}.base").Experiment
     if name != "EXPERIMENTS":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     found = {name: importlib.import_module(f"{__name__}.{name}").EXPERIMENT for name in NAMES}

@@ -54,14 +54,14 @@ def _claims(frame) -> list[claims.Claim]:
     return [
         claims.Claim(
             text="What the goal asks for is known at the answer",
-            condition="strike features",
+            condition=CONDITION.label,
             statistic="spread of log(m sqrt(mu)) that is left, as a share of the prior's, mean of agents",
             estimate=estimates.mean(_spreads(frame, "asked")),
             below=0.2,
         ),
         claims.Claim(
             text="What the goal does not ask for is hardly found out",
-            condition="strike features",
+            condition=CONDITION.label,
             statistic="spread of log(mu) that is left, as a share of the prior's, mean of agents",
             estimate=estimates.mean(_spreads(frame, "friction")),
             above=0.6,

@@ -7,6 +7,8 @@ from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import claims, conditions, strategy
 from physexp.suite.domains import strings
 
+CONDITION = conditions.with_belief(conditions.STRINGS)
+
 
 def clamps(actions) -> bool:
     """Returns whether the clamp is moved in an episode, of its actions."""
@@ -30,7 +32,7 @@ def _claims(frame) -> list[claims.Claim]:
     return [
         claims.Claim(
             text="A puck is clamped when, and only when, pulls leave several graphs",
-            condition="strings features",
+            condition=CONDITION.label,
             statistic="share of episodes with a clamp where all pucks hang together, and without one elsewhere, "
             "mean of agents",
             estimate=estimates.mean_share(fits.groupby(frame.training_seed).mean()),
@@ -50,7 +52,7 @@ def _draw(axes, frame) -> None:
 
 
 STRATEGY = strategy.Strategy(
-    condition=conditions.with_belief(conditions.STRINGS),
+    condition=CONDITION,
     columns=("actions", "answer"),
     seen=_seen,
     claims=_claims,

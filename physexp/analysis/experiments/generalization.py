@@ -242,7 +242,7 @@ def draw(frame):
 EXPERIMENT = base.Experiment(
     name="generalization",
     title="Towers that nobody has seen",
-    section="ours",
+    section=claims.OURS,
     caption="Share of right answers of agents that were trained as usual, where a tower with given actions plays one "
     "of 16 trajectories, and of agents that were trained with variation: of the tower's place and yaw, of where the "
     "fist starts, of forces or speed, friction and mass. Beside them two experimenters that nobody trained: one counts "

@@ -184,7 +184,7 @@ def _draw_resolutions(axes, towers: dict[str, list[dict]]) -> None:
 EXPERIMENT = base.Experiment(
     name="ideal_gap",
     title="Agents against the ideal experimenter",
-    section="ours",
+    section=claims.OURS,
     caption="Left: each agent's mean discounted return over 10,000 episodes, actions drawn, as a share of the ideal "
     "experimenter's; in Towers, of the one to whom every bit tells something. Middle: what of the ideal's return is "
     "lost to which kind of mistake, mean of agents. Right: the least expected time after which the number of bodies "

@@ -181,7 +181,7 @@ def _title(task) -> str:
 EXPERIMENT = base.Experiment(
     name="laboratory",
     title="The laboratory",
-    section="ours",
+    section=claims.OURS,
     caption="What agents earn in every domain, features, as a share of the ideal experimenter's return, actions "
     "drawn. Dots: agents; lines: their median; dotted: the ideal, and random interactions with the best answers at the "
     f"best moment. What is less than {FLOOR:g} is drawn there. The belief learner has one configuration for all "

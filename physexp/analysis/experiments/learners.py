@@ -68,7 +68,7 @@ def draw(frame):
 EXPERIMENT = base.Experiment(
     name="learners",
     title="A3C and PPO",
-    section="ours",
+    section=claims.OURS,
     caption="Share of right answers in training of the paper's learner and of PPO, on the same network and the same "
     "environments, against environment steps and against time (on several machines, not all equally fast, with "
     "other agents beside). Light lines: the better half of the agents; dark: their median.",

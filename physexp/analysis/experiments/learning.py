@@ -15,6 +15,7 @@ CAPTION = (
 )
 
 _POINTS = 120
+_END = 0.05  # The share of training that is its end.
 _WINDOW = 2000  # Episodes over which success is averaged, whatever the speed of the machine they were played on.
 
 AXES = {"frames": (1e6, "environment steps, millions"), "seconds": (60.0, "minutes of training")}
@@ -90,10 +91,10 @@ def draw_range(axes, runs: Sequence[Any], number: int, label: str, along: str, o
     axes.plot(grid, np.median(lines, axis=0), color=color, linestyle=dashes, linewidth=1.6, label=label)
 
 
-def final_success(frame, share: float = 0.05):
-    """Share of right answers over the last part of training: a DataFrame of condition, training_seed, success_rate."""
+def final_success(frame):
+    """Share of right answers at the end of training: a DataFrame of condition, training_seed and success_rate."""
     ends = frame.groupby(["condition", "training_seed"]).frames.transform("max")
-    last = frame[frame.frames >= (1 - share) * ends]
+    last = frame[frame.frames >= (1 - _END) * ends]
     return last.groupby(["condition", "training_seed"], as_index=False, sort=False).success_rate.mean()
 
 

@@ -24,7 +24,7 @@ def load(results: base.Results):
 
 
 def find_claims(frame) -> list[claims.Claim]:
-    """Gaps near zero grow rarer from each difficulty to the next; so does the typical gap grow."""
+    """Gaps near zero grow rarer from each difficulty to the next."""
     found = []
     for harder, easier in zip(conditions.DIFFICULTIES, conditions.DIFFICULTIES[1:], strict=False):
         small = [frame.mass_gap[frame.difficulty == beta] < _SMALL for beta in (harder, easier)]

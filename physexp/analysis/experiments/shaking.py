@@ -30,7 +30,7 @@ def _claims(frame) -> list[claims.Claim]:
     return [
         claims.Claim(
             text="The harder a content is to tell, the longer the box is experimented with",
-            condition="sealed_box features",
+            condition=CONDITION.label,
             statistic="rank correlation over contents of an agent's interactions with the ideal's, median of agents",
             estimate=estimates.median(ranks),
             above=0.5,

@@ -9,6 +9,8 @@ from physexp.suite.domains import balance
 
 _SIDES = np.array(list(balance.PLACES.values()))
 
+CONDITION = conditions.with_belief(conditions.BALANCE, answers_revealed=True)
+
 
 def first_weighing(actions) -> int:
     """Returns how many blocks lie on each pan when they first are equally many, of an episode's actions; 0 if never."""
@@ -28,7 +30,7 @@ def _claims(frame) -> list[claims.Claim]:
     return [
         claims.Claim(
             text="Where each placing costs a step, one block is weighed against one first",
-            condition="balance features",
+            condition=CONDITION.label,
             statistic="share of first weighings that are one against one, mean of agents",
             estimate=estimates.mean_share(first.agg(lambda first: (first == 1).mean())),
             above=0.95,
@@ -46,7 +48,7 @@ def _draw(axes, frame) -> None:
 
 
 STRATEGY = strategy.Strategy(
-    condition=conditions.with_belief(conditions.BALANCE, answers_revealed=True),
+    condition=CONDITION,
     columns=("actions",),
     seen=lambda frame: frame.assign(first=[first_weighing(actions) for actions in frame.actions]),
     claims=_claims,

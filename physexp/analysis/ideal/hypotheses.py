@@ -11,6 +11,8 @@ from physexp import suite
 from physexp.suite.engine import batch, declarations
 from physexp.suite.engine import task as task_lib
 
+_NUM_THREADS = 2  # That simulate.
+
 
 class Hypotheses:
     """H hypotheses about what is hidden, each with a simulation of its own for each interaction.
@@ -35,7 +37,6 @@ class Hypotheses:
         nuisances: np.ndarray | None = None,
         *,
         read_as: str | None = None,
-        num_threads: int = 2,
     ):
         """Prepares the simulations.
 
@@ -45,7 +46,6 @@ class Hypotheses:
           nuisances: what the episode differs in beside, [number of nuisances], where the task has variation.
           read_as: a task of the domain with the same physics, whose readings tell apart what this task's images do: it
             is simulated in its place, without drawing.
-          num_threads: threads that simulate.
 
         Raises:
           ValueError: for an unknown name or a bad keyword argument.
@@ -56,7 +56,7 @@ class Hypotheses:
         self.hidden, self.prior = np.asarray(hidden), np.asarray(prior, float)
         self.answers = self.task.answers(self.hidden)
         self.steps = 0
-        self._nuisances, self._num_threads = nuisances, num_threads
+        self._nuisances = nuisances
 
     @functools.cached_property
     def start(self) -> batch.Moment:
@@ -123,7 +123,7 @@ class Hypotheses:
     def _begun(self, task: task_lib.QuestionTask) -> suite.BatchEnvironment:
         """Returns environments in which each hypothesis is true once for each interaction."""
         hidden = np.concatenate([self.hidden] * task.num_interactions)
-        environments = suite.BatchEnvironment(task, len(hidden), self._num_threads)
+        environments = suite.BatchEnvironment(task, len(hidden), _NUM_THREADS)
         nuisances = None if self._nuisances is None else np.repeat(self._nuisances[None], len(hidden), axis=0)
         environments.reset(hidden=hidden, nuisances=nuisances)
         return environments

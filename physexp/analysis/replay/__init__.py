@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import Any
 
 from physexp import suite
+from physexp.agents import config as agent_config
 from physexp.analysis import callbacks
-from physexp.analysis.evaluation import playing
+from physexp.analysis.evaluation import finding, playing
 from physexp.analysis.replay import recording, selection, writing
 from physexp.analysis.replay.recording import Episode, EpisodeRecorder
 from physexp.analysis.replay.viewing import check_display, view
-from physexp.analysis.training import config as config_lib
 
 __all__ = ["Episode", "EpisodeRecorder", "check_display", "replay", "view"]
 
@@ -34,7 +34,7 @@ def replay(
       output: the file.
       interaction, select, seed: see `selection.select`.
       tell: called with lines that tell how it goes.
-      task_kwargs: options that the agents are to be trained with, see `playing.find_agent`.
+      task_kwargs: options that the agents are to be trained with, see `finding.find_agent`.
 
     Returns:
       The path of the file.
@@ -45,7 +45,7 @@ def replay(
         else than a regular file at `output`.
     """
     writing.check_output(output)
-    agents = [playing.find_agent(target, task_kwargs) for target in targets]
+    agents = [finding.find_agent(target, task_kwargs) for target in targets]
     network, config = agents[0]
     for target, (_, other) in zip(targets[1:], agents[1:], strict=True):
         if _played(other) != _played(config):
@@ -68,7 +68,7 @@ def _played(config) -> tuple:
 
 def _what(config) -> str:
     """Returns what a configuration's agent plays, in words."""
-    options = "".join(f", {name} {config_lib.shown(value)}" for name, value in config.task_kwargs.items())
+    options = "".join(f", {name} {agent_config.shown(value)}" for name, value in config.task_kwargs.items())
     return f"{config.domain}/{config.task}{options}"
 
 

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from physexp.agents import config as agent_config
 from physexp.analysis.replay import recording
-from physexp.analysis.training import config as config_lib
 
 HIDDEN_TAB = "with what is hidden"
 """The title of the view that shows it."""
@@ -33,7 +33,7 @@ scene.
 
 def name(episode: recording.Episode) -> str:
     """Returns which episode it is, in words."""
-    options = "".join(f", {key} {config_lib.shown(value)}" for key, value in episode.task_kwargs.items())
+    options = "".join(f", {key} {agent_config.shown(value)}" for key, value in episode.task_kwargs.items())
     return f"{episode.domain}/{episode.task}{options}, seed {episode.seed}, episode {episode.episode}"
 
 

@@ -42,10 +42,10 @@ def suitable(target: str) -> "tuple[protocol.Question, ...] | None":
         return protocol.named(list(team))
     if found := _with_baseline(target):
         return found
-    from physexp.analysis.evaluation import playing, publishing
+    from physexp.analysis.evaluation import finding, publishing
 
     try:
-        _, config = playing.find_agent(target)
+        _, config = finding.find_agent(target)
     except ValueError as error:
         others = ", ".join([*_all_baselines(), SHIPPED, *config_lib.ALGORITHMS])
         raise ValueError(f"{error}; or give {others}, or MODULE:FUNCTION") from None
@@ -81,11 +81,11 @@ def _team(target: str) -> dict[str, str]:
 def _shipped(whose: str) -> dict[str, str]:
     """Returns the agents that come with the package, by task: the best ones, or those of a learner."""
     from physexp.agents import pretrained
-    from physexp.analysis.evaluation import playing, publishing
+    from physexp.analysis.evaluation import finding, publishing
 
     team: dict[str, str] = {}
     for name in pretrained.names():
-        config = playing.config_of(pretrained.card_named(name))
+        config = finding.config_of(pretrained.card_named(name))
         is_wanted = "/" not in name if whose == SHIPPED else config.agent.algorithm == whose
         if is_wanted and publishing.is_default(config):
             team.setdefault(f"{config.domain}/{config.task}", name)
@@ -137,9 +137,9 @@ def maker(target: str, greedy: bool = False) -> MakeActor:
         return lambda asked: domains.find(asked.domain).baselines[asked.task][target]()
     if _is_function(target):
         return _of_function(target)
-    from physexp.analysis.evaluation import playing
+    from physexp.analysis.evaluation import finding
 
-    network, _ = playing.find_agent(target)
+    network, _ = finding.find_agent(target)
     return lambda asked: actors.Network(network.eval(), greedy)
 
 
@@ -165,11 +165,11 @@ def facts(target: str, tasks: Collection[str] | None = None) -> dict[str, Any]:
         algorithms = dict.fromkeys(one["algorithm"] for one in each.values())
         return {"algorithm": ", ".join(algorithms), **sums, "agents": each}
     from physexp.agents import pretrained
-    from physexp.analysis.evaluation import playing, publishing
+    from physexp.analysis.evaluation import finding, publishing
     from physexp.analysis.training import run as run_lib
 
-    _, config = playing.find_agent(target)
-    if agent := playing.published(target):
+    _, config = finding.find_agent(target)
+    if agent := finding.published(target):
         trained = agent.card
     elif Path(target).exists():
         run = run_lib.Run(Path(target))

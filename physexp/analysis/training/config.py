@@ -78,7 +78,7 @@ class TrainConfig:
     @property
     def name(self) -> str:
         """A name for the run's folder."""
-        options = "".join(f"-{name}{shown(value)}" for name, value in sorted(self.task_kwargs.items()))
+        options = "".join(f"-{name}{agent_config.shown(value)}" for name, value in sorted(self.task_kwargs.items()))
         algorithm = "" if self.agent.title == DEFAULT_ALGORITHM else f"-{self.agent.title}"
         discount = f"-discount{self.agent.discount:g}"
         return f"{self.domain}-{self.task}{options}{algorithm}{discount}-seed{self.agent.seed}"
@@ -100,8 +100,3 @@ class TrainConfig:
         others = {name: value for name, value in fields.items() if name not in _OF_FORMAT_1}
         task_kwargs = {**chosen, **fields.get("task_kwargs", {})}
         return cls(**{**others, "task_kwargs": task_kwargs, "agent": algorithm(**agent)})
-
-
-def shown(value: Any) -> str:
-    """Returns an option's value as it is in names and on the command line."""
-    return f"{value:g}" if isinstance(value, (int, float)) and not isinstance(value, bool) else str(value)

@@ -7,6 +7,8 @@ In it are::
     episodes.parquet  the episodes of one update for each of those rows, a part for each checkpoint
     checkpoints/      the shared variables (safetensors) and the facts beside them (JSON)
     replays/*.rrd     episodes for the rerun viewer
+    tensorboard/      the metrics once more, if they are wanted so
+    failed_batch.npz  what was learned from when a loss was not finite
     agent.safetensors the network alone, in half precision, once `keep_agent_only` has put it in their place
     superseded-N/     records that are no part of the run any more: of attempts that came to no checkpoint, and rows
                       after the checkpoint from which training went on

@@ -35,9 +35,9 @@ def exit_status(error: KeyboardInterrupt) -> int:
 
 
 @contextlib.contextmanager
-def raised(together_seconds: float = TOGETHER_SECONDS) -> Iterator[None]:
+def raised() -> Iterator[None]:
     """A context in which a request to end raises Interrupted, in the main thread."""
-    with _heard(_raise, together_seconds):
+    with _heard(_raise, TOGETHER_SECONDS):
         yield
 
 

@@ -14,7 +14,7 @@ from trainers import fresh_seed
 from physexp import suite
 from physexp.agents import pretrained
 from physexp.analysis.data import episodes, estimates
-from physexp.analysis.evaluation import playing
+from physexp.analysis.evaluation import finding, playing
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
 
@@ -137,9 +137,9 @@ def test_every_episode_can_be_rebuilt_from_its_seed_number_and_actions(untrained
 
 @pytest.mark.parametrize("base", [name for name in pretrained.names() if "/" not in name])
 def test_every_agent_is_found_by_name_and_by_its_options(base):
-    network, config = playing.find_agent(base)
+    network, config = finding.find_agent(base)
     for name in (base, config.task_name):
-        other, other_config = playing.find_agent(name, config.task_kwargs)
+        other, other_config = finding.find_agent(name, config.task_kwargs)
         assert other_config == config
         assert all(torch.equal(value, network.state_dict()[key]) for key, value in other.state_dict().items())
 
@@ -189,19 +189,19 @@ THERE = "which_is_heavier-features-difficulty10, which_is_heavier-features-diffi
 )
 def test_an_agent_that_there_is_not_is_refused_with_a_list_of_those_there_are(target, options, message):
     with pytest.raises(ValueError, match=message) as refused:
-        playing.find_agent(target, options)
+        finding.find_agent(target, options)
     assert "\n" not in str(refused.value)
 
 
 def test_a_run_has_the_options_it_was_trained_with(untrained):
     own = {"difficulty": 10, "control_timestep": 0.1}  # The second is the task's, which the run has not changed.
-    assert playing.find_agent(str(untrained.path), own)[1] == untrained.config
+    assert finding.find_agent(str(untrained.path), own)[1] == untrained.config
     with pytest.raises(ValueError, match="was trained at difficulty 10, and difficulty is 5"):
-        playing.find_agent(str(untrained.path), {"difficulty": 5})
+        finding.find_agent(str(untrained.path), {"difficulty": 5})
 
 
 def test_whole_rounds_are_played_until_there_are_enough_steps(untrained):
-    network = playing.load_network(untrained)
+    network = finding.load_network(untrained)
     played = playing.play(network, untrained.config, 1, num_steps=5000)
     assert played.length.sum() >= 5000
     assert len(played) % 256 == 0  # Nothing is cut off, which would leave out long episodes.
@@ -213,14 +213,14 @@ def test_a_belief_learner_of_any_size_is_found_in_its_checkpoint(changes, tmp_pa
     """It keeps four networks there, with Adam's statistics, and what was done in the episodes of its replay."""
     run = trainers.create(tmp_path / "run", "belief", frames=100, replay_episodes=100_000, **changes)
     trainer.train(run)
-    network = playing.load_network(run)
+    network = finding.load_network(run)
     assert len(playing.play(network, run.config, 20)) == 20
 
 
 def test_a_run_that_keeps_its_agent_only_plays_as_before_to_half_precision(untrained):
-    before = playing.load_network(untrained).state_dict()
+    before = finding.load_network(untrained).state_dict()
     untrained.keep_agent_only()
-    after = playing.load_network(untrained).state_dict()
+    after = finding.load_network(untrained).state_dict()
     for name, value in before.items():
         # Half precision has 11 significant bits, and steps of 2^-24 below 2^-14.
         torch.testing.assert_close(after[name], value, rtol=2**-11, atol=2**-25)

@@ -14,7 +14,7 @@ import trainers
 from physexp import suite
 from physexp.agents import pretrained
 from physexp.analysis.data import provenance
-from physexp.analysis.evaluation import playing, publishing
+from physexp.analysis.evaluation import finding, playing, publishing
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
@@ -109,7 +109,7 @@ def test_every_option_of_a_task_survives_the_way_over_the_command_line(domain, t
 def test_the_agent_is_the_runs_rounded_to_half_precision(published):
     run, path = published
     agent = pretrained.load("which_is_heavier", "features", 10, folder=path.parent)
-    expected = playing.load_network(run).state_dict()
+    expected = finding.load_network(run).state_dict()
     for name, value in agent.network.state_dict().items():
         assert torch.equal(value, expected[name].half().float()), name
 
@@ -123,12 +123,12 @@ def test_what_the_card_evaluates_is_what_is_loaded(published):
 
 def test_a_published_agent_is_found_by_its_card_wherever_it_is(published):
     run, path = published
-    network, config = playing.find_agent(str(path))
+    network, config = finding.find_agent(str(path))
     assert (config.task_name, config.task_kwargs) == (run.config.task_name, run.config.task_kwargs)
     there = pretrained.load_named(path.stem, path.parent).network.state_dict()
     assert all(torch.equal(value, there[name]) for name, value in network.state_dict().items())
     with pytest.raises(ValueError, match="was trained at difficulty 10, and difficulty is 3"):
-        playing.find_agent(str(path), {"difficulty": 3})
+        finding.find_agent(str(path), {"difficulty": 3})
 
 
 def copy_of(run, path):
@@ -183,7 +183,7 @@ def test_weights_that_are_not_finite_are_refused_wherever_they_are_read(worst, p
     tensors["network/policy.bias"][0] = worst
     path = run.checkpointer.save(tensors, facts)
     for use in (
-        lambda: playing.find_agent(str(run.path)),
+        lambda: finding.find_agent(str(run.path)),
         lambda: publishing.publish(run, tmp_path / "agents", num_episodes=1),
         lambda: trainer.train(run),
     ):
@@ -221,17 +221,17 @@ def test_facts_that_make_no_sense_stop_a_run_from_being_resumed(facts, published
 def test_an_agent_kept_alone_that_is_damaged_is_refused_by_its_file(published, tmp_path):
     run = copy_of(published[0], tmp_path / "run")
     run.keep_agent_only()
-    assert playing.find_agent(str(run.path))
+    assert finding.find_agent(str(run.path))
     content = run.agent_path.read_bytes()
     for damaged in (content[:-1], b"", content[:-1] + bytes([content[-1] ^ 1])):
         run.agent_path.write_bytes(damaged)
         with pytest.raises(ValueError, match=f"^{run.agent_path} is damaged: .*; put back the agent's own$"):
-            playing.find_agent(str(run.path))
-    weights = playing.load_network(published[0]).half().state_dict()
+            finding.find_agent(str(run.path))
+    weights = finding.load_network(published[0]).half().state_dict()
     weights["policy.bias"][1] = math.inf
     run.agent_path.write_bytes(safetensors.save(weights))  # As files were before they had checksums.
     with pytest.raises(ValueError, match=f"^{run.agent_path} holds numbers that are not finite in policy.bias"):
-        playing.find_agent(str(run.path))
+        finding.find_agent(str(run.path))
 
 
 def test_a_configuration_of_a_larger_network_than_the_weights_have_is_refused_before_it_is_made(published, tmp_path):
@@ -241,7 +241,7 @@ def test_a_configuration_of_a_larger_network_than_the_weights_have_is_refused_be
     fields["train"]["agent"]["lstm_units"] = 65_536  # Would take 70 GB.
     (run.path / "config.json").write_text(json.dumps(fields))
     with pytest.raises(ValueError, match=f"^{run.agent_path} does not fit the configuration"):
-        playing.find_agent(str(run.path))
+        finding.find_agent(str(run.path))
 
 
 def test_a_run_names_its_commit_and_what_draws_its_images(tmp_path):

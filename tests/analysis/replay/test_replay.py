@@ -30,7 +30,7 @@ from physexp.agents.belief import config as belief_config
 from physexp.agents.belief import networks as belief_networks
 from physexp.agents.ppo import config as ppo
 from physexp.analysis import readings, replay
-from physexp.analysis.evaluation import playing
+from physexp.analysis.evaluation import finding, playing
 from physexp.analysis.replay import beliefs, live, recording, selection, words, writing
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
@@ -518,7 +518,7 @@ def test_an_episode_with_noise_is_enacted_as_it_was_and_no_ideal_is_shown_beside
 
 @pytest.mark.parametrize(("domain", "task"), TASKS)
 def test_an_episode_known_by_its_seed_and_index_is_enacted_as_it_was(domain, task):
-    network, config = playing.find_agent(f"{domain}/{task}")
+    network, config = finding.find_agent(f"{domain}/{task}")
     played = playing.play(network, config, 3, seed=fresh_seed())
     for index in range(3):
         episode = recording.reenact(
@@ -620,13 +620,13 @@ def test_agents_are_compared_though_one_has_chosen_what_the_other_has_by_default
     config = config_lib.TrainConfig(domain="which_is_heavier", task="features", agent=agent)
     run = run_lib.Run(tmp_path / "run")
     trainer.train(run, start=config)
-    assert not config.task_kwargs and playing.find_agent("which_is_heavier/features")[1].task_kwargs
+    assert not config.task_kwargs and finding.find_agent("which_is_heavier/features")[1].task_kwargs
     path = replay.replay([str(run.path), "which_is_heavier/features"], 1, tmp_path / "both.rrd")
     assert path.exists()
 
 
 def test_a_selection_is_what_it_says():
-    network, config = playing.find_agent("which_is_heavier/features")
+    network, config = finding.find_agent("which_is_heavier/features")
     play = functools.partial(playing.play, network, config)
     everything = play(256, seed=5)
     kinds = ("any", "right", "longest", "hardest")

@@ -5,7 +5,7 @@ import pytest
 import torch
 import trainers
 
-from physexp.analysis.evaluation import playing
+from physexp.analysis.evaluation import finding
 from physexp.analysis.training import trainer
 
 PRIOR = (2.0, 0.0, 0.0, 0.0, -2.0, -2.0, -2.0, -2.0)
@@ -13,7 +13,7 @@ PRIOR = (2.0, 0.0, 0.0, 0.0, -2.0, -2.0, -2.0, -2.0)
 
 def _first_policy(run):
     """Probabilities of the actions at an episode's start."""
-    network = playing.load_network(run)
+    network = finding.load_network(run)
     heights = torch.full((1, 4), 0.1)
     with torch.no_grad():
         logits, _, _ = network.step(network.encode({"heights": heights}), network.initial_state(1))

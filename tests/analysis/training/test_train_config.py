@@ -46,6 +46,11 @@ def test_equal_configurations_have_one_hash_and_one_name_whatever_the_order_of_t
     assert one != make_config(task_kwargs={"a": 0.5})
 
 
+def test_options_that_differ_in_the_last_digit_make_other_names():
+    one, other = (make_config(task_kwargs={"a": a}) for a in (3.0, 3.0000001))
+    assert "-a3-" in one.name and "-a3.0000001-" in other.name
+
+
 @pytest.mark.parametrize("wrong", [3, {"difficulty": None}, {"difficulty": [3]}, {3: 3}])
 def test_options_that_json_or_a_name_could_not_keep_are_refused(wrong):
     with pytest.raises(ValueError, match="task_kwargs"):
