@@ -22,7 +22,7 @@ def find_claims(frame) -> list[claims.Claim]:
     agents = randomized.per_agent(frame)
     names = agents.condition.unique()
     if len(names) == len(conditions.HEAVIER):
-        ratios = [estimates.ratio_of_pairs(*randomized.paired(agents, name, "length")).value for name in names]
+        ratios = [estimates.ratio_of_pairs(*randomized.paired(agents, name, "interactions")).value for name in names]
         found.append(
             claims.Claim(
                 text="Randomized interaction makes episodes neither longer nor shorter in all conditions",

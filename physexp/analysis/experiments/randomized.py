@@ -21,13 +21,13 @@ def load(results: base.Results, configs: Sequence[config_lib.TrainConfig], colum
 def per_agent(frame):
     """For each condition, agent and interaction: accuracy (timeouts left out, as in the paper) and means.
 
-    The means are those of the `length`, interactions before an answer, and of the `blocks` looked at, where counted.
+    The means are those of `interactions` before an answer, and of the `blocks` looked at, where counted.
     """
     answered = frame[frame.label >= 0]
     keys = ["condition", "training_seed", "interaction"]
     grouped = answered.assign(right=answered.reward > 0).groupby(keys, sort=False)
-    means = {name: (name, "mean") for name in ("blocks",) if name in frame}
-    return grouped.agg(accuracy=("right", "mean"), length=("interactions", "mean"), **means).reset_index()
+    means = {name: (name, "mean") for name in ("interactions", "blocks") if name in frame}
+    return grouped.agg(accuracy=("right", "mean"), **means).reset_index()
 
 
 def timeouts(frame):
@@ -58,7 +58,7 @@ def find_claims(frame, section: str, **of_lengths) -> list[claims.Claim]:
         )
         for name in names
     ]
-    lengths = {name: estimates.ratio_of_pairs(*paired(agents, name, "length")) for name in names}
+    lengths = {name: estimates.ratio_of_pairs(*paired(agents, name, "interactions")) for name in names}
     silent = timeouts(frame[frame.interaction == "random"])
     return [
         *accurate,
@@ -86,7 +86,7 @@ def draw(frame, configs: Sequence[config_lib.TrainConfig], ideal: Mapping[str, M
     names = [config.label for config in configs if config.label in set(agents.condition)]
     figure, panels = figures.new(columns=2, width=3.4, height=2.4)
     places = np.arange(len(names))
-    for axes, column, best in zip(panels, ("length", "accuracy"), ("mean_interactions", "accuracy"), strict=True):
+    for axes, column, best in zip(panels, ("interactions", "accuracy"), ("mean_interactions", "accuracy"), strict=True):
         for offset, interaction, color, hatch in (
             (-0.2, "learned", figures.COLORS[1], None),
             (0.2, "random", figures.COLORS[5], "///"),

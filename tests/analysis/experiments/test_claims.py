@@ -403,7 +403,7 @@ def test_timeouts_count_neither_for_the_accuracy_nor_for_the_length_of_randomize
         assert (rows.label < 0).any() == (one.interaction == "learned")
         rows = rows[rows.label >= 0]
         assert one.accuracy == (rows.reward > 0).sum() / len(rows)
-        assert one.length == pytest.approx(rows.interactions.sum() / len(rows))
+        assert one.interactions == pytest.approx(rows.interactions.sum() / len(rows))
 
 
 def test_an_agent_who_answers_only_when_it_chooses_its_pokes_is_left_out():
