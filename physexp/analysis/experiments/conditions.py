@@ -1,6 +1,6 @@
 """The conditions that agents are trained in: all of the paper's, each for as long as it takes to level off."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 import dataclasses
 import re
 from typing import Any
@@ -118,6 +118,15 @@ def with_belief(config: config_lib.TrainConfig, **changes: Any) -> config_lib.Tr
     agent = config_lib.preset(config.domain, config.task, algorithm="belief")
     agent = agent.replace(discount=config.agent.discount, frames=_BELIEF_FRAMES[config.label], **changes)
     return dataclasses.replace(config, agent=agent)
+
+
+def with_each_learner(configs: Sequence[config_lib.TrainConfig]) -> tuple[config_lib.TrainConfig, ...]:
+    """Returns conditions with A3C, with PPO, and with the belief learner in both tracks, one task after the other."""
+    return tuple(
+        config
+        for task in configs
+        for config in (task, with_ppo(task), with_belief(task), with_belief(task, answers_revealed=True))
+    )
 
 
 def with_task_kwargs(config: config_lib.TrainConfig, **task_kwargs: Any) -> config_lib.TrainConfig:

@@ -16,16 +16,7 @@ LEARNERS = {
 """The learners by their titles, in words."""
 
 CONDITIONS = (
-    *(
-        config
-        for task in scores.TASKS
-        for config in (
-            task,
-            conditions.with_ppo(task),
-            conditions.with_belief(task),
-            conditions.with_belief(task, answers_revealed=True),
-        )
-    ),
+    *conditions.with_each_learner(scores.TASKS),
     conditions.with_papers_learner(conditions.BY_LABEL["10-F"]),  # Where answers are learned the soonest.
 )
 

@@ -26,16 +26,7 @@ LEARNERS = {
 }
 """Learners by title; `belief_revealed` is told the right answer after each episode, the others their reward alone."""
 
-CONDITIONS = tuple(
-    config
-    for task in TASKS
-    for config in (
-        task,
-        conditions.with_ppo(task),
-        conditions.with_belief(task),
-        conditions.with_belief(task, answers_revealed=True),
-    )
-)
+CONDITIONS = conditions.with_each_learner(TASKS)
 LEAST_SHARE = 0.95  # Of the ideal's return, that an agent who has learned a domain earns.
 FLOOR = -0.1  # Of the figure; what is less is drawn there.
 _CLEAR = 0.8  # Of agents; a line above has no name in the figure, which would cover them.
