@@ -1,4 +1,4 @@
-"""Processes: how many can work side by side, what children inherit, and that none outlives its parent."""
+"""Processes: how many at a time, in how much memory, what children inherit, and that none outlives its parent."""
 
 import contextlib
 import multiprocessing
@@ -13,6 +13,7 @@ STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 _DEATH_SECONDS = 5.0  # For the system to take away what was killed.
 _QUOTA = Path("/sys/fs/cgroup/cpu.max")  # Of a container: processor time in each period, and the period, us.
+_MOST_MEMORY = Path("/sys/fs/cgroup/memory.max")  # Of a container, bytes.
 
 
 def num_cores() -> int:
@@ -23,6 +24,13 @@ def num_cores() -> int:
         if quota != "max":
             cores = min(cores, max(1, int(quota) // int(period)))
     return cores
+
+
+def memory() -> int:
+    """Returns how much memory this process may use, bytes: the machine's, or less by a container's limit."""
+    installed = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    most = _MOST_MEMORY.read_text().strip() if _MOST_MEMORY.exists() else "max"
+    return installed if most == "max" else min(installed, int(most))
 
 
 @contextlib.contextmanager

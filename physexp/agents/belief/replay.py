@@ -4,14 +4,13 @@ from collections.abc import Callable
 import dataclasses
 import functools
 import math
-import os
 
 import numpy as np
 import torch
 
-from physexp.agents import acting, rounds
+from physexp.agents import acting, processes, rounds
 
-_LARGEST_SHARE = 0.5  # Of the machine's memory.
+_LARGEST_SHARE = 0.5  # Of the memory that there is.
 
 
 @dataclasses.dataclass(frozen=True)
@@ -59,16 +58,16 @@ class Replay:
         """Makes room for rounds of episodes of at most `longest` actions, and for what was seen, as numbers of a type.
 
         Raises:
-          ValueError: if they would take more than half of the machine's memory.
+          ValueError: if they would take more than half of the memory that there is.
         """
         steps = num_rounds, longest, num_environments
         num_bytes = math.prod(steps) * num_inputs * np.dtype(dtype).itemsize
-        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+        memory = processes.memory()
         if num_bytes > _LARGEST_SHARE * memory:
             fitting = int(num_rounds * num_environments * _LARGEST_SHARE * memory / num_bytes)
             raise ValueError(
                 f"{num_rounds * num_environments:,} episodes to learn from take {num_bytes / 1e9:.1f} GB, "
-                f"and this machine has {memory / 1e9:.1f} GB; give replay_episodes at most {fitting}"
+                f"and there are {memory / 1e9:.1f} GB; give replay_episodes at most {fitting}"
             )
         # Memory is taken when something is written to it.
         self._inputs: np.ndarray = np.zeros((*steps, num_inputs), dtype)
