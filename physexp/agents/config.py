@@ -54,9 +54,13 @@ class AgentConfig:
         """Returns a copy with some values changed."""
         return dataclasses.replace(self, **changes)
 
-    def learning_rate_at(self, progress: float) -> float:
-        """Returns the step size when this share of training is done."""
-        return self.learning_rate * (1 - progress)
+    def progress(self, frames: int) -> float:
+        """Returns the share of training that is done after some frames, 1 where it went on for longer."""
+        return min(1.0, frames / self.frames)
+
+    def learning_rate_at(self, frames: int) -> float:
+        """Returns the step size after some frames."""
+        return self.learning_rate * (1 - self.progress(frames))
 
     @property
     def title(self) -> str:
@@ -147,13 +151,14 @@ class ActorCriticConfig(AgentConfig):
         """Returns what the entropy bonus is relative to, logits of the actions; none for the uniform policy."""
         return self.action_prior if self.relative_entropy else ()
 
-    def at(self, progress: float) -> tuple[float, float]:
-        """Returns step size and weight of the entropy bonus when this share of training is done."""
+    def at(self, frames: int) -> tuple[float, float]:
+        """Returns step size and weight of the entropy bonus after some frames."""
+        progress = self.progress(frames)
         if self.entropy_cost and self.final_entropy_cost:
             entropy_cost = self.entropy_cost ** (1 - progress) * self.final_entropy_cost**progress
         else:
             entropy_cost = self.entropy_cost * (1 - progress)
-        return self.learning_rate_at(progress), entropy_cost
+        return self.learning_rate_at(frames), entropy_cost
 
     def __post_init__(self):
         super().__post_init__()

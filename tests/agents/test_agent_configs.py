@@ -121,17 +121,19 @@ def test_entropy_is_relative_to_the_prior_only_where_that_is_wanted():
 
 
 def test_costs_and_rates_decay_over_training():
-    config = a3c.A3CConfig(learning_rate=0.1, entropy_cost=0.1, final_entropy_cost=0.001)
-    assert config.at(0.0) == (0.1, 0.1)
+    config = a3c.A3CConfig(frames=1000, learning_rate=0.1, entropy_cost=0.1, final_entropy_cost=0.001)
+    assert config.at(0) == (0.1, 0.1)
     # Halfway: the rate has lost half, the entropy cost is the geometric mean of 0.1 and 0.001.
-    assert config.at(0.5) == pytest.approx((0.05, 0.01))
-    assert config.at(1.0) == pytest.approx((0.0, 0.001))
+    assert config.at(500) == pytest.approx((0.05, 0.01))
+    assert config.at(1000) == pytest.approx((0.0, 0.001))
+    assert config.at(1001) == config.at(1000), "the last round may go on for longer"
 
 
 def test_a_bonus_that_ends_at_0_decays_linearly_and_one_that_is_0_stays_so():
-    ending, without = a3c.A3CConfig(entropy_cost=0.1, final_entropy_cost=0.0), a3c.A3CConfig(entropy_cost=0.0)
-    assert [ending.at(done)[1] for done in (0.0, 0.25, 1.0)] == pytest.approx([0.1, 0.075, 0.0])
-    assert [without.at(done)[1] for done in (0.0, 0.25, 1.0)] == [0.0, 0.0, 0.0]
+    ending = a3c.A3CConfig(frames=1000, entropy_cost=0.1, final_entropy_cost=0.0)
+    without = a3c.A3CConfig(frames=1000, entropy_cost=0.0)
+    assert [ending.at(frames)[1] for frames in (0, 250, 1000)] == pytest.approx([0.1, 0.075, 0.0])
+    assert [without.at(frames)[1] for frames in (0, 250, 1000)] == [0.0, 0.0, 0.0]
 
 
 def test_values_at_the_edge_of_what_is_allowed_are_taken():

@@ -183,7 +183,7 @@ class A3CLearner(core.Learner):
 
     def _learn(self, pulled: Pulled) -> Contribution:
         config = self._config
-        learning_rate, entropy_cost = config.at(min(1.0, pulled.frames / config.frames))
+        learning_rate, entropy_cost = config.at(pulled.frames)
         self.last_round = episodes = self._play(pulled.episode)
         parts = round_losses(self._network, episodes, config.discount, config.trace, config.entropy_prior)
         gradients, metrics = learning.actor_critic_gradients(

@@ -87,21 +87,21 @@ class BeliefLearner(synchronous.SynchronousLearner):
         steps_before = int(variables.frames) // config.frames_per_step
         variables.rounds += 1
         variables.count(played.num_frames)
-        progress = min(1.0, int(variables.frames) / config.frames)
+        learning_rate = config.learning_rate_at(int(variables.frames))
         generator = np.random.default_rng([config.seed, number])
         figures = []
         with torch.random.fork_rng(devices=[]):  # Which draws what drops out.
             torch.manual_seed(int(generator.integers(2**63)))
             for _ in range(int(variables.frames) // config.frames_per_step - steps_before):
                 drawn = variables.episodes.sample(generator, config.batch_size, config.num_members, number + 1)
-                figures.append(self._learn(drawn, config.learning_rate_at(progress)))
+                figures.append(self._learn(drawn, learning_rate))
         variables.hand_out()
         return {
             **{name: float(np.mean([each[name] for each in figures or [_NOTHING]])) for name in _NOTHING},
             "greedy_success_rate": float((greedy_returns > 0).double().mean()),
             "greedy_return": float(greedy_returns.mean()),
             **self._calibration(),
-            "learning_rate": config.learning_rate_at(progress),
+            "learning_rate": learning_rate,
             "updates": int(variables.updates),
             "frames": int(variables.frames),
         }

@@ -28,7 +28,7 @@ class PPOLearner(synchronous.SynchronousLearner):
         """Plays a round, and goes through it several times, in parts of whole episodes."""
         config, variables = self._config, self.variables
         episode = self.next_episode
-        learning_rate, entropy_cost = config.at(min(1.0, variables.frames.item() / config.frames))
+        learning_rate, entropy_cost = config.at(int(variables.frames))
         self.last_round = episodes = self._play(episode)
         generator = np.random.default_rng([config.seed, episode])
         figures = []

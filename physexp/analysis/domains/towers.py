@@ -117,8 +117,7 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolu
     from physexp.analysis.ideal import bounds, search
 
     if bounds.is_certain(task_kwargs):
-        tolerance = _STEP / 2 if task.startswith("fist") else None
-        return search.solve(hypotheses(task, task_kwargs), resolution, discount, tolerance=tolerance)
+        return search.solve(hypotheses(task, task_kwargs), resolution, discount, tolerance=_TOLERANCES.get(task))
     if task not in _RULES:
         raise ValueError(f"task is {task!r}; with noise or variation, choose from {', '.join(_RULES)}")
     told = {name: value for name, value in task_kwargs.items() if name != "noise"}
@@ -145,7 +144,9 @@ def _drawn_nuisances(task: str, task_kwargs: Mapping[str, Any]):
 
 
 _NUM_NUISANCES = 16
-_STEP = 0.1  # m, that the fist moves in a control step; wherever it wanders, it may stand at any of countless places
+# m and m/s: a fist that wanders may stand at any of countless places, so when somebody's play is judged, situations are
+# taken for one that differ by less than half of what it moves in a control step.
+_TOLERANCES = dict.fromkeys(("fist_features", "fist_pixels"), 0.05)
 _FINE = 0.001  # m, the least that agents from features are taken to tell apart.
 _RULES = {
     "direct_features": (4, 14),  # Push cube 1 to +x, and cube 3 to +y.

@@ -63,20 +63,24 @@ def svg(figure) -> bytes:
 
 def save(figure, folder: Path, name: str) -> list[Path]:
     """Writes a figure as SVG and PNG and closes it; returns the paths."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / f"{name}.svg").write_bytes(svg(figure))
+    return [folder / f"{name}.svg", save_png(figure, folder / f"{name}.png")]
+
+
+def save_png(figure, path: Path) -> Path:
+    """Writes a figure as PNG and closes it; returns the path."""
     from matplotlib import pyplot
     from PIL import Image
 
-    folder.mkdir(parents=True, exist_ok=True)
-    paths = [folder / f"{name}.svg", folder / f"{name}.png"]
-    paths[0].write_bytes(svg(figure))
     drawn = io.BytesIO()
     with style():
         figure.savefig(drawn, dpi=_DPI, format="png")
     # A figure has few colours: a palette of 256 makes the file a third as large.
     palette = Image.open(drawn).convert("RGB").quantize(256, dither=Image.Dither.NONE)
-    palette.save(paths[1], optimize=True, dpi=(_DPI, _DPI))
+    palette.save(path, optimize=True, dpi=(_DPI, _DPI))
     pyplot.close(figure)
-    return paths
+    return path
 
 
 def reference(axes, level: float, text: str, vertical: bool = False, at: float = 1.0) -> None:

@@ -161,8 +161,9 @@ def _draw_costs(axes, frame) -> None:
 
 
 def _draw_resolutions(axes, towers: dict[str, list[dict]]) -> None:
-    for number, (task, rows) in enumerate((task, rows) for task, rows in towers.items() if "features" in task):
-        rows = [row for row in rows if row["objective"] == "time" and row["value"] is not None]
+    tasks = [each.task for each in conditions.TOWERS if conditions.observations(each) == "features"]
+    for number, task in enumerate(tasks):
+        rows = [row for row in towers[task] if row["objective"] == "time" and row["value"] is not None]
         axes.plot(
             [max(row["resolution"], 3e-4) * 1e3 for row in rows],
             [row["mean_seconds"] for row in rows],
@@ -170,7 +171,7 @@ def _draw_resolutions(axes, towers: dict[str, list[dict]]) -> None:
             linestyle=figures.DASHES[number],
             marker=figures.MARKERS[number],
             markersize=3.5,
-            label=task.split("_")[0],
+            label=conditions.tick(conditions.label("towers", task)),
         )
     axes.set(
         xscale="log",
