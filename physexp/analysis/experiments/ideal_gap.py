@@ -60,7 +60,7 @@ def _ideal_of(condition, episodes, stored: dict[str, list[dict]]) -> dict[str, f
         summary, costs = ideal_towers.best(stored[condition.task]), {}
     else:
         solution = conditions.ideal(condition)
-        summary = solution.summary()
+        summary = solution.figures()
         masses = np.stack(episodes.masses.to_numpy())
         actions = list(episodes.actions)
         costs = mistakes.of_episodes(solution.judge_all(masses, actions), actions, condition.agent.discount)

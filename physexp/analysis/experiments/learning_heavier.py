@@ -57,7 +57,7 @@ def find_claims(frame) -> list[claims.Claim]:
 def draw(frame):
     """A panel for each kind of observation."""
     curves = learning.smoothed(frame)
-    accuracies = [conditions.heavier_ideal(beta).summary()["accuracy"] for beta in conditions.DIFFICULTIES]
+    accuracies = [conditions.heavier_ideal(beta).figures()["accuracy"] for beta in conditions.DIFFICULTIES]
     kinds = [kind for kind in conditions.OBSERVATIONS if (frame.task == kind).any()]
     figure, panels = figures.new(columns=len(kinds), sharey=True, squeeze=False)
     for axes, kind in zip(panels[0], kinds, strict=True):

@@ -58,7 +58,7 @@ def draw(frame):
             axes.plot([place] * len(mean), mean, "o", color="black", markersize=1.6, alpha=0.6)
         for place, name in zip(places, names, strict=True):
             (difficulty,) = frame.difficulty[frame.condition == name].unique()
-            best = conditions.heavier_ideal(float(difficulty), discount).summary()["mean_interactions"]
+            best = conditions.heavier_ideal(float(difficulty), discount).figures()["mean_interactions"]
             ends = [place + shift - 0.18, place + shift + 0.18]
             axes.plot(ends, [best] * 2, "k", linestyle=figures.DASHES[2], label=None if number or place else "ideal")
     axes.set_xticks(places, [conditions.tick(name).replace(", ", "\n") for name in names])

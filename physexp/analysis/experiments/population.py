@@ -72,7 +72,7 @@ def draw(frame):
             alpha=0.75,
             label="agents",
         )
-        solution = conditions.heavier_ideal(beta).summary()
+        solution = conditions.heavier_ideal(beta).figures()
         best = np.zeros(len(bins))
         best[: len(solution["histogram"])] = list(solution["histogram"].values())
         axes.stairs(best, np.arange(len(bins) + 1) - 0.5, color=figures.GREY, linewidth=1.3, label="ideal")

@@ -56,7 +56,7 @@ def load(results: base.Results):
 
 def draw(frame):
     """Draws with the ideal experimenters."""
-    ideal = {config.label: conditions.ideal(config).summary() for config in conditions.HEAVIER}
+    ideal = {config.label: conditions.ideal(config).figures() for config in conditions.HEAVIER}
     return randomized.draw(frame, conditions.HEAVIER, ideal)
 
 

@@ -59,7 +59,7 @@ class Strategy:
     def figure(self, frame: pandas.DataFrame):
         """Interactions before the answer beside the ideal's, and what is done."""
         figure, (left, right) = figures.new(columns=2, width=3.0, height=2.3)
-        best = conditions.ideal(self.condition).summary()["histogram"]
+        best = conditions.ideal(self.condition).figures()["histogram"]
         longest = max(len(best), int(frame.interactions.max()) + 1)
         shares = np.bincount(frame.interactions, minlength=longest) / len(frame)
         left.bar(np.arange(longest), shares, color=figures.COLORS[1], width=0.8, alpha=0.75, label="agents")

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 import dataclasses
+import math
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
@@ -76,11 +77,37 @@ class Solution(Protocol):
           ValueError: if it cannot be known.
         """
 
-    def summary(self) -> dict[str, Any]:
-        """Returns figures by name: `value`, `accuracy`, `mean_interactions`, `histogram`, and the family's own.
+    def figures(self) -> dict[str, Any]:
+        """Returns what the function `figures` does."""
 
-        The histogram is the share of episodes for each number of interactions.
-        """
+    def summary(self) -> dict[str, Any]:
+        """Returns the figures, and the family's own, above all what others earn: `at_once`, `random_value`."""
+
+
+def figures(
+    solution: Solution, interactions: np.ndarray, right: np.ndarray, shares: np.ndarray | None = None
+) -> dict[str, Any]:
+    """Returns what a solution is worth and how it plays, by name.
+
+    Args:
+      solution: what is played.
+      interactions: numbers of interactions before the answer, of some episodes, int64 [N].
+      right: whether the answers are right, bool [N].
+      shares: what share of all episodes each of these stands for, float64 [N]; by default the same.
+
+    Returns:
+      `value` and `bound` of the solution, None where they are not finite; `accuracy`; `mean_interactions`; and
+      `histogram`, the share of episodes for each number of interactions.
+    """
+    if shares is None:
+        shares = np.full(len(right), 1 / len(right))
+    histogram = np.bincount(interactions, shares)
+    return {
+        **{name: figure if math.isfinite(figure := getattr(solution, name)) else None for name in ("value", "bound")},
+        "accuracy": float(shares @ right),
+        "mean_interactions": float(shares @ interactions),
+        "histogram": {number: float(share) for number, share in enumerate(histogram)},
+    }
 
 
 _Numbers = TypeVar("_Numbers", float, np.ndarray)

@@ -98,17 +98,13 @@ class Solution:
         """Raises ValueError, as `beliefs` does."""
         raise ValueError("what actions are worth is known where there is neither noise nor variation")
 
-    def summary(self) -> dict[str, Any]:
-        """Returns `value`, `bound`, the standard errors of both, `accuracy`, `mean_interactions` and `histogram`."""
+    def figures(self) -> dict[str, Any]:
+        """Returns what `base.figures` does."""
         rewards, lengths = self._episodes
+        return base.figures(self, lengths - 1, rewards > 0)
+
+    def summary(self) -> dict[str, Any]:
+        """Returns the figures, and the standard errors of value and bound: `value_error`, `bound_error`."""
         spread = self._bounds.std(ddof=1) / math.sqrt(len(self._bounds)) if len(self._bounds) > 1 else 0.0
-        shares = np.bincount(lengths - 1) / len(lengths)
-        return {
-            "value": self.value,
-            "value_error": float(self._returns.std(ddof=1) / math.sqrt(len(rewards))),
-            "bound": self.bound,
-            "bound_error": float(spread),
-            "accuracy": float((rewards > 0).mean()),
-            "mean_interactions": float((lengths - 1).mean()),
-            "histogram": {number: float(share) for number, share in enumerate(shares)},
-        }
+        error = self._returns.std(ddof=1) / math.sqrt(len(self._returns))
+        return {**self.figures(), "value_error": float(error), "bound_error": float(spread)}

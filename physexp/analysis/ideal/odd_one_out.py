@@ -209,18 +209,13 @@ class Solution:
         parts = [slice(start, end) for start, end in zip(ends - lengths, ends, strict=True)]
         return [base.Judgement(beliefs[part], worth[part][:-1], tells[part][:-1]) for part in parts]
 
+    def figures(self) -> dict[str, Any]:
+        """Returns what `base.figures` does."""
+        return base.figures(self, *_evenly_drawn_episodes(self))
+
     def summary(self) -> dict[str, Any]:
-        """Returns `value`, `at_once`, `random_value`, `accuracy`, `mean_interactions` and `histogram`."""
-        touches, right = _evenly_drawn_episodes(self)
-        shares = np.bincount(touches, minlength=self.prior.num_things + 1) / len(touches)
-        return {
-            "value": self.value,
-            "at_once": self.at_once,
-            "random_value": self.random_value,
-            "accuracy": float(right.mean()),
-            "mean_interactions": float(touches.mean()),
-            "histogram": {number: float(share) for number, share in enumerate(shares)},
-        }
+        """Returns the figures, `at_once` and `random_value`."""
+        return {**self.figures(), "at_once": self.at_once, "random_value": self.random_value}
 
 
 class _Player(core.Actor):

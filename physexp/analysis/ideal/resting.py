@@ -252,21 +252,15 @@ class Solution:
             found[label] = step, action - self.apparatus.num_interactions == label
         return found[labels, 0], found[labels, 1].astype(bool)
 
-    def summary(self) -> dict[str, Any]:
-        """`value`, `bound`, `at_once`, `random_value`, `accuracy`, `mean_interactions` and `histogram`."""
+    def figures(self) -> dict[str, Any]:
+        """Returns what `base.figures` does."""
         prior = self.apparatus.posterior(self.apparatus.start)
         (labels,) = prior.nonzero()
-        interactions, right = self.play(labels)
-        shares = np.bincount(interactions, prior[labels])
-        return {
-            "value": self.value,
-            "bound": self.bound,
-            "at_once": self.at_once,
-            "random_value": self.random_value,
-            "accuracy": float(prior[labels] @ right),
-            "mean_interactions": float(prior[labels] @ interactions),
-            "histogram": {number: float(share) for number, share in enumerate(shares)},
-        }
+        return base.figures(self, *self.play(labels), prior[labels])
+
+    def summary(self) -> dict[str, Any]:
+        """Returns the figures, `at_once` and `random_value`."""
+        return {**self.figures(), "at_once": self.at_once, "random_value": self.random_value}
 
 
 class _Player(core.Actor):

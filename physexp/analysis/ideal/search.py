@@ -188,6 +188,15 @@ class Solution:
             found.append((interactions, node.label == answer))
         return np.array(found, np.int64)
 
+    def figures(self) -> dict[str, Any]:
+        """Returns what `base.figures` does, and `mean_seconds`.
+
+        The value is None where the right label cannot be known for certain within the depth of the search.
+        """
+        interactions, right = self.outcomes().T
+        found = base.figures(self, interactions, right, self.hypotheses.prior)
+        return {**found, "mean_seconds": found["mean_interactions"] * self.hypotheses.task.control_timestep}
+
     def summary(self) -> dict[str, Any]:
         """Returns what `figures` does, and for the return what others earn, see `random_play.Bounds`."""
         if self.objective != "return":
@@ -197,25 +206,6 @@ class Solution:
     @functools.cached_property
     def _others(self) -> random_play.Bounds:
         return random_play.bounds(self.situations, self.discount)
-
-    def figures(self) -> dict[str, Any]:
-        """Returns `value`, `bound`, `accuracy`, `mean_interactions`, `mean_seconds` and `histogram`.
-
-        The value is None where the right label cannot be known for certain within the depth of the search.
-        """
-        interactions, right = self.outcomes().T
-        prior = self.hypotheses.prior
-        mean = float(prior @ interactions)
-        shares = np.bincount(interactions, prior)
-        value, bound = (figure if math.isfinite(figure) else None for figure in (self.value, self.bound))
-        return {
-            "value": value,
-            "bound": bound,
-            "accuracy": float(prior @ right),
-            "mean_interactions": mean,
-            "mean_seconds": mean * self.hypotheses.task.control_timestep,
-            "histogram": {number: float(share) for number, share in enumerate(shares)},
-        }
 
 
 def solve(
