@@ -15,12 +15,14 @@ from typing import get_args, get_type_hints
 
 import evaluation_figures
 import pytest
+from rerun.chunk import RrdReader
 
 import physexp as package
 from physexp import extras, suite
 from physexp.analysis import bench, doctor, experiments
 from physexp.analysis.evaluation import finding, playing
 from physexp.analysis.experiments import conditions
+from physexp.analysis.ideal import kept
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import progress
 from physexp.cli import commands, options, parsing, printing
@@ -450,6 +452,12 @@ def test_a_run_is_not_resumed_as_another_task(run, untrained):
     assert_refused(done, "which_is_heavier/features")
 
 
+def test_an_argument_that_is_empty_is_refused(run):
+    assert_refused(run("evaluate", ""), "an argument is empty, as an unset variable of the shell is")
+    assert_refused(run("train", "threshold", "features", "--run-dir", ""), "an argument is empty")
+    assert list(Path.cwd().iterdir()) == []
+
+
 def test_what_is_in_the_folder_of_a_run_is_not_taken_for_an_agent(run, untrained):
     file = untrained.path / "config.json"
     assert_refused(run("evaluate", file), f"{file} is a file; give the folder of a run")
@@ -463,7 +471,7 @@ def test_a_second_trainer_in_the_same_folder_is_refused(run, untrained):
 
 def test_evaluate_prints_exactly_its_figures_as_json(run, untrained):
     outputs = []
-    for extra in ([], [], ["--interaction", "random"], ["--greedy"]):
+    for extra in ([], [], ["--interaction", "random"], ["--greedy"], ["--seed", 3]):
         done = run("evaluate", untrained.path, "--episodes", 40, "--json", *extra)
         assert done.returncode == 0, done.stderr
         figures = json.loads(done.stdout)
@@ -473,7 +481,7 @@ def test_evaluate_prints_exactly_its_figures_as_json(run, untrained):
         assert 0 <= low <= figures["success_rate"] <= high <= 1
         outputs.append(figures)
     assert outputs[0] == outputs[1], "the default seed makes it repeatable"
-    assert outputs[0] != outputs[2], "randomized interaction is something else"
+    assert all(outputs[0] != other for other in outputs[2:]), "each of these options makes a difference"
 
 
 def test_evaluate_without_json_prints_the_same_names(run, untrained):
@@ -525,3 +533,46 @@ def test_a_reader_that_has_seen_enough_is_no_error_of_ours(arguments):
         process.stdout = None
         _, errors = process.communicate()
     assert errors == "" and process.returncode == 1
+
+
+TINY = ("--agent", "ppo", "--num-environments", 32, "--num-epochs", 1, "--num-minibatches", 2, "--frames", 1500)
+
+
+def test_training_writes_replays_as_often_as_it_is_told_and_says_where_nothing_was_learned(run):
+    always = ("--checkpoint-seconds", 0.01, "--learning-rate", 1e-9)
+    done = run("train", "towers", "fist_features", *TINY, *always, "--replay-every", 500, "--run-dir", "often")
+    assert done.returncode == 0 and done.stdout.splitlines()[-1] == "often"
+    assert "no better than chance" in done.stderr or "fell silent" in done.stderr, done.stderr
+    assert 1 <= len(list(Path("often/replays").glob("*.rrd"))) <= 3
+    done = run("train", "towers", "fist_features", *TINY, *always, "--replay-every", 0, "--run-dir", "never")
+    assert done.returncode == 0 and not Path("never/replays").exists()
+
+
+def test_an_ideal_is_kept_where_that_is_asked_for(run, monkeypatch):
+    keeping = []
+    monkeypatch.setattr(kept, "keep", keeping.append)
+    assert run("ideal", "strike", "--discount", 0.5).returncode == 0 and not keeping
+    assert run("ideal", "strike", "--discount", 0.5, "--keep").returncode == 0
+    (solution,) = keeping
+    assert solution.discount == 0.5 and solution.hypotheses.path.name == "strike-features.npz"
+
+
+def test_a_score_is_of_likeliest_actions_or_of_a_hundred_episodes_where_that_is_asked_for(run):
+    usual = ("score", "threshold/features", "--json", "--output")
+    few = json.loads(run(*usual, "few", "--episodes", 50).stdout)
+    greedy = json.loads(run(*usual, "greedy", "--episodes", 50, "--greedy").stdout)
+    quick = json.loads(run(*usual, "quick", "--quick").stdout)
+    counts = [found["tasks"]["threshold/features"]["episodes"] for found in (few, greedy, quick)]
+    assert counts == [50, 50, 100]
+    assert [found["greedy"] for found in (few, greedy, quick)] == [False, True, False]
+    assert (Path("quick") / "report.html").exists()
+
+
+def test_a_replay_is_of_chosen_episodes_or_of_two_agents(run):
+    done = run("replay", "which_is_heavier/features", "--select", "wrong", "--interaction", "random", "--episodes", 1)
+    assert done.returncode == 0 and "wrong" in done.stderr + done.stdout
+    done = run("replay", "towers/fist_features", "--compare", "a3c/towers-fist_features", "--output", "both.rrd")
+    assert done.returncode == 0, done.stderr
+    both = RrdReader("both.rrd")
+    names = {str(chunk.entity_path) for chunk in both.stream(store=both.recordings()[0])}
+    assert {"/A/belief/value", "/B/belief/value"} <= names

@@ -8,6 +8,7 @@ import sys
 import blocks
 import numpy as np
 import pytest
+from seeds import fresh_seed
 
 from physexp import suite
 from physexp.analysis.experiments import base
@@ -20,12 +21,6 @@ import bolted  # noqa: E402
 import haste  # noqa: E402
 import poke_all  # noqa: E402
 import train_bolted  # noqa: E402
-
-
-def fresh_seed() -> int:
-    seed = np.random.SeedSequence().entropy % 2**32
-    print("seed", seed)
-    return seed
 
 
 def pages():

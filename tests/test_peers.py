@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from seeds import fresh_seed
 import torch
 
 from physexp import suite
@@ -65,6 +66,7 @@ def test_a_policy_remembers_within_an_episode_and_nothing_of_the_one_before(peer
 
 
 def test_the_network_of_skrl_says_the_same_of_sequences_in_which_episodes_end_as_step_by_step():
+    torch.manual_seed(fresh_seed())
     length, count = 16, 3
     policy = importlib.import_module("skrl_ppo").Policy(STRINGS, count)
     observed = torch.rand(length, count, policy.num_observations)

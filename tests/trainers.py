@@ -8,7 +8,6 @@ import signal
 import sys
 
 import commands
-import numpy as np
 from waiting import wait_until
 
 from physexp.agents.a3c import config as a3c
@@ -18,12 +17,6 @@ from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 
 PHYSEXP = Path(sys.executable).with_name("physexp")
-
-
-def fresh_seed() -> int:
-    seed = np.random.SeedSequence().entropy % 2**32
-    print("seed", seed)
-    return seed
 
 
 SMALL = {

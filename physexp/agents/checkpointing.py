@@ -193,7 +193,7 @@ class Checkpointer:
         """Returns the tensors and facts of the newest checkpoint that is whole, or None where there is none at all.
 
         Args:
-          tell: called with a line for each one that is damaged.
+          tell: called with a line for each one that is damaged, where there is one before it that is whole.
           accept: called with those tensors and facts; raises ValueError if they do not fit.
           most: bytes that the tensors' file may have.
 
@@ -208,17 +208,19 @@ class Checkpointer:
             try:
                 tensors, facts = _read(path, most)
             except core.DamagedError as error:
-                damaged.append(f"{path.name}: {error}")
-                tell(f"{path} is damaged ({error}); the one before it is used")
+                damaged.append((path, str(error)))
                 continue
+            for newer, fault in damaged:
+                tell(f"{newer} is damaged ({fault}); the one before it is used")
             try:
                 accept(tensors, facts)
             except ValueError as error:
                 raise ValueError(f"{path}: {error}") from None
             return tensors, facts
         if damaged:
+            newest, fault = damaged[0]
             raise ValueError(
-                f"no checkpoint in {self._folder} is whole ({damaged[0]}); remove that folder to start over"
+                f"no checkpoint in {self._folder} is whole ({newest.name}: {fault}); remove that folder to start over"
             )
         return None
 

@@ -64,6 +64,8 @@ def parse(arguments: list[str]) -> Any:
       SystemExit: after printing help, where that is asked for.
       ValueError: if they describe none; one line says what was given and what is allowed.
     """
+    if "" in arguments:
+        raise ValueError("an argument is empty, as an unset variable of the shell is; give a value or leave it out")
     command = _Command(arguments)
 
     def refuse(event: tyro_errors.ParseErrorEvent) -> NoReturn:

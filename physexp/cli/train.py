@@ -71,9 +71,7 @@ class Train(Generic[Config, options_lib.Options]):
             with contextlib.ExitStack() as stack:
                 stack.enter_context(run.locked())
                 run.check_resumable() if self.resume else run.check_new()
-                if self.resume and run.is_finished:
-                    frames = config.agent.frames
-                    printing.warn(f"{run.path} has had its {frames:,} frames; to train longer, train anew with more")
+                is_finished = self.resume and run.is_finished
                 if self.cluster is not None:
                     from physexp.analysis.reproduction import cluster
 
@@ -95,6 +93,9 @@ class Train(Generic[Config, options_lib.Options]):
                     on_checkpoint = training.Writer(run, config)
                 start = None if self.resume else config
                 trainer.train(run, report, self.cluster is not None, printing.warn, start, on_checkpoint)
+                if is_finished:
+                    frames = config.agent.frames
+                    printing.warn(f"{run.path} has had its {frames:,} frames; to train longer, train anew with more")
         except KeyboardInterrupt:
             self._tell_how_to_go_on(run)
             raise

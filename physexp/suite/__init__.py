@@ -49,7 +49,15 @@ def tags(domain_name, task_name) -> frozenset[str]:
 
 
 def tagged(*wanted: str) -> tuple[tuple[str, str], ...]:
-    """Returns the (domain name, task name) pairs of the tasks that have all of these tags."""
+    """Returns the (domain name, task name) pairs of the tasks that have all of these tags.
+
+    Raises:
+      ValueError: for a tag that no task has.
+    """
+    known = sorted({tag for pair in ALL_TASKS for tag in tags(*pair)})
+    for tag in wanted:
+        if tag not in known:
+            raise ValueError(f"tag is {checks.shown(tag)}; known tags: {', '.join(known)}")
     return tuple(pair for pair in ALL_TASKS if tags(*pair).issuperset(wanted))
 
 

@@ -198,10 +198,13 @@ class VectorEnvironment(vector_env.VectorEnv):
         """Starts the next episode everywhere; with a seed, the first of each: `environment_seed(seed, i)`.
 
         Raises:
-          ValueError: for a list of seeds: the batch derives them from one, an integer in [0, 2**63).
+          ValueError: for a list of seeds: the batch derives them from one, an integer in [0, 2**63); or for a
+            `reset_mask` among the options.
         """
         if seed is not None:
             seed = checks.integer("seed", seed, 0, seeding.LARGEST_SEED)
+        if "reset_mask" in (options or {}):
+            raise ValueError("options has a reset_mask; reset all: where an episode has ended, a step begins the next")
         super().reset(seed=seed)
         if seed is not None or not self._seeded:
             self._batch.reseed(int(self.np_random.integers(2**32)) if seed is None else seed)

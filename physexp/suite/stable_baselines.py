@@ -12,6 +12,7 @@ import numpy as np  # noqa: E402
 from stable_baselines3.common.vec_env import base_vec_env  # noqa: E402
 
 from physexp.suite import gymnasium as gymnasium_lib  # noqa: E402
+from physexp.suite.engine import checks, seeding  # noqa: E402
 
 
 class VecEnv(base_vec_env.VecEnv):
@@ -46,6 +47,14 @@ class VecEnv(base_vec_env.VecEnv):
             spaces.Discrete(self._batch.action_spec().num_values),
         )
         cast(Any, self.metadata)["render_fps"] = gymnasium_lib.frames_per_second(self._batch.task)
+
+    def seed(self, seed: int | None = None):
+        """Has the next reset start the first episodes of another seed, by default a random one.
+
+        Raises:
+          ValueError: if the seed is no integer in [0, 2**63).
+        """
+        return super().seed(None if seed is None else checks.integer("seed", seed, 0, seeding.LARGEST_SEED))
 
     def reset(self):
         if self._seeds[0] is not None:  # `seed` has been called: it takes effect with the next reset.

@@ -3,18 +3,13 @@
 import numpy as np
 import pytest
 from scipy import stats
+from seeds import fresh_seed
 import torch
 
 from physexp import suite
 from physexp.agents import acting, devices, environment_loop, networks, rounds
 
 torch.set_num_threads(1)  # As a worker does; more of them only wait for each other.
-
-
-def fresh_seed() -> int:
-    seed = np.random.SeedSequence().entropy % 2**32
-    print("seed", seed)
-    return seed
 
 
 def make_network(environment, seed, kind=networks.RecurrentActorCritic):

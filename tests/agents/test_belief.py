@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from seeds import fresh_seed
 import torch
 
 from physexp import suite
@@ -16,12 +17,6 @@ from physexp.agents.belief import losses, networks, replay
 
 torch.set_num_threads(1)
 SMALL = config_lib.BeliefConfig(num_environments=8, units=4, batch_size=16, frames=600, replay_episodes=64)
-
-
-def fresh_seed() -> int:
-    seed = np.random.SeedSequence().entropy % 2**32
-    print("seed", seed)
-    return seed
 
 
 def load(domain, task, seed, num_environments=8, num_threads=1):

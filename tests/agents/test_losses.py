@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from seeds import fresh_seed
 import torch
 
 from physexp import suite
@@ -31,9 +32,7 @@ def test_nothing_is_bootstrapped_past_an_episodes_end():
 
 
 def test_advantages_with_a_trace_of_one_are_returns_minus_values():
-    seed = np.random.SeedSequence().entropy % 2**32
-    print("seed", seed)
-    generator = torch.Generator().manual_seed(seed)
+    generator = torch.Generator().manual_seed(fresh_seed())
     rewards, values = (torch.randn(6, 4, generator=generator) for _ in range(2))
     lengths = torch.tensor([1, 3, 5, 6])
     discounts = 0.9 * (torch.arange(6)[:, None] < lengths - 1)
@@ -89,9 +88,7 @@ def test_the_entropy_relative_to_a_prior_is_what_pulls_the_policy_towards_it():
 
 
 def test_the_losses_do_not_care_how_the_leading_axes_are_laid_out():
-    seed = np.random.SeedSequence().entropy % 2**32
-    print("seed", seed)
-    generator = torch.Generator().manual_seed(seed)
+    generator = torch.Generator().manual_seed(fresh_seed())
     shapes = ((3, 2, 5), (3, 2), (3, 2), (3, 2))
     logits, values, returns, advantages = (torch.randn(shape, generator=generator) for shape in shapes)
     actions = torch.randint(5, (3, 2), generator=generator)

@@ -1,15 +1,15 @@
 """The quick LSTM computes what torch's LSTM computes."""
 
 import numpy as np
+from seeds import fresh_seed
 import torch
 
 from physexp.agents import lstm
 
 
 def packed_inputs(num_inputs: int):
-    """Random packed sequences of random lengths; prints its seed."""
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
-    print("seed", seed)
+    """Random packed sequences of random lengths."""
+    seed = fresh_seed()
     generator = np.random.default_rng(seed)
     torch.manual_seed(seed)
     lengths = np.sort(generator.integers(1, 12, size=9))[::-1]
@@ -43,6 +43,7 @@ def test_the_gradient_is_that_of_finite_differences():
 
 
 def test_a_step_is_a_step_of_torch():
+    torch.manual_seed(fresh_seed())
     layer = lstm.LSTM(4, 100)
     inputs, state = torch.randn(7, 4), (torch.randn(1, 7, 100), torch.randn(1, 7, 100))
     with torch.inference_mode():

@@ -3,6 +3,7 @@
 from dm_env import specs
 import numpy as np
 import pytest
+from seeds import fresh_seed
 import torch
 
 from physexp import suite
@@ -14,9 +15,7 @@ BF16_TOLERANCE = 1e-2
 
 
 def fresh_images(number):
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
-    print("seed", seed)
-    torch.manual_seed(seed)
+    torch.manual_seed(fresh_seed())
     return torch.randint(256, (number, 84, 84, 3), dtype=torch.uint8)
 
 

@@ -14,6 +14,7 @@ from dm_env import specs
 import every_task
 import numpy as np
 import pytest
+from seeds import fresh_seed
 import torch
 
 from physexp import agents, suite
@@ -55,8 +56,7 @@ def test_an_agent_takes_at_most_three_megabytes_and_says_where_it_comes_from(nam
 @every_agent
 def test_an_agent_answers_as_well_as_its_card_says(name):
     agent = pretrained.load_named(name)
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
-    print("seed", seed)
+    seed = fresh_seed()
     num_episodes = 60
     batch = suite.load_batch(
         agent.card["domain"], agent.card["task"], num_episodes, {"random": seed, **agent.card["task_kwargs"]}
@@ -303,9 +303,7 @@ def test_every_bit_of_a_card_counts(small, tmp_path):
     network, card = small
     path = pretrained.save(network, card, tmp_path)
     content, expected = path.read_bytes(), card_of(path)
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
-    print("seed", seed)
-    for bit in np.random.default_rng(seed).choice(8 * len(content), 1000, replace=False):
+    for bit in np.random.default_rng(fresh_seed()).choice(8 * len(content), 1000, replace=False):
         path.write_bytes(bits.flipped(content, bit))
         try:
             found = pretrained.load("towers", "some", folder=tmp_path)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from trainers import fresh_seed
+from seeds import fresh_seed
 
 from physexp import suite
 from physexp.agents import core
@@ -16,9 +16,7 @@ NUM_ACTORS = 32
 @pytest.fixture
 def seed():
     """Another seed in each run."""
-    drawn = fresh_seed()
-    print("seed", drawn)
-    return drawn
+    return fresh_seed()
 
 
 def _right(task, player, seed, **task_kwargs):

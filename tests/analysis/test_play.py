@@ -7,7 +7,8 @@ import subprocess
 
 import numpy as np
 import pytest
-from trainers import PHYSEXP, fresh_seed
+from seeds import fresh_seed
+from trainers import PHYSEXP
 
 from physexp import suite
 from physexp.agents import pretrained

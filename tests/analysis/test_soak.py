@@ -10,8 +10,8 @@ import dm_env
 from memory import resident_bytes
 import numpy as np
 import pytest
+from seeds import fresh_seed
 import torch
-from trainers import fresh_seed
 
 from physexp import suite
 from physexp.agents import acting, pretrained

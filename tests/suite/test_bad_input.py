@@ -66,6 +66,12 @@ def test_an_unknown_environment_kwarg_is_refused_with_the_allowed_ones():
             suite.load(*HEAVIER, environment_kwargs={name: "yes"})
 
 
+@pytest.mark.parametrize("tag", ["zzz", 3])
+def test_a_tag_that_no_task_has_is_refused_with_the_choices(tag):
+    with _refuses("tag is", repr(tag), "direct", "features", "fist", "pixels"):
+        suite.tagged("features", tag)
+
+
 def test_keyword_arguments_whose_names_are_no_words_are_refused():
     for key in (3, None, (1, 2), "two words", "two\nlines"):
         with _refuses("task_kwargs has", repr(key), "difficulty") as refused:
@@ -523,9 +529,27 @@ def test_flags_are_true_or_false(name, value):
         suite.load("threshold", "features", {name: value})
 
 
-def test_the_floor_is_coloured_whichever_way_that_is_asked_for():
-    among_the_options = suite.load("threshold", "features", {"visualize_reward": True})
-    beside_them = suite.load("threshold", "features", visualize_reward=True)
-    usual = suite.load("threshold", "features")
-    asked_for = [each.task.options.visualize_reward for each in (among_the_options, beside_them, usual)]
-    assert asked_for == [True, True, False]
+@pytest.mark.parametrize("way", [{"task_kwargs": {"visualize_reward": True}}, {"visualize_reward": True}])
+def test_the_floor_is_green_after_a_right_answer_and_red_after_a_wrong_one(way):
+    before, right, again, wrong = _floors(suite.load("threshold", "features", **way))
+    assert before == again and len({before, right, wrong}) == 3
+    assert right[1] > right[0] and wrong[0] > wrong[1]
+
+
+def test_the_floor_stays_as_it_is_where_no_colours_are_asked_for():
+    assert len({*_floors(suite.load("threshold", "features"))}) == 1
+
+
+def _floors(environment):
+    """Returns the floor's colour before and after a right answer, and before and after a wrong one."""
+    task, colors = environment.task, []
+
+    def look():
+        colors.append(tuple(environment.physics.bind(task.root_entity.floor).rgba))
+
+    for is_wrong in (False, True):
+        environment.reset()
+        look()
+        environment.step(task.num_interactions + (task.correct_answer + is_wrong) % task.num_labels)
+        look()
+    return colors

@@ -210,6 +210,12 @@ def test_a_seed_that_is_none_is_refused_and_changes_nothing(make, seed):
     environment.reset(seed=np.int64(3))
 
 
+def test_a_part_of_a_vector_environment_is_not_reset():
+    environment = adapter.VectorEnvironment("which_is_heavier", "features", 2, random=5)
+    with pytest.raises(ValueError, match="^options has a reset_mask; reset all"):
+        environment.reset(options={"reset_mask": np.array([True, False])})
+
+
 @pytest.mark.parametrize(
     ("make", "message"),
     [

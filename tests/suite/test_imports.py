@@ -2,23 +2,10 @@
 
 import _ctypes
 import ctypes.util
-import json
-import os
 import shutil
-import subprocess
-import sys
 
+import interpreters
 import pytest
-
-
-def _run(code: str, **environment: str | None) -> dict:
-    """What `code` leaves in its dictionary `found`, run in a fresh interpreter; None unsets a variable."""
-    variables = {name: value for name, value in {**os.environ, **environment}.items() if value is not None}
-    code = f"found = {{}}\n{code}\nimport json\nprint(json.dumps(found))"
-    finished = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, text=True, check=False)
-    assert finished.returncode == 0, finished.stderr
-    return json.loads(finished.stdout.splitlines()[-1])
-
 
 # A GL context of dm_control or of mujoco is an object, with one of these among the classes of its class.
 LOOK_AROUND = """
@@ -53,37 +40,37 @@ for domain_name, task_name in suite.ALL_TASKS:
 
 @pytest.mark.parametrize("module", ["physexp", "physexp.suite"])
 def test_importing_starts_no_thread_or_process_and_opens_no_context(module):
-    found = _run(f"{LOOK_AROUND}\nimport {module}\nfound.update(look_around())")
+    found, _ = interpreters.run(f"{LOOK_AROUND}\nimport {module}\nfound.update(look_around())")
     assert (found["children"], found["threads"], found["contexts"]) == (0, 1, 0)
 
 
 def test_importing_the_suite_imports_neither_torch_nor_what_learns_and_plots():
-    found = _run(f"{LOOK_AROUND}\nimport physexp.suite\nfound.update(look_around())")
+    found, _ = interpreters.run(f"{LOOK_AROUND}\nimport physexp.suite\nfound.update(look_around())")
     unwanted = {"torch", "matplotlib", "pandas", "pyarrow", "rerun", "gymnasium", "ray", "tensorboard", "tyro"}
     assert not unwanted & set(found["loaded"])
     assert [name for name in found["physexp"] if not name.startswith("physexp.suite")] == ["physexp"]
 
 
 def test_importing_physexp_imports_nothing_heavy():
-    found = _run("import sys\nimport physexp\nfound['loaded'] = sorted(sys.modules)")
+    found, _ = interpreters.run("import sys\nimport physexp\nfound['loaded'] = sorted(sys.modules)")
     assert not {"torch", "mujoco", "dm_control", "numpy"} & set(found["loaded"])
 
 
 def test_playing_with_features_opens_no_context_and_starts_no_process():
-    found = _run(f"{LOOK_AROUND}\n{PLAY}\nfound.update(look_around())")
+    found, _ = interpreters.run(f"{LOOK_AROUND}\n{PLAY}\nfound.update(look_around())")
     assert (found["children"], found["contexts"]) == (0, 0)
     assert "torch" not in found["loaded"]
 
 
 def test_features_need_no_gl_at_all():
-    found = _run(f"{LOOK_AROUND}\n{PLAY}\nfound.update(look_around())", MUJOCO_GL="disable")
+    found, _ = interpreters.run(f"{LOOK_AROUND}\n{PLAY}\nfound.update(look_around())", MUJOCO_GL="disable")
     assert found["backend"] == "disable"
     assert "OpenGL" not in found["loaded"]
 
 
 def test_the_users_choice_of_a_backend_is_left_alone():
     code = "import os\nimport physexp.suite\nfound['backend'] = os.environ['MUJOCO_GL']"
-    assert _run(code, MUJOCO_GL="disable") == {"backend": "disable"}
+    assert interpreters.run(code, MUJOCO_GL="disable")[0] == {"backend": "disable"}
 
 
 @pytest.mark.parametrize("unset", [None, ""])
@@ -91,7 +78,9 @@ def test_without_a_choice_the_backend_is_one_that_is_installed(unset):
     """EGL before OSMesa, as it may use a GPU; with neither, none."""
     libraries = {"egl": "EGL", "osmesa": "OSMesa"}
     installed = [backend for backend, library in libraries.items() if ctypes.util.find_library(library)]
-    found = _run("import os\nimport physexp.suite\nfound['backend'] = os.environ['MUJOCO_GL']", MUJOCO_GL=unset)
+    found, _ = interpreters.run(
+        "import os\nimport physexp.suite\nfound['backend'] = os.environ['MUJOCO_GL']", MUJOCO_GL=unset
+    )
     assert found == {"backend": (installed + ["disable"])[0]}
 
 
@@ -108,7 +97,7 @@ import physexp.suite
 found["settled"] = settled
 found["backend"] = os.environ["MUJOCO_GL"]
 """
-    found = _run(code, MUJOCO_GL=None)
+    found, _ = interpreters.run(code, MUJOCO_GL=None)
     assert found["settled"] == [found["backend"]]
 
 
@@ -125,11 +114,11 @@ sys.addaudithook(lambda event, arguments: event == "ctypes.dlopen" and opened.ap
 import physexp.suite
 found["opened"] = [name for name in opened if any(word in name for word in ("libtriton", "EGL", "OSMesa"))]
 """
-    opened = _run(code, MUJOCO_GL=None)["opened"]
+    opened = interpreters.run(code, MUJOCO_GL=None)[0]["opened"]
     assert opened[0].endswith("triton/_C/libtriton.so")
     assert len(opened) > 1, "a library of GL is here too"
 
 
 def test_the_suite_works_from_any_folder(tmp_path):
     code = f"import os\nos.chdir({str(tmp_path)!r})\n{PLAY}\nfound['left_behind'] = os.listdir()"
-    assert _run(code) == {"left_behind": []}
+    assert interpreters.run(code)[0] == {"left_behind": []}

@@ -2,12 +2,9 @@
 
 from concurrent import futures
 import ctypes.util
-import json
-import os
-import subprocess
-import sys
 import threading
 
+import interpreters
 import numpy as np
 import pytest
 
@@ -30,20 +27,6 @@ needs_gl = pytest.mark.skipif(gl.choose_backend() == "disable", reason="no GL li
 def _needs_library(name: str) -> None:
     if not ctypes.util.find_library(name):
         pytest.skip(f"lib{name} is not here")
-
-
-def _run(code: str, **environment: str | None) -> tuple[dict, str]:
-    """What `code` leaves in its dictionary `found`, run in a fresh interpreter, and what it says on stderr.
-
-    None unsets a variable of the environment.
-    """
-    # PyOpenGL's platform follows from the backend, which this process may have chosen otherwise.
-    variables = {**os.environ, "PYOPENGL_PLATFORM": None, **environment}
-    variables = {name: value for name, value in variables.items() if value is not None}
-    code = f"found = {{}}\n{code}\nimport json\nprint(json.dumps(found))"
-    finished = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, text=True, check=False)
-    assert finished.returncode == 0, finished.stderr
-    return json.loads(finished.stdout.splitlines()[-1]), finished.stderr
 
 
 # Defines `play_features()`, and `draw()`: errors of an environment and of a batch that draw, and the images' means.
@@ -121,7 +104,7 @@ def test_without_a_choice_the_backend_is_egl_then_osmesa_then_none(installed, ba
     """And Mesa draws in the calling thread."""
     if installed:
         _needs_library(installed[0])
-    found, _ = _run(_pretend(*installed) + CHOOSE, MUJOCO_GL=None, LP_NUM_THREADS=None)
+    found, _ = interpreters.run(_pretend(*installed) + CHOOSE, MUJOCO_GL=None, LP_NUM_THREADS=None)
     assert found == {"backend": backend, "threads": "0"}
 
 
@@ -129,7 +112,7 @@ def test_without_a_choice_the_backend_is_egl_then_osmesa_then_none(installed, ba
 def test_the_users_choice_wins_whatever_is_installed(choice, installed):
     if choice != "disable":
         _needs_library({"egl": "EGL", "osmesa": "OSMesa"}[choice])
-    found, _ = _run(_pretend(*installed) + CHOOSE, MUJOCO_GL=choice, LP_NUM_THREADS="2")
+    found, _ = interpreters.run(_pretend(*installed) + CHOOSE, MUJOCO_GL=choice, LP_NUM_THREADS="2")
     assert found == {"backend": choice, "threads": "2"}
 
 
@@ -153,7 +136,7 @@ except OSError:
 
 
 def test_without_gl_libraries_features_are_played_and_pixels_say_what_to_install():
-    found, stderr = _run(
+    found, stderr = interpreters.run(
         f"""
 {HIDE_GL}
 {PLAY}
@@ -174,7 +157,7 @@ found["played_again"] = play_features()
 def test_with_a_gl_library_but_no_driver_features_are_played_and_pixels_say_what_to_install(tmp_path):
     """As on a machine that has libegl1 without libgl1-mesa-dri."""
     _needs_library("EGL")
-    found, _ = _run(
+    found, _ = interpreters.run(
         f"{PLAY}\nfound['played'] = play_features()\nfound['drawn'] = draw()",
         MUJOCO_GL=None,
         LIBGL_DRIVERS_PATH=str(tmp_path),
@@ -189,14 +172,14 @@ def test_with_a_gl_library_but_no_driver_features_are_played_and_pixels_say_what
 
 
 def test_where_gl_is_turned_off_pixels_are_refused():
-    found, stderr = _run(f"{PLAY}\nfound['drawn'] = draw()", MUJOCO_GL="disable")
+    found, stderr = interpreters.run(f"{PLAY}\nfound['drawn'] = draw()", MUJOCO_GL="disable")
     _assert_refused(found["drawn"])
     assert stderr == ""
 
 
 def test_a_backend_that_does_not_work_here_is_refused_by_its_name_and_leaves_nothing_behind():
     """GLFW needs a display."""
-    found, stderr = _run(f"{PLAY}\nfound['drawn'] = draw()", MUJOCO_GL="glfw", **NO_DISPLAY)
+    found, stderr = interpreters.run(f"{PLAY}\nfound['drawn'] = draw()", MUJOCO_GL="glfw", **NO_DISPLAY)
     _assert_refused(found["drawn"], "glfw", "MUJOCO_GL")
     assert "Traceback" not in stderr, stderr
 
@@ -221,7 +204,7 @@ def contexts(monkeypatch):
 @needs_gl
 def test_no_context_is_made_before_the_first_image():
     """Not by importing, by playing with features, or by loading and reading the specs of pixel tasks."""
-    found, _ = _run(
+    found, _ = interpreters.run(
         f"""
 import mujoco  # MUJOCO_GL is set.
 made = []
@@ -305,7 +288,7 @@ env.reset(), env.step(0), batch.reset(), batch.step([0, 1])
 print({{}}, flush=True)
 {end}
 """
-    assert _run(code) == ({}, "")
+    assert interpreters.run(code) == ({}, "")
 
 
 @needs_gl
@@ -327,7 +310,7 @@ drawn.wait()
 if {thread_ends}:
     thread.join()
 """
-    assert _run(code) == ({}, "")
+    assert interpreters.run(code) == ({}, "")
 
 
 # What draws.
@@ -388,7 +371,7 @@ def test_drawing_by_software_on_a_machine_with_a_gpu_warns_exactly_once(on_a_mac
             gl.warn_if_software(LLVMPIPE)
     assert len(warned) == 1
     assert LLVMPIPE in str(warned[0].message)
-    found, stderr = _run(f"""
+    found, stderr = interpreters.run(f"""
 from physexp.suite.engine import gl
 gl.gpu_is_present = lambda: True
 gl.warn_if_software({LLVMPIPE!r})
@@ -434,7 +417,7 @@ def test_osmesa_draws_what_egl_draws_within_one_level(tmp_path):
     images = []
     for backend in ("egl", "osmesa"):
         path = tmp_path / f"{backend}.npy"
-        _run(f"{DRAW_ALL}\nnp.save({str(path)!r}, images)", MUJOCO_GL=backend)
+        interpreters.run(f"{DRAW_ALL}\nnp.save({str(path)!r}, images)", MUJOCO_GL=backend)
         images.append(np.load(path).astype(int))
     assert images[0].shape == (10, rendering.SIZE, rendering.SIZE, 3) and images[0].std() > 10
     assert np.abs(images[0] - images[1]).max() <= 1

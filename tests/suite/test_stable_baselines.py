@@ -95,3 +95,14 @@ def test_recurrent_ppo_of_sb3_contrib_learns_to_beat_chance(tmp_path, monkeypatc
     # Chance is a quarter right: 4 standard deviations above it, and half as much again, is no luck.
     assert total > 100
     assert right / total > 0.25 + 4 * np.sqrt(0.25 * 0.75 / total)
+
+
+@pytest.mark.parametrize("seed", [-3, 1.5, 2**63, True, "a"])
+def test_a_seed_that_is_none_is_refused_and_changes_nothing(seed):
+    environment, twin = (stable_baselines.VecEnv("threshold", "features", 2, random=0) for _ in range(2))
+    with pytest.raises(ValueError, match=r"^seed is .*; give an integer"):
+        environment.seed(seed)
+    expected = twin.reset()
+    for name, value in environment.reset().items():
+        np.testing.assert_array_equal(value, expected[name])
+    assert environment.env_is_wrapped(object) == [False, False]

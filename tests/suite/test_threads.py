@@ -4,6 +4,7 @@ import copy
 import pickle
 import threading
 
+import interpreters
 import numpy as np
 import pytest
 
@@ -95,3 +96,41 @@ def test_a_copy_is_refused_with_what_to_do_instead(which, duplicate):
     environment, _ = _environments()[which]
     with pytest.raises(TypeError, match="neither copied nor pickled; load another"):
         duplicate(environment)
+
+
+FORK = """
+import os, signal
+import numpy as np
+from physexp import suite
+
+batch = suite.load_batch("which_is_heavier", "features", 64, {"random": 7}, num_threads=NUM_THREADS)
+batch.reset()
+batch.step(np.zeros(64, int))
+reader, writer = os.pipe()
+child = os.fork()
+if not child:
+    signal.alarm(60)  # It ends, even if the batch waits for threads that there are not.
+    try:
+        said = f"{batch.step(np.ones(64, int)).observation['heights'].sum():.6f}"
+    except RuntimeError as error:
+        said = str(error)
+    os.write(writer, said.encode())
+    os._exit(0)
+os.close(writer)
+found["in the fork"] = os.fdopen(reader).read()
+found["ended"] = os.waitpid(child, 0)[1]
+found["here"] = f"{batch.step(np.ones(64, int)).observation['heights'].sum():.6f}"
+found["process"] = os.getpid()
+"""
+
+
+def test_a_forked_process_has_no_threads_to_step_a_batch_in_and_is_told_so():
+    found, _ = interpreters.run(FORK.replace("NUM_THREADS", "2"))
+    process = found["process"]
+    assert found["ended"] == 0
+    assert found["in the fork"] == f"this batch was loaded in process {process}, and this is a fork; load another"
+
+
+def test_a_forked_process_goes_on_with_a_batch_of_one_thread():
+    found, _ = interpreters.run(FORK.replace("NUM_THREADS", "1"))
+    assert found["ended"] == 0 and found["in the fork"] == found["here"]

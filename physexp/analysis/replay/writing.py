@@ -74,7 +74,7 @@ def check_output(path: Path) -> None:
 
     Raises:
       OSError: if the file cannot be written.
-      ValueError: if there is something else than a regular file.
+      ValueError: if there is something else than a regular file, or its folder is none.
     """
     if path.is_symlink():
         raise ValueError(f"{path} is a symbolic link; name a file")
@@ -82,7 +82,10 @@ def check_output(path: Path) -> None:
         raise ValueError(f"{path} is a folder; name a file")
     if path.exists() and not path.is_file():
         raise ValueError(f"{path} is a pipe or a device; name a file")
-    path.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError):
+        raise ValueError(f"{path.parent} is a file or lies below one; name a file elsewhere") from None
     if not os.access(path.parent, os.W_OK | os.X_OK):
         raise PermissionError(f"{path.parent} is a folder that you may not write to; name a file in another")
 

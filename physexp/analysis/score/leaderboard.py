@@ -55,7 +55,7 @@ def read(results: Path) -> list[Row]:
       ValueError: if a folder holds no score of the whole protocol, or one that was changed; it names the folder.
     """
     questions = protocol.observing("features")
-    rows = [_row(folder, questions) for folder in sorted((results / FOLDER).iterdir()) if folder.is_dir()]
+    rows = [_row(folder, questions) for folder in sorted((results / FOLDER).glob("*")) if folder.is_dir()]
     if not rows:
         raise FileNotFoundError(f"{results / FOLDER} has no scores; `physexp score` one into a folder there")
     return sorted(rows, key=lambda row: (-row.whole["score"], row.name))

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 import contextlib
-import errno
 import fcntl
 import os
 from pathlib import Path
@@ -70,7 +69,7 @@ class FolderLock:
             if self._is_in_place(file):
                 return file
             file.close()
-        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(self._path))
+        raise FileNotFoundError(f"{self._folder} cannot be made; choose another folder")
 
     def _give_back(self) -> None:
         if self._file is None:

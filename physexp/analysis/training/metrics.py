@@ -13,7 +13,7 @@ METRICS = {
     "updates": "updates made",
     "episodes": "episodes trained on",
     "seconds": "time spent training, s",
-    "frames_per_second": "since the row before",
+    "frames_per_second": "since the row before, or since training was started or resumed",
     "success_rate": "share of episodes with the right label",
     "episode_return": "mean discounted return",
     "interactions": "mean interaction actions in an episode",

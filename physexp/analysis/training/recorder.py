@@ -57,8 +57,7 @@ class Recorder:
         """Forgets all that has been recorded."""
         self._frames = self._updates = self._num_episodes = 0
         self._seconds = 0.0
-        self._started = self._checkpointed = time.monotonic()
-        self._row_started = 0.0  # Set by the first update: the workers take a while to start.
+        self._started = self._checkpointed = self._row_started = time.monotonic()
         self._frames_at_row = 0
         self._window: list[core.Update] = []  # Updates since the last row.
         self._snapshot: dict | None = None  # The variables of a checkpoint that waits for updates before it.
@@ -93,8 +92,6 @@ class Recorder:
         if self._snapshot is not None and update.metrics["updates"] > int(self._snapshot["updates"]):
             self._later.append(update)
             return
-        if not self._row_started:
-            self._row_started = time.monotonic()
         self._window.append(update)
         self._updates += 1
         self._frames += update.episodes.num_frames
@@ -155,7 +152,7 @@ class Recorder:
         facts = {
             "task": self._config.task_name,
             "episodes": self._num_episodes,
-            "seconds": self._elapsed(),
+            "seconds": self._seconds + time.monotonic() - self._started,
             "versions": provenance.versions(),
         }
         self._run.check_lock()  # Once more: who watches may take seconds.
@@ -164,9 +161,6 @@ class Recorder:
         later, self._later = self._later, []
         for update in later:
             self.add(update)
-
-    def _elapsed(self) -> float:
-        return self._seconds + time.monotonic() - self._started
 
     def _write_row(self) -> None:
         """Writes a row of metrics about the updates since the row before, and keeps the episodes of the last one."""
@@ -177,7 +171,7 @@ class Recorder:
             "frames": self._frames,
             "updates": self._updates,
             "episodes": self._num_episodes,
-            "seconds": self._elapsed(),
+            "seconds": self._seconds + now - self._started,
             "frames_per_second": (self._frames - self._frames_at_row) / max(1e-3, now - self._row_started),
             **self._summary(episodes_lib.Episodes.joined(parts)),
         }

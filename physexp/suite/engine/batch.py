@@ -87,9 +87,9 @@ class BatchEnvironment:
         Raises:
           ValueError: if one of the numbers is not such an integer.
         """
-        self._guard = guard.Guard("batch")
         self.num_environments = checks.integer("num_environments", num_environments, 1, MOST_ENVIRONMENTS)
         self._num_threads = checks.integer("num_threads", num_threads, 1, 1_024)
+        self._guard = guard.Guard("batch", self._num_threads)
         self.num_divergences = 0
         self._closed = False
         self._task = task

@@ -1,5 +1,6 @@
 """A guard that keeps a simulation to one thread at a time: two at once would corrupt it, or crash the process."""
 
+import os
 import threading
 
 
@@ -10,12 +11,20 @@ class Guard:
     pickled nor deeply copied, since its simulation cannot.
     """
 
-    def __init__(self, name: str):
-        """Makes a guard; `name` is what it guards, in messages."""
+    def __init__(self, name: str, num_threads: int = 1):
+        """Makes a guard of what is called `name` in messages and simulates in so many threads.
+
+        Where there are several, a process that was forked has none of them: there, too, it raises RuntimeError.
+        """
         self._name = name
+        self._process = os.getpid() if num_threads > 1 else None
         self._lock = threading.RLock()
 
     def __enter__(self):
+        if self._process not in (None, os.getpid()):
+            raise RuntimeError(
+                f"this {self._name} was loaded in process {self._process}, and this is a fork; load another"
+            )
         if not self._lock.acquire(blocking=False):
             raise RuntimeError(
                 f"another thread is using this {self._name}; "

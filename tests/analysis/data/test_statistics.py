@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from scipy import stats
-from trainers import fresh_seed
+from seeds import fresh_seed
 
 from physexp.analysis.data import estimates
 

@@ -10,7 +10,7 @@ import pandas as pd
 import pyarrow
 from pyarrow import parquet
 import pytest
-from trainers import fresh_seed
+from seeds import fresh_seed
 
 from physexp.analysis.data import tables
 from physexp.analysis.evaluation import records

@@ -7,7 +7,7 @@ import ideals
 import numpy as np
 import observers
 import pytest
-from trainers import fresh_seed
+from seeds import fresh_seed
 
 from physexp import suite
 from physexp.agents import environment_loop

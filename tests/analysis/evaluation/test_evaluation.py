@@ -7,9 +7,9 @@ import evaluation_figures
 import numpy as np
 import pytest
 from scipy import stats
+from seeds import fresh_seed
 import torch
 import trainers
-from trainers import fresh_seed
 
 from physexp import suite
 from physexp.agents import pretrained

@@ -10,7 +10,7 @@ import numpy as np
 import pandas
 import pytest
 from scipy import stats
-from trainers import fresh_seed
+from seeds import fresh_seed
 
 from physexp.analysis.data import estimates
 from physexp.analysis.experiments import (

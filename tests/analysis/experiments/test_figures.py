@@ -11,7 +11,7 @@ import made_data
 import matplotlib
 import numpy as np
 import pytest
-from trainers import fresh_seed
+from seeds import fresh_seed
 
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import EXPERIMENTS, conditions

@@ -5,7 +5,7 @@ import itertools
 
 import numpy as np
 import pytest
-from trainers import fresh_seed
+from seeds import fresh_seed
 
 from physexp.analysis import domains
 from physexp.analysis.ideal import bands, resting

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from trainers import fresh_seed
+from seeds import fresh_seed
 
 from physexp.analysis.ideal import intervals, resting
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from trainers import fresh_seed
+from seeds import fresh_seed
 
 from physexp import suite
 from physexp.analysis import domains

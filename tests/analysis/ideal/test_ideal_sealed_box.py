@@ -6,7 +6,7 @@ import ideals
 import mujoco
 import numpy as np
 import pytest
-from trainers import fresh_seed
+from seeds import fresh_seed
 
 from physexp import suite
 from physexp.agents import environment_loop

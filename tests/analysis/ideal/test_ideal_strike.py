@@ -7,7 +7,7 @@ import ideals
 import mujoco
 import numpy as np
 import pytest
-from trainers import fresh_seed
+from seeds import fresh_seed
 
 from physexp.suite.domains import strike
 

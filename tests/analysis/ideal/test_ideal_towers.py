@@ -7,7 +7,7 @@ import types
 from made_worlds import COUNTS, PATTERNS, MadeWorld
 import numpy as np
 import pytest
-from trainers import fresh_seed
+from seeds import fresh_seed
 
 from physexp import suite
 from physexp.agents import environment_loop

@@ -6,7 +6,7 @@ import types
 import numpy as np
 import pytest
 from scipy import integrate
-from trainers import fresh_seed
+from seeds import fresh_seed
 
 from physexp import suite
 from physexp.agents import environment_loop

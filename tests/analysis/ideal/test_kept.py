@@ -3,7 +3,7 @@
 import ideals
 import numpy as np
 import pytest
-from trainers import fresh_seed
+from seeds import fresh_seed
 
 from physexp.analysis.ideal import hypotheses, kept, search, situations
 

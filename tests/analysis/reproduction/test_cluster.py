@@ -18,9 +18,10 @@ import psutil
 import pytest
 import ray
 from ray import cluster_utils
+from seeds import fresh_seed
 import torch
 import trainers
-from trainers import PHYSEXP, fresh_seed
+from trainers import PHYSEXP
 from waiting import Patience, wait_until
 
 from physexp.agents import core, learning, rounds, starting

@@ -49,7 +49,7 @@ def test_a_domain_that_is_not_played_is_marked(results):
     assert (cells["threshold"], cells["balance"]) == ("1.000", "–")
 
 
-def test_the_command_writes_the_page_its_figure_and_its_part_of_the_readme(results):
+def test_the_page_its_figure_and_its_part_of_the_readme_are_written(results):
     readme = results.parent / "README.md"
     first, last = leaderboard.MARKS
     readme.write_text(f"Before.\n\n{first}\noutdated\n{last}\n\nAfter.\n")
@@ -94,11 +94,10 @@ def test_a_score_that_was_ended_early_is_no_row(results, tmp_path, monkeypatch):
 
 
 def test_without_scores_there_is_no_leaderboard(tmp_path):
-    done = commands.run("leaderboard", "--results-dir", tmp_path)
-    assert done.returncode == 2 and str(tmp_path / "scores") in done.stderr
-    (tmp_path / "scores").mkdir()
-    done = commands.run("leaderboard", "--results-dir", tmp_path)
-    assert done.returncode == 2 and done.stderr.startswith(f"physexp: {tmp_path / 'scores'} has no scores")
+    for make in (tmp_path.exists, (tmp_path / "scores").mkdir):
+        make()
+        done = commands.run("leaderboard", "--results-dir", tmp_path)
+        assert done.returncode == 2 and done.stderr.startswith(f"physexp: {tmp_path / 'scores'} has no scores")
 
 
 def test_the_pages_of_this_project_say_what_its_folders_give():

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import seeds
 import torch
 import trainers
 
@@ -30,7 +31,7 @@ def test_a_large_bonus_makes_the_policy_the_priors_or_uniform(algorithm, relativ
     run = trainers.create(
         tmp_path / "run",
         algorithm,
-        seed=trainers.fresh_seed(),
+        seed=seeds.fresh_seed(),
         frames=40_000,
         learning_rate=0.02,
         entropy_cost=100.0,

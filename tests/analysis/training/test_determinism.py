@@ -6,6 +6,7 @@ import commands
 import numpy as np
 import pandas as pd
 import pytest
+import seeds
 import torch
 import trainers
 
@@ -21,7 +22,7 @@ FRAMES = 5_000  # Some seconds, with several checkpoints in each.
 @pytest.fixture(scope="module", params=trainers.SMALL)
 def uninterrupted(request, tmp_path_factory):
     path = tmp_path_factory.mktemp("uninterrupted") / "run"
-    seed = trainers.fresh_seed()
+    seed = seeds.fresh_seed()
     run = trainers.create(path, request.param, frames=FRAMES, seed=seed, checkpoint_seconds=CHECKPOINT_SECONDS)
     trainer.train(run)
     return run
@@ -52,7 +53,7 @@ def assert_whole_records(run):
     assert list(episodes.columns) == run_lib.EPISODES.names
     assert sorted(set(episodes["frames"])) == list(frames), "each row of metrics has the episodes of one update"
     assert not episodes.duplicated(["seed", "episode"]).any()
-    generator = np.random.default_rng(trainers.fresh_seed())
+    generator = np.random.default_rng(seeds.fresh_seed())
     for row in episodes.iloc[generator.choice(len(episodes), 5, replace=False)].itertuples():
         assert_rebuildable(row, run.config)
 
@@ -108,7 +109,7 @@ def test_a_run_killed_at_any_moment_resumes_to_the_same_weights(uninterrupted, t
         seed=agent.seed,
         checkpoint_seconds=CHECKPOINT_SECONDS,
     )
-    generator = np.random.default_rng(trainers.fresh_seed())
+    generator = np.random.default_rng(seeds.fresh_seed())
     beyond, seconds = int(generator.integers(FRAMES // 3)), generator.uniform(1e-6, CHECKPOINT_SECONDS)
     print("killed", seconds, "s after the first row beyond frame", beyond)
     with commands.Process(train_until_killed, run.path, beyond, seconds) as process:

@@ -12,9 +12,9 @@ import commands
 import numpy as np
 import pandas as pd
 import pytest
+from seeds import fresh_seed
 import torch
 import trainers
-from trainers import fresh_seed
 
 from physexp.agents import checkpointing
 from physexp.analysis.training import run as run_lib
@@ -116,6 +116,7 @@ def test_where_no_checkpoint_is_whole_training_says_so_and_changes_nothing(train
     metrics = (run.path / "metrics.csv").read_bytes()
     code, _, errors = resume(run)
     assert code == 2 and "no checkpoint in" in errors.splitlines()[-1] and "is whole" in errors.splitlines()[-1]
+    assert "is used" not in errors and "has had its" not in errors
     assert (run.path / "metrics.csv").read_bytes() == metrics
 
 

@@ -4,6 +4,7 @@ That of PPO is the README's, and tested with it.
 """
 
 import pytest
+import seeds
 import trainers
 
 from physexp.analysis.evaluation import playing
@@ -24,7 +25,7 @@ def test_a_short_run_finds_the_heaviest_block_far_more_often_than_chance(algorit
         tmp_path / "run",
         algorithm,
         **SHORT[algorithm],
-        seed=trainers.fresh_seed(),
+        seed=seeds.fresh_seed(),
         checkpoint_seconds=60.0,
     )
     trainer.train(run)

@@ -4,6 +4,7 @@ import json
 import math
 import multiprocessing
 import os
+from pathlib import Path
 import resource
 import signal
 
@@ -149,6 +150,11 @@ def test_a_run_has_no_place_where_a_file_is(place, tmp_path):
     with pytest.raises(ValueError, match="is a file or lies below one; choose another folder"):
         run_lib.Run(tmp_path / place).create(make_config())
     assert contents(tmp_path) == {"file": b"mine"}
+
+
+def test_a_run_whose_folder_cannot_be_made_says_so():
+    with pytest.raises(FileNotFoundError, match="^/proc/there/is/none cannot be made; choose another folder$"):
+        run_lib.Run(Path("/proc/there/is/none")).create(make_config())
 
 
 # An earlier attempt.
