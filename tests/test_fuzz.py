@@ -145,7 +145,7 @@ def test_a_config_file_may_hold_anything(tmp_path_factory, path, value):
     try:
         config = run.config
     except ValueError as error:
-        assert in_one_line(error) and "\n" not in str(error)
+        assert in_one_line(error)
         return
     assert isinstance(config, config_lib.TrainConfig)
 

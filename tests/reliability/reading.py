@@ -11,7 +11,7 @@ import subjects
 from physexp.agents import pretrained
 from physexp.analysis.data import tables
 from physexp.analysis.evaluation import finding, records
-from physexp.analysis.replay import recording, viewing, writing
+from physexp.analysis.replay import viewing
 from physexp.analysis.training import run as run_lib
 
 
@@ -22,9 +22,6 @@ def make(folder: Path) -> None:
     subjects.train(run.path)
     shutil.copytree(run.path, folder / "kept")
     run_lib.Run(folder / "kept").keep_agent_only()
-    (folder / "run" / "replays").mkdir()
-    episode = recording.reenact(subjects.network(0.0), subjects.config(), 0, 0, None, "an agent")
-    writing.write(folder / "run" / "replays" / "0.rrd", [lambda: [episode]])
     subjects.publish(folder / "published", 3)
     records.write(folder / "records" / "records.parquet", subjects.rows(50))
 
@@ -67,10 +64,6 @@ def read_records(folder):
 def read_episodes(folder):
     parts = sorted((folder / "run" / "episodes.parquet").iterdir())
     return [tables.read(part, run_lib.EPISODES).to_pylist() for part in parts]
-
-
-def read_replay(folder):
-    verify(folder / "run" / "replays" / "0.rrd")
 
 
 def verify(path):

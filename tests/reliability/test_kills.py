@@ -100,6 +100,16 @@ WRITES = {
 }
 
 
+def write_on_and_on(folder):
+    for number in range(1_000_000):
+        write_checkpoint(folder, number)
+
+
+@pytest.mark.parametrize("death", [attacks.AtCall(100), attacks.AtByte(100), attacks.AtMoment(0.05)])
+def test_each_way_to_die_is_deadly(death, tmp_path):
+    assert attacks.run(write_on_and_on, tmp_path, first=death).was_killed
+
+
 @pytest.mark.parametrize("kind", WRITES)
 def test_a_killed_writer_leaves_the_old_or_the_new_and_the_next_one_cleans_up(kind, tmp_path):
     write, read = WRITES[kind]

@@ -104,7 +104,7 @@ def test_what_varies_is_the_same_in_a_batch_and_alone(seed, name, option):
 
 
 @pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
-def test_a_fine_control_step_changes_nothing_in_that(seed, task_name):
+def test_with_fine_control_steps_a_batch_is_still_the_environments_one_by_one(seed, task_name):
     rng = np.random.default_rng(seed)
     batch, singles = _load_both(f"towers/{task_name}", seed, 3, control_timestep=0.01)
     _assert_same(batch.reset(), [single.reset() for single in singles])

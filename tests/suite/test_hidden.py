@@ -106,7 +106,7 @@ def test_what_a_replay_reveals_names_things_of_the_scene(seed, name):
     assert any(one != revealed[0] for one in revealed), "it reveals nothing"
 
 
-def test_every_registered_task_is_among_them():
+def test_the_tasks_that_are_tested_are_all_that_are_registered_and_more():
     assert {"/".join(names) for names in suite.ALL_TASKS} < set(NAMES)
 
 

@@ -12,7 +12,7 @@ from physexp import suite
 from physexp.suite.domains import towers
 from physexp.suite.parts import tower
 
-P_VALUE = 1e-4  # A right distribution fails one test in ten thousand.
+P_VALUE = 1e-6  # A right distribution fails one comparison in a million.
 
 EDGE = 0.1  # m, of a cube
 FIST_RADIUS = 0.1  # m

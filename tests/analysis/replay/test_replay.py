@@ -630,16 +630,21 @@ def test_a_selection_is_what_it_says():
     network, config = finding.find_agent("which_is_heavier/features")
     play = functools.partial(playing.play, network, config)
     everything = play(256, seed=5)
-    kinds = ("any", "right", "longest", "hardest")
+    kinds = ("any", "right", "wrong", "longest", "hardest")
     chosen = {kind: list(selection.select(network, config, 5, kind, seed=5)) for kind in kinds}
-    rewards = dict(zip(zip(everything.seed, everything.episode, strict=True), everything.reward, strict=True))
-    assert all(rewards[seed, episode] > 0 for seed, episode, _ in chosen["right"])
+    instances = np.stack([everything.seed, everything.episode], axis=1)
+    wanted = {"any": everything.reward < 2, "right": everything.reward > 0, "wrong": everything.reward < 0}
+    for kind, which in wanted.items():  # The first of them, in their order; for five wrong ones, more are played.
+        first = instances[which][:5].tolist()
+        found = [[seed, episode] for seed, episode, _ in chosen[kind]]
+        assert first and len(found) == 5 and found[: len(first)] == first, kind
     lengths = sorted(everything.length, reverse=True)
     assert [len(actions) for _, _, actions in chosen["longest"]] == lengths[:5]
     gaps = np.sort(everything.hidden)[:, -1] - np.sort(everything.hidden)[:, -2]
     hardest = np.argsort(gaps)[:5]
     assert [seed for seed, _, _ in chosen["hardest"]] == list(everything.seed[hardest])
     wrong = list(selection.select(network, config, 2, "wrong", interaction="random", seed=5))
+    assert len(wrong) == 2
     for seed, episode, actions in wrong:
         environment = suite.load("which_is_heavier", "features", task_kwargs={**config.task_kwargs, "random": seed})
         environment.task.next_episode = episode
@@ -846,9 +851,10 @@ def test_a_program_of_reruns_that_fails_or_does_not_answer_is_one_line(tmp_path,
     failing, sleeping = tmp_path / "failing", tmp_path / "sleeping"
     failing.write_text("#!/bin/sh\ncat > /dev/null\necho something went wrong >&2\nexit 3\n")
     sleeping.write_text("#!/bin/sh\nexec sleep 1000\n")
-    monkeypatch.setattr(writing, "_MERGE_SECONDS", 0.2)
     for program, message in ((failing, "cannot merge the recordings: something went wrong$"), (sleeping, "not merged")):
         program.chmod(0o755)
+        if program is sleeping:
+            monkeypatch.setattr(writing, "_MERGE_SECONDS", 0.2)
         monkeypatch.setattr(writing, "PROGRAM", program)
         path = tmp_path / f"{program.name}.rrd"
         with pytest.raises(RuntimeError, match=message):

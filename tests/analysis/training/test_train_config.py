@@ -59,13 +59,17 @@ def test_options_that_json_or_a_name_could_not_keep_are_refused(wrong):
 
 @pytest.mark.parametrize("algorithm", config_lib.ALGORITHMS)
 @pytest.mark.parametrize("names", suite.ALL_TASKS, ids=["/".join(names) for names in suite.ALL_TASKS])
-def test_every_task_has_a_preset_of_its_domain_s_discount(names, algorithm):
-    domain, task = names
-    preset = config_lib.preset(domain, task, algorithm=algorithm)
-    known = domains.find(domain)
-    default = config_lib.ALGORITHMS[algorithm](discount=known.discount)
-    assert preset == known.presets.get(task, {}).get(algorithm, default)
-    assert preset.algorithm == algorithm and preset.discount == domains.find(domain).discount
+def test_a_preset_is_of_the_algorithm_and_has_its_domain_s_discount(names, algorithm):
+    preset = config_lib.preset(*names, algorithm=algorithm)
+    assert preset.algorithm == algorithm and preset.discount == domains.find(names[0]).discount
+
+
+def test_a_task_with_a_preset_of_its_own_has_that_and_another_one_the_defaults():
+    fist = config_lib.preset("towers", "fist_features", algorithm="ppo")
+    assert fist == domains.find("towers").presets["fist_features"]["ppo"] and fist.action_prior
+    defaults = config_lib.preset("threshold", "features", algorithm="belief")
+    assert "belief" not in domains.find("threshold").presets.get("features", {})
+    assert defaults.replace(discount=0.9) == config_lib.ALGORITHMS["belief"](discount=0.9)
 
 
 @pytest.mark.parametrize("kind", ["features", "pixels"])
