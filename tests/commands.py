@@ -20,6 +20,7 @@ import threading
 import time
 import types
 
+import psutil
 from waiting import Patience, wait_until
 
 context = multiprocessing.get_context("forkserver")
@@ -257,3 +258,14 @@ def bound() -> None:
     if libc.capset(header, struct.pack("6I", *words)):
         raise OSError(ctypes.get_errno(), "cannot give up capabilities")
     libc.prctl(24, 1)  # PR_CAPBSET_DROP, CAP_DAC_OVERRIDE: nor do programs that it starts have it.
+
+
+def listening(leader: int) -> set[tuple[str, int]]:
+    """Returns the addresses and ports on which a process and its descendants listen."""
+    found = set()
+    with contextlib.suppress(psutil.NoSuchProcess):
+        parent = psutil.Process(leader)
+        for process in (parent, *parent.children(recursive=True)):
+            with contextlib.suppress(psutil.NoSuchProcess, psutil.AccessDenied):
+                found |= {(*one.laddr,) for one in process.net_connections("tcp") if one.status == psutil.CONN_LISTEN}
+    return found

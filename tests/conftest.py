@@ -5,12 +5,11 @@ import signal
 
 import commands
 import pytest
+import trainers
 
 from physexp.agents.a3c import config as a3c
-from physexp.analysis.data import provenance
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import trainer
 
 # Who starts the tests in the background may have them ignore what ends a process, and processes that they start ignore
 # it too, as after `nohup`; but those are to be ended.
@@ -61,8 +60,5 @@ def untrained(tmp_path):
     )
     run = run_lib.Run(tmp_path / "run")
     run.create(config)
-    agent = trainer.make_agent(config)
-    run.checkpointer.save(
-        agent.save(), {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": provenance.versions()}
-    )
+    trainers.save_first_checkpoint(run)
     return run

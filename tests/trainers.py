@@ -4,6 +4,7 @@ import contextlib
 import json
 import os
 from pathlib import Path
+import shutil
 import signal
 import sys
 
@@ -13,8 +14,10 @@ from waiting import wait_until
 from physexp.agents.a3c import config as a3c
 from physexp.agents.belief import config as belief
 from physexp.agents.ppo import config as ppo
+from physexp.analysis.data import provenance
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer as trainer_lib
 
 PHYSEXP = Path(sys.executable).with_name("physexp")
 
@@ -38,6 +41,21 @@ def create(path, algorithm="a3c", task="features", **agent):
     run = run_lib.Run(path)
     run.create(config)
     return run
+
+
+def save_first_checkpoint(run, poison=False) -> Path:
+    """Writes the checkpoint of an untrained agent, with a weight too large to learn with if asked for."""
+    tensors = trainer_lib.make_agent(run.config).save()
+    if poison:
+        tensors["network/value.bias"][0] = 3e38  # Finite, but not its square.
+    facts = {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": provenance.versions()}
+    return run.checkpointer.save(tensors, facts)
+
+
+def copy_of(run, path):
+    """Returns the same run in another folder."""
+    shutil.copytree(run.path, path)
+    return run_lib.Run(path)
 
 
 def set_frames(run, frames):

@@ -7,11 +7,11 @@ import os
 import pickle
 import shutil
 import signal
-import stat
 import struct
 
 import attacks
 import commands
+import folders
 import pyarrow
 from pyarrow import parquet
 import pytest
@@ -219,12 +219,12 @@ def test_training_does_not_go_on_from_a_hostile_file_and_changes_nothing(name, m
             shutil.copytree(made, folder)
             put(name, kind, folder)
             run = run_lib.Run(folder / "run")
-            before = everything(run.path)
+            before = folders.contents(run.path)
             end = attacks.run(commands.physexp, *subjects.words(run), first=attacks.Memory(MEMORY))
             try:
                 if end.code or not (name.startswith("checkpoint") or (name, kind) in ACCEPTED):
                     end.assert_refused()
-                    assert everything(run.path) == before, "something has changed"
+                    assert folders.contents(run.path) == before, "something has changed"
                 tally["refused" if end.code else "went on"] += 1
             except AssertionError as error:
                 bad.append(f"{kind}: {str(error)[-700:]}")
@@ -236,12 +236,3 @@ def test_training_does_not_go_on_from_a_hostile_file_and_changes_nothing(name, m
 def some_of(kinds, default=3, share=1.0):
     """Some of them at random; all of them where many attacks are asked for."""
     return attacks.generator().sample(kinds, min(len(kinds), attacks.repetitions(default, share)))
-
-
-def everything(path):
-    """Contents of the regular files of a folder by name, and what the others are."""
-    return {
-        str(item.relative_to(path)): item.read_bytes() if stat.S_ISREG(item.lstat().st_mode) else item.lstat().st_mode
-        for item in path.rglob("*")
-        if item.name != ".lock"
-    }

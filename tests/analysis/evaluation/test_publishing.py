@@ -4,7 +4,6 @@ import dataclasses
 import json
 import math
 import shlex
-import shutil
 
 import pytest
 from safetensors import torch as safetensors
@@ -131,11 +130,6 @@ def test_a_published_agent_is_found_by_its_card_wherever_it_is(published):
         finding.find_agent(str(path), {"difficulty": 3})
 
 
-def copy_of(run, path):
-    shutil.copytree(run.path, path)
-    return run_lib.Run(path)
-
-
 HEADER = ",".join(metrics_lib.METRICS) + "\n"
 
 
@@ -153,7 +147,7 @@ HEADER = ",".join(metrics_lib.METRICS) + "\n"
     ],
 )
 def test_a_run_whose_metrics_say_too_little_is_refused_in_one_line(metrics, published, tmp_path):
-    run = copy_of(published[0], tmp_path / "run")
+    run = trainers.copy_of(published[0], tmp_path / "run")
     (run.path / "metrics.csv").unlink() if metrics is None else (run.path / "metrics.csv").write_text(metrics)
     with pytest.raises(ValueError, match=f"^{run.path / 'metrics.csv'} ") as refused:
         publishing.publish(run, tmp_path / "agents", num_episodes=1)
@@ -170,7 +164,7 @@ def test_an_agent_that_is_there_is_replaced_only_where_that_is_asked_for(publish
 
 
 def test_a_run_of_another_format_is_not_published(published, tmp_path):
-    run = copy_of(published[0], tmp_path / "run")
+    run = trainers.copy_of(published[0], tmp_path / "run")
     (run.path / "config.json").write_text(json.dumps({**run.facts, "format": 99}))
     with pytest.raises(ValueError, match="has format 99; this version reads format 1"):
         publishing.publish(run, tmp_path / "agents", num_episodes=1)
@@ -178,7 +172,7 @@ def test_a_run_of_another_format_is_not_published(published, tmp_path):
 
 @pytest.mark.parametrize("worst", [math.nan, math.inf])
 def test_weights_that_are_not_finite_are_refused_wherever_they_are_read(worst, published, tmp_path):
-    run = copy_of(published[0], tmp_path / "run")
+    run = trainers.copy_of(published[0], tmp_path / "run")
     tensors, facts = run.checkpointer.latest()
     tensors["network/policy.bias"][0] = worst
     path = run.checkpointer.save(tensors, facts)
@@ -208,7 +202,7 @@ def test_weights_that_are_not_finite_are_refused_wherever_they_are_read(worst, p
     ],
 )
 def test_facts_that_make_no_sense_stop_a_run_from_being_resumed(facts, published, tmp_path):
-    run = copy_of(published[0], tmp_path / "run")
+    run = trainers.copy_of(published[0], tmp_path / "run")
     tensors, good = run.checkpointer.latest()
     path = run.checkpointer.save(tensors, {**good, **facts} if facts else {})
     metrics = (run.path / "metrics.csv").read_bytes()
@@ -219,7 +213,7 @@ def test_facts_that_make_no_sense_stop_a_run_from_being_resumed(facts, published
 
 
 def test_an_agent_kept_alone_that_is_damaged_is_refused_by_its_file(published, tmp_path):
-    run = copy_of(published[0], tmp_path / "run")
+    run = trainers.copy_of(published[0], tmp_path / "run")
     run.keep_agent_only()
     assert finding.find_agent(str(run.path))
     content = run.agent_path.read_bytes()
@@ -235,7 +229,7 @@ def test_an_agent_kept_alone_that_is_damaged_is_refused_by_its_file(published, t
 
 
 def test_a_configuration_of_a_larger_network_than_the_weights_have_is_refused_before_it_is_made(published, tmp_path):
-    run = copy_of(published[0], tmp_path / "run")
+    run = trainers.copy_of(published[0], tmp_path / "run")
     run.keep_agent_only()
     fields = run.facts
     fields["train"]["agent"]["lstm_units"] = 65_536  # Would take 70 GB.

@@ -8,7 +8,6 @@ from pathlib import Path
 import re
 import resource
 import signal
-import socket
 import subprocess
 import urllib.request
 
@@ -725,37 +724,21 @@ def viewers(home):
     return found
 
 
-def listening(pids):
-    """The addresses and ports on which processes listen."""
-    inodes = set()
-    for pid in pids:
-        with contextlib.suppress(OSError):
-            for link in Path(f"/proc/{pid}/fd").iterdir():
-                with contextlib.suppress(OSError):
-                    inodes.add(os.readlink(link))
-    found = set()
-    for table, family in (("tcp", socket.AF_INET), ("tcp6", socket.AF_INET6)):
-        for line in Path(f"/proc/net/{table}").read_text().splitlines()[1:]:
-            _, local, _, state, *rest = line.split()
-            if state == "0A" and f"socket:[{rest[5]}]" in inodes:  # 0A is LISTEN.
-                address, port = local.split(":")
-                groups = [bytes.fromhex(address[i : i + 8])[::-1] for i in range(0, len(address), 8)]
-                found.add((socket.inet_ntop(family, b"".join(groups)), int(port, 16)))
-    return found
-
-
 URL = r"http://127\.0\.0\.1:\d+/\S+"
 
 
-@pytest.mark.skipif(not Path("/proc/net/tcp").exists(), reason="needs /proc")
 def test_the_viewer_in_a_browser_is_served_to_this_machine_alone_and_its_address_is_told(tmp_path):
     environment = {**os.environ, "HOME": str(tmp_path), "BROWSER": "true"}
     options = ["--episodes", 1, "--web", "--output", tmp_path / "one.rrd"]
+
+    def sockets():
+        return {socket for viewer in viewers(tmp_path) for socket in commands.listening(viewer)}
+
     with commands.start(
         "replay", "which_is_heavier/features", *options, env=environment, stderr=subprocess.STDOUT
     ) as process:
-        wait_until(lambda: len(listening(viewers(tmp_path))) >= 2, "two listening sockets")
-        assert {address for address, _ in listening(viewers(tmp_path))} == {"127.0.0.1"}
+        wait_until(lambda: len(sockets()) >= 2, "two listening sockets")
+        assert {address for address, _ in sockets()} == {"127.0.0.1"}
         wait_until(lambda: re.search(URL, process.stdout.so_far()), "its address")
         (url,) = re.findall(URL, process.stdout.so_far())
         with urllib.request.urlopen(url, timeout=600) as page:
@@ -795,9 +778,9 @@ def _play_beside_the_viewer(environment, home):
 
     try:
         wait_until(lambda: "action: " in output.read_text(), "the first question")
-        wait_until(lambda: listening(viewers(home)), "a viewer that listens")
+        wait_until(lambda: any(map(commands.listening, viewers(home))), "a viewer that listens")
         (first,) = viewers(home)
-        assert {address for address, _ in listening([first])} == {"127.0.0.1"}
+        assert {address for address, _ in commands.listening(first)} == {"127.0.0.1"}
         type_in("0")
         os.kill(first, signal.SIGKILL)  # The player closes the window.
         type_in("0")

@@ -1,6 +1,5 @@
 """Training on a cluster of Ray, two nodes on this machine, whoever dies meanwhile."""
 
-import contextlib
 import functools
 import math
 import os
@@ -14,7 +13,6 @@ import time
 import types
 
 import commands
-import psutil
 import pytest
 import ray
 from ray import cluster_utils
@@ -219,11 +217,7 @@ def test_a_machine_with_other_versions_is_refused_in_one_line_that_names_both(no
 
 def test_a_loss_that_is_not_a_number_stops_training_and_leaves_the_batch(nodes, tmp_path):
     run = trainers.create(tmp_path / "run", frames=10**9)
-    tensors = trainer.make_agent(run.config).save()
-    tensors["network/value.bias"][0] = 3e38  # Finite, but not its square.
-    run.checkpointer.save(
-        tensors, {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": provenance.versions()}
-    )
+    trainers.save_first_checkpoint(run, poison=True)
     with pytest.raises(RuntimeError, match="worker 0: loss -?(inf|nan).*failed_batch.npz.*last checkpoint"):
         trainer.train(run, on_cluster=True)
     assert (run.path / "failed_batch.npz").exists()
@@ -345,17 +339,6 @@ def test_a_parameter_server_that_does_not_answer_counts_as_dead(nodes, tmp_path)
     wait_until(lambda: not Path(f"/proc/{server}").exists(), "the end of a stopped server")
 
 
-def listening(leader):
-    """The addresses on which a process and its descendants listen."""
-    addresses = set()
-    with contextlib.suppress(psutil.NoSuchProcess):
-        parent = psutil.Process(leader)
-        for process in (parent, *parent.children(recursive=True)):
-            with contextlib.suppress(psutil.NoSuchProcess, psutil.AccessDenied):
-                addresses |= {c.laddr.ip for c in process.net_connections("tcp") if c.status == psutil.CONN_LISTEN}
-    return addresses
-
-
 def test_the_command_trains_on_a_cluster_that_it_starts_itself_and_that_only_this_machine_reaches(tmp_path):
     command = [
         PHYSEXP,
@@ -375,7 +358,7 @@ def test_the_command_trains_on_a_cluster_that_it_starts_itself_and_that_only_thi
     environment = {**os.environ, "HOME": str(tmp_path)}
     with subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, text=True, env=environment) as process:
         while process.poll() is None:
-            addresses |= listening(process.pid)
+            addresses |= {address for address, _ in commands.listening(process.pid)}
             time.sleep(0.1)
         output = process.stdout.read()
     assert process.returncode == 0

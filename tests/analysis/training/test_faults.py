@@ -5,7 +5,6 @@ import os
 from pathlib import Path
 import pickle
 import random
-import subprocess
 import time
 
 import commands
@@ -39,11 +38,6 @@ def trained(tmp_path_factory):
     trainer.train(run)
     assert len(run.checkpointer.paths()) == 2
     return run
-
-
-def copy_of(trained, path):
-    subprocess.run(["cp", "-r", trained.path, path], check=True)
-    return run_lib.Run(path)
 
 
 def test_kills_in_a_row_cost_no_row_and_no_checkpoint(tmp_path):
@@ -92,7 +86,7 @@ def tear_the_json(path):
 
 @pytest.mark.parametrize("damage", [truncate, flip_a_bit, lose_the_json, tear_the_json])
 def test_a_damaged_checkpoint_is_told_and_the_one_before_it_is_used(damage, trained, tmp_path):
-    run = copy_of(trained, tmp_path / "run")
+    run = trainers.copy_of(trained, tmp_path / "run")
     before, last = run.checkpointer.paths()
     expected = checkpointing.safetensors.load_file(before)
     damage(last)
@@ -110,7 +104,7 @@ def test_a_damaged_checkpoint_is_told_and_the_one_before_it_is_used(damage, trai
 
 
 def test_where_no_checkpoint_is_whole_training_says_so_and_changes_nothing(trained, tmp_path):
-    run = copy_of(trained, tmp_path / "run")
+    run = trainers.copy_of(trained, tmp_path / "run")
     for path in run.checkpointer.paths():
         truncate(path)
     metrics = (run.path / "metrics.csv").read_bytes()
@@ -121,7 +115,7 @@ def test_where_no_checkpoint_is_whole_training_says_so_and_changes_nothing(train
 
 
 def test_a_checkpoint_of_another_task_is_refused_with_both_named(trained, tmp_path):
-    run = copy_of(trained, tmp_path / "run")
+    run = trainers.copy_of(trained, tmp_path / "run")
     tensors, facts = run.checkpointer.latest()
     tensors["frames"] += 1
     run.checkpointer.save(tensors, {**facts, "task": "towers/fist_features"})
@@ -131,7 +125,7 @@ def test_a_checkpoint_of_another_task_is_refused_with_both_named(trained, tmp_pa
 
 
 def test_a_checkpoint_of_another_version_is_refused_with_both_named(trained, tmp_path):
-    run = copy_of(trained, tmp_path / "run")
+    run = trainers.copy_of(trained, tmp_path / "run")
     card = run.checkpointer.paths()[-1].with_suffix(".json")
     card.write_text(json.dumps({**json.loads(card.read_text()), "format": 7}))
     code, _, errors = resume(run)
@@ -158,7 +152,7 @@ def with_checksum(path, content):
 
 @pytest.mark.parametrize("kind", ["pickle", "zip of torch", "huge header", "nested header", "noise"])
 def test_a_hostile_checkpoint_runs_no_code_and_is_refused_in_one_line(kind, trained, tmp_path):
-    run, proof = copy_of(trained, tmp_path / "run"), tmp_path / "proof"
+    run, proof = trainers.copy_of(trained, tmp_path / "run"), tmp_path / "proof"
     torch.save(RunsCode(proof), tmp_path / "saved")
     hostile = {
         "pickle": pickle.dumps(RunsCode(proof)),
@@ -187,7 +181,7 @@ def test_a_second_trainer_in_one_folder_is_refused_and_the_first_goes_on(tmp_pat
 
 
 def test_a_folder_that_may_not_be_written_is_one_readable_line(trained, tmp_path):
-    run = copy_of(trained, tmp_path / "run")
+    run = trainers.copy_of(trained, tmp_path / "run")
     run.path.chmod(0o555)
     code, _, errors = resume(run, first=commands.bound)
     run.path.chmod(0o755)
@@ -254,9 +248,7 @@ def test_a_trainer_whose_folder_is_moved_stops_and_the_run_can_be_resumed_where_
 
 def test_a_batch_that_cannot_be_saved_does_not_hide_why_training_stopped(tmp_path):
     run = trainers.create(tmp_path / "run", "ppo")
-    tensors = trainer.make_agent(run.config).save()
-    tensors["network/value.bias"][0] = 3e38  # Finite, but not its square.
-    run.checkpointer.save(tensors, {"task": run.config.task_name, "episodes": 0, "seconds": 0.0})
+    trainers.save_first_checkpoint(run, poison=True)
     (run.path / "failed_batch.npz").mkdir()
     with pytest.raises(RuntimeError, match="loss -?(inf|nan).*the batch could not be written to .*failed_batch.npz"):
         trainer.train(run)

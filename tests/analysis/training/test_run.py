@@ -8,6 +8,7 @@ from pathlib import Path
 import resource
 import signal
 
+import folders
 import pytest
 import torch
 from waiting import wait_until
@@ -42,15 +43,6 @@ def run(tmp_path):
     made = run_lib.Run(tmp_path / "run")
     made.create(make_config())
     return made
-
-
-def contents(folder):
-    """Every file below a folder with its content, and every link with its target."""
-    return {
-        str(path.relative_to(folder)): os.readlink(path) if path.is_symlink() else path.read_bytes()
-        for path in sorted(folder.rglob("*"))
-        if path.is_symlink() or path.is_file()
-    }
 
 
 # Starting together.
@@ -117,7 +109,7 @@ def test_one_that_ends_while_another_starts_never_lets_two_in(tmp_path):
     twice = context.Value("i", 0)
     racers = [context.Process(target=_take_turns, args=(tmp_path / "run", inside, twice)) for _ in range(3)]
     assert _all_end(racers) == [0, 0, 0] and twice.value == 0
-    assert contents(tmp_path) == {}
+    assert folders.contents(tmp_path) == {}
 
 
 def test_a_start_that_fails_takes_back_the_folders_that_it_made_and_no_other(tmp_path):
@@ -149,7 +141,7 @@ def test_a_run_has_no_place_where_a_file_is(place, tmp_path):
     (tmp_path / "file").write_text("mine")
     with pytest.raises(ValueError, match="is a file or lies below one; choose another folder"):
         run_lib.Run(tmp_path / place).create(make_config())
-    assert contents(tmp_path) == {"file": b"mine"}
+    assert folders.contents(tmp_path) == {"file": b"mine"}
 
 
 def test_a_run_whose_folder_cannot_be_made_says_so():
@@ -163,13 +155,13 @@ def test_a_run_whose_folder_cannot_be_made_says_so():
 def test_an_attempt_without_a_checkpoint_is_started_anew_and_its_records_are_moved_aside(run):
     run.append_metrics(row(10))
     run.append_episodes(10, run_lib.EPISODES.empty_table())
-    before = contents(run.path)
+    before = folders.contents(run.path)
     moved = run.create(make_config(seed=1))
-    assert moved == run.path / "superseded-1" and contents(moved) == before
+    assert moved == run.path / "superseded-1" and folders.contents(moved) == before
     assert run.config.agent.seed == 1 and run.metrics() == []
     run.append_metrics(row(20))
     assert run.create(make_config(seed=2)) == run.path / "superseded-2"
-    assert contents(moved) == before
+    assert folders.contents(moved) == before
 
 
 def test_an_attempt_without_any_record_is_replaced(run):
@@ -182,10 +174,10 @@ def test_a_run_that_came_to_something_is_not_started_anew(what, run):
     checkpoint(run)
     if what == "an agent":
         run.keep_agent_only()
-    before = contents(run.path)
+    before = folders.contents(run.path)
     with pytest.raises(ValueError, match="already holds a run; add --resume"):
         run.create(make_config(seed=1))
-    assert contents(run.path) == before
+    assert folders.contents(run.path) == before
 
 
 def test_records_without_a_checkpoint_are_not_resumed_over(run):
@@ -228,7 +220,7 @@ def test_rewinding_moves_later_records_aside_and_drops_a_torn_row(run):
 
 def test_keeping_the_agent_goes_on_where_a_kill_has_left_it(run):
     checkpoint(run)
-    checkpoints = contents(run.path / "checkpoints")
+    checkpoints = folders.contents(run.path / "checkpoints")
     run.keep_agent_only()
     assert not (run.path / "checkpoints").exists()
     agent = run.agent_path.read_bytes()
@@ -236,7 +228,10 @@ def test_keeping_the_agent_goes_on_where_a_kill_has_left_it(run):
         (run.path / "checkpoints").mkdir(exist_ok=True)
         (run.path / "checkpoints" / name).write_bytes(content)
     run.keep_agent_only()
-    assert contents(run.path).keys() == {"config.json", "agent.safetensors"} and run.agent_path.read_bytes() == agent
+    assert (
+        folders.contents(run.path).keys() == {"config.json", "agent.safetensors"}
+        and run.agent_path.read_bytes() == agent
+    )
 
 
 # metrics.csv.
@@ -393,7 +388,7 @@ def test_the_folder_itself_may_be_a_link(tmp_path):
     with run.locked():
         run.create(make_config())
         run.append_metrics(row(10))
-    assert sorted(contents(tmp_path / "large disk")) == ["config.json", "metrics.csv"]
+    assert sorted(folders.contents(tmp_path / "large disk")) == ["config.json", "metrics.csv"]
     assert (tmp_path / "latest").is_symlink()
 
 

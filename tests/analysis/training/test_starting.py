@@ -7,6 +7,7 @@ import signal
 import sys
 
 import commands
+import folders
 import pandas as pd
 import pytest
 import torch
@@ -36,10 +37,6 @@ def small(**agent):
     """PPO plays in the process that trains: nothing has to start."""
     agent = trainers.SMALL["ppo"].replace(**{"frames": 2_000, "checkpoint_seconds": 0.01, **agent})
     return config_lib.TrainConfig(domain=TASK[0], task=TASK[1], task_kwargs={"difficulty": 10.0}, agent=agent)
-
-
-def everything(folder):
-    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
 # Checks.
@@ -74,7 +71,7 @@ def test_a_missing_gl_library_is_told_before_anything_is_made(tmp_path, monkeypa
 def test_a_run_dir_that_is_a_file_or_below_one_is_told(place, tmp_path, capsys):
     (tmp_path / "file").write_text("mine")
     assert "is a file or lies below one" in refusal(capsys, "train", *TASK, "--run-dir", tmp_path / place)
-    assert everything(tmp_path) == {"file": b"mine"}
+    assert folders.contents(tmp_path) == {"file": b"mine"}
 
 
 def test_a_disk_without_room_for_checkpoints_is_told_before_training(tmp_path, monkeypatch, capsys):
@@ -141,20 +138,20 @@ def test_records_without_a_checkpoint_are_not_resumed_but_moved_aside_by_a_new_s
     run.create(small())
     # As a kill leaves it in the first minute.
     run.append_metrics({**dict.fromkeys(metrics_lib.METRICS, 0.5), "frames": 7})
-    before = everything(run.path)
+    before = folders.contents(run.path)
     line = refusal(capsys, "train", *TASK, "--run-dir", run.path, "--resume")
     assert "holds no checkpoint to resume from; leave out --resume to start anew" in line
-    assert everything(run.path) == before
+    assert folders.contents(run.path) == before
     told = []
     trainer.train(run, tell=told.append, start=small(seed=1))
-    assert everything(run.path / "superseded-1") == before
+    assert folders.contents(run.path / "superseded-1") == before
     assert told == [f"what an earlier attempt without a checkpoint had recorded is now in {run.path / 'superseded-1'}"]
     assert run.config.agent.seed == 1 and run.is_finished and 7 not in pd.DataFrame(run.metrics()).frames.tolist()
     run.keep_agent_only()
-    before = everything(run.path)
+    before = folders.contents(run.path)
     line = refusal(capsys, "train", *TASK, "--run-dir", run.path, "--resume")
     assert "is finished and has kept its agent alone; evaluate it" in line
-    assert everything(run.path) == before
+    assert folders.contents(run.path) == before
 
 
 def test_a_run_that_has_had_its_frames_says_so_when_it_is_to_go_on(tmp_path, capsys):
@@ -173,10 +170,10 @@ def test_the_demo_refuses_a_folder_with_another_run_and_changes_nothing(tmp_path
     run = run_lib.Run(tmp_path / "run")
     run.create(small())
     run.append_metrics({**dict.fromkeys(metrics_lib.METRICS, 0.5), "frames": 7})
-    before = everything(tmp_path)
+    before = folders.contents(tmp_path)
     line = refusal(capsys, "demo", "--run-dir", run.path)
     assert "holds a run that is no demo's; choose another --run-dir" in line
-    assert everything(tmp_path) == before
+    assert folders.contents(tmp_path) == before
 
 
 def test_a_demo_in_the_folder_of_an_earlier_one_moves_that_aside_and_tells_that_nothing_was_learned(
@@ -188,8 +185,8 @@ def test_a_demo_in_the_folder_of_an_earlier_one_moves_that_aside_and_tells_that_
     run.create(demo.config())
     run.append_metrics({**dict.fromkeys(metrics_lib.METRICS, 0.5), "frames": 100})
     checkpoint = run.checkpointer.save({"frames": torch.tensor(100)}, {})
-    before = everything(run.path)
+    before = folders.contents(run.path)
     demo.run(run.path)
-    assert everything(run.path / "superseded-1") == before and run.is_finished and not checkpoint.exists()
+    assert folders.contents(run.path / "superseded-1") == before and run.is_finished and not checkpoint.exists()
     errors = capsys.readouterr().err
     assert "the agent" in errors and "chance is 25.0%" in errors and re.search(r"--frames \d+ or more", errors)

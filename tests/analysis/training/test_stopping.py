@@ -21,17 +21,6 @@ from physexp.analysis.training import trainer
 ENDLESS = 10**9  # Frames that no test waits for.
 
 
-def save_first_checkpoint(run, poison=False):
-    """Writes the checkpoint of an untrained agent, with a weight too large to learn with if asked for."""
-    config = run.config
-    agent = trainer.make_agent(config)
-    tensors = agent.save()
-    if poison:
-        tensors["network/value.bias"][0] = 3e38  # Finite, but not its square.
-    facts = {"task": run.config.task_name, "episodes": 0, "seconds": 0.0, "versions": provenance.versions()}
-    return run.checkpointer.save(tensors, facts)
-
-
 def assert_last_checkpoint_fits(run):
     """The last checkpoint is whole, finite, and one that the agent takes up."""
     tensors, facts = run.checkpointer.latest()
@@ -45,7 +34,7 @@ def assert_last_checkpoint_fits(run):
 
 def test_a_loss_that_is_not_a_number_stops_training_and_leaves_the_batch(tmp_path):
     run = trainers.create(tmp_path / "run", frames=ENDLESS)
-    checkpoint = save_first_checkpoint(run, poison=True)
+    checkpoint = trainers.save_first_checkpoint(run, poison=True)
     content = checkpoint.read_bytes()
     with pytest.raises(RuntimeError, match="worker 0.*loss -?(inf|nan).*failed_batch.npz.*last checkpoint") as caught:
         trainer.train(run)
@@ -97,7 +86,7 @@ def test_workers_do_not_outlive_a_killed_trainer(tmp_path):
 
 def test_a_full_disk_stops_training_with_a_message_and_keeps_the_last_checkpoint(tmp_path):
     run = trainers.create(tmp_path / "run", frames=ENDLESS)
-    checkpoint = save_first_checkpoint(run)
+    checkpoint = trainers.save_first_checkpoint(run)
     content = checkpoint.read_bytes()
     # A checkpoint is three times the parameters; the kernel refuses files of more than half of it.
     limit = len(content) // 2
@@ -143,7 +132,7 @@ def test_ctrl_c_writes_a_checkpoint_and_resuming_finishes(tmp_path):
 
 def test_a_checkpoint_of_another_network_is_refused(tmp_path):
     run = trainers.create(tmp_path / "run", lstm_units=10)
-    save_first_checkpoint(run)
+    trainers.save_first_checkpoint(run)
     config = run.config
     other = trainer.make_agent(dataclasses.replace(config, agent=config.agent.replace(lstm_units=11)))
     with pytest.raises(ValueError, match="does not fit the configuration.*lstm"):
