@@ -6,6 +6,7 @@ import commands
 import numpy as np
 from PIL import Image
 import pytest
+import screens
 
 from physexp.analysis import domains
 from physexp.analysis.evaluation import figures
@@ -46,6 +47,18 @@ def test_the_page_says_what_was_played_and_found_and_needs_no_other_file(folder,
         assert f"<td>{name}</td><td>{figures_of_task['score']:.3f}</td>" in page
     places = re.findall(r"""(?:src|href)\s*=\s*["']?([^"'\s>]*)""", page)
     assert places and all(place.startswith("data:") for place in places)
+
+
+@screens.needs_browser
+def test_a_browser_shows_the_page_with_its_figures(folder, tmp_path):
+    shown = screens.photographed(folder / "report.html", tmp_path).astype(int)
+    page = (folder / "report.html").read_text()
+    without = re.sub(r"<img\b[^>]*>", "", page)
+    assert len(without) < len(page)
+    (tmp_path / "without.html").write_text(without)
+    bare = screens.photographed(tmp_path / "without.html", tmp_path).astype(int)
+    colored, of_text = ((np.ptp(image, axis=-1) > 60).sum() for image in (shown, bare))
+    assert colored > 3 * of_text > 0, "the score is blue, and most of what is coloured is in the figures"
 
 
 def test_the_image_is_as_wide_as_a_desktop(folder):
