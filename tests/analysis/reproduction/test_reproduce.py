@@ -304,7 +304,8 @@ def test_an_experiment_without_agents_takes_no_training(tmp_path):
 def test_the_command_for_the_ideal_prints_its_figures():
     done = commands.run("ideal", "which_is_heavier", "--difficulty", 3, "--discount", 0.95, "--json", check=True)
     figures = json.loads(done.stdout)
-    assert list(figures) == ["value", "at_once", "random_value", "accuracy", "mean_interactions", "histogram"]
+    names = ["value", "bound", "accuracy", "mean_interactions", "histogram", "at_once", "random_value"]
+    assert list(figures) == names
     assert figures["value"] == pytest.approx(0.8385, abs=1e-3)
     assert sum(figures["histogram"].values()) == pytest.approx(1)
     mean = sum(int(pokes) * share for pokes, share in figures["histogram"].items())
