@@ -5,10 +5,13 @@ Most of it runs in this process, through the entry point: a process of its own w
 
 import contextlib
 import dataclasses
+import errno
 import json
 import os
 from pathlib import Path
+import re
 import resource
+import shlex
 import subprocess
 import sys
 from typing import get_args, get_type_hints
@@ -19,6 +22,7 @@ from rerun.chunk import RrdReader
 
 import physexp as package
 from physexp import extras, suite
+from physexp.agents import files
 from physexp.analysis import bench, doctor, experiments
 from physexp.analysis.evaluation import finding, playing
 from physexp.analysis.experiments import conditions
@@ -576,3 +580,21 @@ def test_a_replay_is_of_chosen_episodes_or_of_two_agents(run):
     both = RrdReader("both.rrd")
     names = {str(chunk.entity_path) for chunk in both.stream(store=both.recordings()[0])}
     assert {"/A/belief/value", "/B/belief/value"} <= names
+
+
+def test_a_report_for_which_the_disk_had_no_room_is_drawn_from_what_was_played(run, monkeypatch):
+    write = files.write_atomically
+
+    def write_what_is_small(path, content):
+        if path.suffix == ".html":
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+        write(path, content)
+
+    with monkeypatch.context() as full:
+        full.setattr(files, "write_atomically", write_what_is_small)
+        done = run("score", "silent", "--tasks", "threshold/features", "--episodes", 20, "--output", "it's")
+    assert_refused(done, 'No space left on device: "it\'s/report.html"', "--report` draws its report")
+    command = re.search("`physexp (verify .*)`", done.stderr)[1]
+    done = run(*shlex.split(command))
+    assert done.returncode == 0, done.stderr
+    assert {"report.html", "report.png"} <= {*os.listdir("it's")}

@@ -2,6 +2,7 @@
 
 import dataclasses
 from pathlib import Path
+import shlex
 from typing import Annotated, Literal
 
 import tyro
@@ -55,7 +56,7 @@ class Score:
 
     def run(self) -> None:
         extras.require("matplotlib")
-        from physexp.analysis.score import protocol, report, scoring, targets
+        from physexp.analysis.score import protocol, scoring, targets
         from physexp.analysis.training import progress
 
         chosen = targets.chosen(self.target, self.tasks, self.observations)
@@ -75,7 +76,7 @@ class Score:
                     made=made,
                     show=show,
                 )
-            report.write(folder)
+            _write_report(folder)
         except KeyboardInterrupt:
             if (folder / scoring.FILE).exists():
                 printing.warn(f"the episodes that were played are in {folder}")
@@ -95,6 +96,18 @@ class Score:
         seconds = None if self.minutes is None else 60 * checks.number("minutes", self.minutes, 0, "min")
         said = {"algorithm": self.algorithm, "frames": self.frames, "seconds": seconds}
         return {name: value for name, value in said.items() if value is not None}
+
+
+def _write_report(folder: Path) -> None:
+    """Writes the report of a score; raises OSError if it cannot, which says that the score itself is there."""
+    from physexp.analysis.score import report
+
+    try:
+        report.write(folder)
+    except OSError as error:
+        raise OSError(
+            f"{error}; the score itself is there: `physexp verify {shlex.quote(str(folder))} --report` draws its report"
+        ) from None
 
 
 def _rows(found: dict) -> list[dict]:
@@ -132,13 +145,17 @@ class Verify:
     """Play the actions of a score's log again, bit for bit, and say whether everything in the folder follows from them.
 
     Attributes:
+      report: draw the report again, if everything does.
       json: print JSON.
     """
 
     folder: Annotated[Positional[Path], tyro.conf.arg(metavar="FOLDER", help="what `physexp score` has written.")]
+    report: Switch = False
     json: Switch = False
 
     def run(self) -> None:
+        if self.report:
+            extras.require("matplotlib")
         from physexp.analysis.score import scoring, verifying
         from physexp.analysis.training import progress
 
@@ -146,6 +163,8 @@ class Verify:
         count = stored["protocol"]["episodes"] * len(stored["protocol"]["tasks"])
         with progress.bar("episodes", count) as show:
             found = verifying.verify(self.folder, show)
+        if self.report:
+            _write_report(self.folder)
         if self.json:
             printing.show({**found, "complete": stored["complete"]}, as_json=True)
             return
