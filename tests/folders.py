@@ -6,15 +6,10 @@ import stat
 
 
 def contents(folder: Path) -> dict[str, bytes | str | int]:
-    """Returns by name the content of every file, the target of every link, and the mode of whatever else there is.
-
-    Locks and folders are left out.
-    """
+    """Returns by name the content of every file, the target of every link, and the mode of whatever else there is."""
     found: dict[str, bytes | str | int] = {}
     for path in sorted(folder.rglob("*")):
         mode = path.lstat().st_mode
-        if path.name == ".lock" or stat.S_ISDIR(mode):
-            continue
         name = str(path.relative_to(folder))
         found[name] = os.readlink(path) if stat.S_ISLNK(mode) else path.read_bytes() if stat.S_ISREG(mode) else mode
     return found

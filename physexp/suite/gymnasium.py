@@ -54,6 +54,11 @@ def check_num_envs(num_envs: int) -> int:
     return checks.integer("num_envs", num_envs, 1, batch_lib.MOST_ENVIRONMENTS)
 
 
+def check_seed(seed: Any) -> int | None:
+    """Returns a seed as an int, or None; raises ValueError if it is neither None nor an integer in [0, 2**63)."""
+    return None if seed is None else checks.integer("seed", seed, 0, seeding.LARGEST_SEED)
+
+
 def images(batch: suite.BatchEnvironment) -> tuple[np.ndarray, ...]:
     """Returns one image for each environment, uint8 [size, size, 3]; the more environments, the smaller the images.
 
@@ -110,8 +115,7 @@ class Environment(gymnasium.Env):
         Raises:
           ValueError: for a seed that is no integer in [0, 2**63).
         """
-        if seed is not None:
-            seed = checks.integer("seed", seed, 0, seeding.LARGEST_SEED)
+        seed = check_seed(seed)
         super().reset(seed=seed)
         if seed is not None or not self._seeded:
             self._environment.task.reseed(int(self.np_random.integers(2**32)) if seed is None else seed)
@@ -201,8 +205,7 @@ class VectorEnvironment(vector_env.VectorEnv):
           ValueError: for a list of seeds: the batch derives them from one, an integer in [0, 2**63); or for a
             `reset_mask` among the options.
         """
-        if seed is not None:
-            seed = checks.integer("seed", seed, 0, seeding.LARGEST_SEED)
+        seed = check_seed(seed)
         if "reset_mask" in (options or {}):
             raise ValueError("options has a reset_mask; reset all: where an episode has ended, a step begins the next")
         super().reset(seed=seed)

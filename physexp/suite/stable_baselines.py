@@ -12,7 +12,6 @@ import numpy as np  # noqa: E402
 from stable_baselines3.common.vec_env import base_vec_env  # noqa: E402
 
 from physexp.suite import gymnasium as gymnasium_lib  # noqa: E402
-from physexp.suite.engine import checks, seeding  # noqa: E402
 
 
 class VecEnv(base_vec_env.VecEnv):
@@ -54,7 +53,7 @@ class VecEnv(base_vec_env.VecEnv):
         Raises:
           ValueError: if the seed is no integer in [0, 2**63).
         """
-        return super().seed(None if seed is None else checks.integer("seed", seed, 0, seeding.LARGEST_SEED))
+        return super().seed(gymnasium_lib.check_seed(seed))
 
     def reset(self):
         if self._seeds[0] is not None:  # `seed` has been called: it takes effect with the next reset.
