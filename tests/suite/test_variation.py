@@ -1,6 +1,7 @@
 """Variation: episodes differ in what is not asked, in the same way whatever is hidden."""
 
 import copy
+import itertools
 
 from every_task import VARYING, load_batch
 import mujoco
@@ -27,8 +28,14 @@ def test_before_an_interaction_episodes_differ_but_not_by_what_is_hidden(seed, n
     for key, value in firsts[0].items():
         np.testing.assert_array_equal(value, firsts[1][key])
     looks = {tuple(value[i].tobytes() for value in firsts[0].values()) for i in range(size)}
-    # Heights are zero at rest, whatever the force of a poke.
-    assert len(looks) == (1 if name == "which_is_heavier/features" else size)
+    if name == "which_is_heavier/features":
+        assert len(looks) == 1  # Heights are zero at rest, whatever the force of a poke.
+    elif name.endswith("pixels"):
+        # Of two episodes in ten thousand, at most, the cameras are so near to each other that they see the same. Of
+        # the 28 pairs here three do with a probability below (28 * 1e-4)^3 / 6, which is 4e-9.
+        assert len(looks) >= size - 2
+    else:
+        assert len(looks) == size
     batch.close()
 
 
@@ -159,11 +166,13 @@ def test_the_fist_is_as_fast_and_pokes_are_as_strong_as_is_said(seed):
 
 @pytest.mark.parametrize("domain, task", [name.split("/") for name in VARYING if name.endswith("pixels")])
 def test_images_are_those_of_a_displaced_camera_and_the_next_is_drawn_from_its_own(seed, domain, task):
-    batch = suite.load_batch(domain, task, 6, {"random": seed, "variation": 1.0})
-    images = batch.reset(episode=0).observation["pixels"].copy()
-    assert len({image.tobytes() for image in images}) == 6
+    batch = suite.load_batch(domain, task, 8, {"random": seed, "variation": 1.0})
+    corners = np.array(list(itertools.product([-1.0, 1.0], repeat=3)))  # Of where cameras are.
+    nuisances = np.tile(corners, batch.task.num_nuisances)[:, : batch.task.num_nuisances]
+    images = batch.reset(episode=0, nuisances=nuisances).observation["pixels"].copy()
+    assert len({image.tobytes() for image in images}) == 8
     batch.reset(episode=1)
-    again = batch.reset(np.array([4]), episode=0).observation["pixels"]
+    again = batch.reset(np.array([4]), episode=0, nuisances=nuisances[4:5]).observation["pixels"]
     np.testing.assert_array_equal(again[0], images[4])
     plain = suite.load_batch(domain, task, 1, {"random": seed}).reset().observation["pixels"][0]
     # Two centimetres are a pixel or two of a view that is a metre wide.
