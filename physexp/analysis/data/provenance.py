@@ -5,6 +5,8 @@ from pathlib import Path
 import platform
 import shutil
 import subprocess
+import time
+from typing import Any
 
 import physexp
 
@@ -42,6 +44,11 @@ def shortened(commit: str) -> str:
     """Returns ten digits of a commit, and its `+`; a word that stands for one, such as `unknown`, stays whole."""
     digits, plus, _ = commit.partition("+")
     return (digits[:10] if len(digits) == _DIGITS else digits) + plus
+
+
+def made_since(begun: float) -> dict[str, Any]:
+    """Returns what made results since a time of `time.monotonic`: `seconds`, `commit` and `versions`."""
+    return {"seconds": round(time.monotonic() - begun, 1), "commit": commit(), "versions": versions()}
 
 
 def versions() -> dict[str, str]:

@@ -62,7 +62,7 @@ def export(
         raise ValueError(f"seed is {seed}, whose episodes are scored; give another one")
     minari_name = targets.file_name(target) if as_minari else None
     writers = [_Writer(folder, asked, seed, minari_name) for asked in questions]
-    agent = targets.facts(target)
+    agent = targets.facts(target, [asked.name for asked in questions])
     folder.mkdir(parents=True, exist_ok=True)
     begun, done, problem = time.monotonic(), 0, "it was ended early"
     try:
@@ -89,9 +89,7 @@ def export(
                 "seed": seed,
                 "episodes": num_episodes,
                 "agent": agent,
-                "seconds": round(time.monotonic() - begun, 1),
-                "commit": provenance.commit(),
-                "versions": provenance.versions(),
+                **provenance.made_since(begun),
                 "tasks": {writer.asked.name: writer.facts() for writer in writers if writer.num_episodes},
             }
             files.write_atomically(folder / FILE, (json.dumps(written, indent=1) + "\n").encode())

@@ -43,7 +43,7 @@ class Steps:
         """Describes the columns of a task, played with a seed of the environment."""
         self.asked, self._seed = asked, environment_seed
         self._task = suite.load_task(asked.domain, asked.task)
-        self.judged_by = protocol.ideal(asked) if protocol.is_judged(asked.domain, asked.task) else None
+        self.judged_by = protocol.ideal(asked) if protocol.is_judged(asked.domain) else None
         self._judge = None if self.judged_by is None else judging.Judge(self.judged_by)
         hidden = protocol.drawn(asked, 1)[0]
         self.schema = pyarrow.schema([*_KEYS, *self._observed(""), *_TAKEN, *self._observed(NEXT)])

@@ -85,17 +85,15 @@ def ideal(asked: Question) -> ideal_base.Solution:
     """Returns the ideal experimenter that agents are compared with.
 
     Raises:
-      ValueError: if none is known who says what every action was worth.
+      ValueError: if none is known.
     """
     known = domains.find(asked.domain)
-    observer = known.observer.get(asked.task, {})
-    solution = known.ideal(asked.task, {}, asked.discount, **observer) if known.ideal is not None else None
-    if solution is None or not hasattr(solution, "judge"):
+    if known.ideal is None:
         raise ValueError(
-            f"{asked.name} has no score: no ideal experimenter is known that says what every action there is worth; "
+            f"{asked.name} has no score: no ideal experimenter is known; "
             f"choose from {', '.join(one.name for one in observing('all'))}"
         )
-    return solution
+    return known.ideal(asked.task, {}, asked.discount, **known.observer.get(asked.task, {}))
 
 
 def load(asked: Question, seed: int = SEED) -> suite.BatchEnvironment:
@@ -125,11 +123,9 @@ def named(names: Sequence[str]) -> tuple[Question, ...]:
 def observing(kind: str) -> tuple[Question, ...]:
     """Returns the questions of all tasks that have a score and observe `features`, `pixels`, or, for `all`, either."""
     names = suite.ALL_TASKS if kind == "all" else suite.tagged(kind)
-    return tuple(question(domain, task) for domain, task in names if is_judged(domain, task))
+    return tuple(question(domain, task) for domain, task in names if is_judged(domain))
 
 
-@functools.cache
-def is_judged(domain: str, task: str) -> bool:
-    """Returns whether the ideal experimenter of a task says what actions are worth."""
-    known = domains.find(domain)
-    return known.ideal is not None and hasattr(known.ideal(task, {}, known.discount), "judge")
+def is_judged(domain: str) -> bool:
+    """Returns whether an ideal experimenter says what actions are worth in the tasks of a domain."""
+    return domains.find(domain).ideal is not None

@@ -141,12 +141,7 @@ def _write(
     found, questions = log.table(rows), [part.asked for part in parts]
     log.write(folder, found)
     ideals = {name: one.ideal for name, one in said.items()}
-    made_by = {
-        "seconds": round(time.monotonic() - begun, 1),
-        "commit": provenance.commit(),
-        "versions": provenance.versions(),
-    }
-    written = {**facts, **made_by, **figures(found, questions, ideals)}
+    written = {**facts, **provenance.made_since(begun), **figures(found, questions, ideals)}
     files.write_atomically(folder / FILE, (json.dumps(written, indent=1) + "\n").encode())
     return written
 

@@ -107,7 +107,7 @@ def chosen(target: str, tasks: Sequence[str], observations: str) -> tuple[protoc
     if tasks:
         found = protocol.named(tasks)
     else:
-        usual = protocol.observing(observations)  # Takes seconds: it solves every one of them.
+        usual = protocol.observing(observations)
         found = usual if can is None else tuple(asked for asked in can if asked in usual) or can
     refused = [asked.name for asked in found if can is not None and asked not in can]
     if refused:

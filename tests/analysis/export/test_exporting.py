@@ -186,8 +186,13 @@ def test_another_seed_exports_other_instances():
     assert set(columns_of(asked)["hidden"]).isdisjoint(columns_of(asked, "other")["hidden"])
 
 
+def test_of_a_team_those_are_told_who_have_played():
+    written = export("shipped", count=1)
+    assert list(written["agent"]["agents"]) == ["threshold/features"]
+
+
 def test_where_no_ideal_judges_the_table_has_no_beliefs(monkeypatch):
-    monkeypatch.setattr(protocol, "is_judged", lambda domain, task: False)
+    monkeypatch.setattr(protocol, "is_judged", lambda domain: False)
     assert not export("halving:policy", as_minari=True)["tasks"]["threshold/features"]["judged"]
     names = table_of(*THRESHOLD).column_names
     assert names[-2:] == ["hidden", "answer"] and "belief" not in names
