@@ -7,7 +7,6 @@ import hashlib
 import json
 import os
 from pathlib import Path
-import re
 from typing import Any
 
 from dm_env import specs
@@ -79,9 +78,7 @@ def load(
             raise ValueError(f"{what} is {value!r}; give a name")
     if agent is not None:
         return _load_of(agent, domain, task, values, folder, options)
-    base = name(domain, task, {})
-    siblings = [each for each in names(folder) if each.startswith(f"{base}-")]
-    positions = options_of(domain, task, folder)
+    positions = options_of(domain, task, folder) if values else []
     given = dict(zip(positions, values, strict=False))
     if twice := sorted({*given} & {*options}):
         raise ValueError(f"{twice[0]} is given twice, {given[twice[0]]!r} and {options[twice[0]]!r}; give it once")
@@ -92,8 +89,8 @@ def load(
             f"{', '.join(names(folder)) or 'none'}"
         )
     wanted = name(domain, task, given)
-    if wanted == base and base not in names(folder):
-        wanted = _default(siblings, folder) or base
+    if wanted == name(domain, task, {}) and wanted not in names(folder):
+        wanted = _default(domain, task, folder) or wanted
     return load_named(wanted, folder)
 
 
@@ -104,7 +101,7 @@ def _load_of(
     for each in (folder / learner, folder):
         with contextlib.suppress(_MissingError):
             found = load(domain, task, *values, folder=each, **options)
-            if _learner(found.card) == learner:
+            if found.card["agent"]["algorithm"] == learner:
                 return found
     raise _MissingError(
         f"no trained agent of {domain}/{task} with these options is {learner}'s; there are: "
@@ -112,61 +109,51 @@ def _load_of(
     )
 
 
-def _learner(card: Mapping[str, Any]) -> str:
-    """Returns the name of the learner that trained an agent; the oldest cards do not say it."""
-    return card.get("agent", {}).get("algorithm", "a3c")
-
-
 def options_of(domain: str, task: str, folder: Path = FOLDER) -> list[str]:
-    """Returns the names of the options that tell the agents of a task apart."""
-    base = name(domain, task, {})
-    return next((_option_names(each, base) for each in names(folder) if each.startswith(f"{base}-")), [])
+    """Returns the names of the options that tell the agents of a task apart, in the order of the agents' names."""
+    return sorted({option for card in _with_options(domain, task, folder).values() for option in card["task_kwargs"]})
 
 
-def _option_names(base: str, prefix: str) -> list[str]:
-    """Returns the names of the options in an agent's name, which begins with domain and task."""
-    return re.findall(r"-([A-Za-z_]+)", base.removeprefix(prefix))
+def _with_options(domain: str, task: str, folder: Path) -> dict[str, dict[str, Any]]:
+    """Returns the cards, by name, of the agents of a task for which options were chosen; raises as `load`."""
+    prefix = f"{name(domain, task, {})}-"
+    return {stem: card_named(stem, folder) for stem in names(folder) if stem.startswith(prefix)}
 
 
-def _default(candidates: Sequence[str], folder: Path) -> str | None:
+def _default(domain: str, task: str, folder: Path) -> str | None:
     """Returns the agent to take where no option is given: the only one, or the one whose card says so."""
-    if len(candidates) == 1:
-        return candidates[0]
-    cards = {base: files.read_json(folder / f"{base}.json") for base in candidates}
-    return next((base for base, card in cards.items() if isinstance(card, dict) and card.get("default") is True), None)
+    cards = _with_options(domain, task, folder)
+    return next((stem for stem, card in cards.items() if len(cards) == 1 or card.get("default") is True), None)
 
 
-def card_named(base: str) -> dict[str, Any]:
-    """Reads the card of the agent of this name that comes with the package, not its network; raises as `load`."""
-    path = _path(base, FOLDER)
+def card_named(stem: str, folder: Path = FOLDER) -> dict[str, Any]:
+    """Reads the card of the agent whose files have this name, not its network; raises as `load`."""
+    path = _path(stem, folder)
     with _explained(path):
-        return _completed(files.read_json(path), path.stem)
+        return _checked(files.read_json(path), path.stem)
 
 
-def load_named(base: str, folder: Path = FOLDER) -> Pretrained:
+def load_named(stem: str, folder: Path = FOLDER) -> Pretrained:
     """Loads the trained agent whose files have this name; raises as `load`."""
-    path = _path(base, folder)
-    card = files.read_json(path)
-    with _explained(path):
-        facts = _completed(card, path.stem)
-        with torch.device("meta"):  # Nothing is made that its weights do not fit.
-            like = _network(facts["network"]).state_dict()
+    path, card = _path(stem, folder), card_named(stem, folder)
+    with _explained(path), torch.device("meta"):  # Nothing is made that its weights do not fit.
+        like = _network(card["network"]).state_dict()
     try:
         weights = _read_weights(path, card, like)
     except ValueError:
         if files.read_json(path) == card:
             raise
-        return load_named(base, folder)  # Another has just been written.
-    network = _network(facts["network"])
+        return load_named(stem, folder)  # Another has just been written.
+    network = _network(card["network"])
     network.load_state_dict(weights)
-    return Pretrained(network.eval(), facts)
+    return Pretrained(network.eval(), card)
 
 
-def _path(base: str, folder: Path) -> Path:
+def _path(stem: str, folder: Path) -> Path:
     """Returns the path of a card."""
-    if base not in names(folder):
-        raise _MissingError(f"no trained agent is named {base}; there are: {', '.join(names(folder)) or 'none'}")
-    path = folder / f"{base}.json"
+    if stem not in names(folder):
+        raise _MissingError(f"no trained agent is named {stem}; there are: {', '.join(names(folder)) or 'none'}")
+    path = folder / f"{stem}.json"
     return path.resolve() if folder.is_relative_to(FOLDER) else path  # Some installers put links in place of files.
 
 
@@ -180,28 +167,13 @@ def _explained(path: Path):
         raise ValueError(f"{path} is not what was written: {what}; publish the agent again") from None
 
 
-def _completed(card: dict[str, Any], base: str) -> dict[str, Any]:
-    """Returns a card with what older ones do not say; refuses one that was changed or belongs to another agent."""
-    _check(card, base)
-    facts = {"kind": networks.RecurrentActorCritic.__name__, **card["network"]}
-    return {**card, "network": facts, "task_kwargs": _options(card, base)}
-
-
-def _options(card: dict[str, Any], base: str) -> dict[str, Any]:
-    """Returns the options that the task had; on older cards, those in the name stand beside the rest."""
-    if "task_kwargs" in card:
-        return card["task_kwargs"]
-    return {option: card[option] for option in _option_names(base, name(card["domain"], card["task"], {}))}
-
-
-def _check(card: dict[str, Any], base: str) -> None:
-    """Refuses a card that was changed since it was written, or belongs to another agent."""
-    if ("card_sha256" in card) != ("sha256" in card):  # The oldest cards have neither.
-        raise ValueError("one of its two checksums is missing")
-    if card.get("card_sha256") not in (None, checkpointing.json_digest({**card, "card_sha256": None})):
+def _checked(card: dict[str, Any], stem: str) -> dict[str, Any]:
+    """Returns a card; refuses one that was changed since it was written, or belongs to another agent."""
+    if card["card_sha256"] != checkpointing.json_digest({**card, "card_sha256": None}):
         raise ValueError("its checksum differs")
-    if (found := name(card["domain"], card["task"], _options(card, base))) != base:
+    if (found := name(card["domain"], card["task"], card["task_kwargs"])) != stem:
         raise ValueError(f"it is of {found}")
+    return card
 
 
 def _network(facts: dict[str, Any]) -> networks.RecurrentNetwork:
@@ -217,12 +189,11 @@ def _network(facts: dict[str, Any]) -> networks.RecurrentNetwork:
 
 def _read_weights(card_path: Path, card: dict[str, Any], like: dict[str, torch.Tensor]) -> dict[str, torch.Tensor]:
     """Reads the weights that a card is about, under their temporary name where their writer was killed."""
-    checksum = card.get("sha256")
     path, waiting = card_path.with_suffix(".safetensors"), card_path.with_suffix(_WAITING)
-    if waiting.exists() and checksum is not None:
+    if waiting.exists():
         with contextlib.suppress(ValueError, FileNotFoundError):  # Of another card, or just put in place.
-            return checkpointing.read_agent(waiting, like, checksum)
-    return checkpointing.read_agent(path, like, checksum)
+            return checkpointing.read_agent(waiting, like, card["sha256"])
+    return checkpointing.read_agent(path, like, card["sha256"])
 
 
 def save(network: networks.RecurrentNetwork, card: Mapping[str, Any], folder: Path = FOLDER) -> Path:
@@ -256,7 +227,7 @@ def save(network: networks.RecurrentNetwork, card: Mapping[str, Any], folder: Pa
 def _put_in_place(card_path: Path) -> None:
     """Gives the weights that a card is about their final name, where their writer was killed before it did."""
     waiting = card_path.with_suffix(_WAITING)
-    # Without a card, or with one that is damaged or older than checksums, they are nobody's.
+    # Without a card, or with one that is damaged, they are nobody's.
     with contextlib.suppress(FileNotFoundError, ValueError, KeyError, TypeError):
         wanted = files.read_json(card_path)["sha256"]
         with files.open_plain(waiting) as file:

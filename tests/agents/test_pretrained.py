@@ -158,6 +158,7 @@ def test_what_is_saved_is_what_is_loaded_to_half_precision(tmp_path):
         "task": "fist_pixels",
         "task_kwargs": {},
         "network": {
+            "kind": "RecurrentActorCritic",
             "observations": {"pixels": ((84, 84, 3), "uint8")},
             "num_actions": 9,
             "hyperparameters": hyperparameters,
@@ -180,6 +181,7 @@ def small():
         "task": "some",
         "task_kwargs": {},
         "network": {
+            "kind": "RecurrentActorCritic",
             "observations": {"features": ((3,), "float32")},
             "num_actions": 4,
             "hyperparameters": {"lstm_units": 1, "observation_scale": 2.0},
@@ -209,18 +211,24 @@ def test_without_a_choice_the_only_agent_of_a_task_is_taken_or_the_one_that_is_t
     assert pretrained.load("towers", "some", folder=tmp_path).card["task_kwargs"] == {}
 
 
-@pytest.mark.parametrize("value", [None, 3.0, 1e-5])
-def test_a_card_from_before_options_had_a_place_of_their_own_is_read(value, small, tmp_path):
+def test_agents_of_one_task_may_differ_in_different_options(small, tmp_path):
     network, card = small
-    path = pretrained.save(network, {**card, "task_kwargs": {"skew": value}}, tmp_path)
-    older = {key: entry for key, entry in card_of(path).items() if key != "task_kwargs"} | {"skew": value}
-    path.write_bytes(pretrained.sealed(older))
-    found = pretrained.load("towers", "some", value, folder=tmp_path)
-    assert found.card["task_kwargs"] == ({} if value is None else {"skew": value})
-    path.write_bytes(pretrained.sealed({**older, "skew": 4.0}))
-    if value is not None:
-        with pytest.raises(ValueError, match="it is of towers-some-skew4; publish the agent again"):
-            pretrained.load("towers", "some", folder=tmp_path)
+    for options in ({"noise": 0.01}, {"variation": 1.0, "reveal": True}):
+        pretrained.save(network, {**card, "task_kwargs": options}, tmp_path)
+    assert pretrained.options_of("towers", "some", tmp_path) == ["noise", "reveal", "variation"]
+    load = functools.partial(pretrained.load, "towers", "some", folder=tmp_path)
+    assert load(0.01).card["task_kwargs"] == load(noise=0.01).card["task_kwargs"] == {"noise": 0.01}
+    assert load(None, True, 1.0).card["task_kwargs"] == load(reveal=True, variation=1).card["task_kwargs"]
+    with pytest.raises(ValueError, match="no trained agent is named towers-some-variation1; there are: "):
+        load(variation=1)
+
+
+def test_a_card_of_another_agent_is_refused(small, tmp_path):
+    network, card = small
+    path = pretrained.save(network, {**card, "task_kwargs": {"skew": 3.0}}, tmp_path)
+    path.write_bytes(pretrained.sealed({**card_of(path), "task_kwargs": {"skew": 4.0}}))
+    with pytest.raises(ValueError, match="it is of towers-some-skew4; publish the agent again"):
+        pretrained.load("towers", "some", folder=tmp_path)
 
 
 def weights_of(network):
@@ -375,20 +383,11 @@ def test_files_of_an_agent_that_are_no_files_are_refused_without_waiting(suffix,
         path.rmdir() if kind == "a folder" else path.unlink()
 
 
-def test_an_agent_takes_the_place_of_one_from_before_there_were_checksums(small, tmp_path):
-    network, card = small
-    path = pretrained.save(network, card, tmp_path)
-    path.write_text(json.dumps({name: value for name, value in card_of(path).items() if "sha256" not in name}))
-    torch.nn.init.uniform_(network.policy.weight)
-    pretrained.save(network, card, tmp_path)
-    assert is_same(pretrained.load("towers", "some", folder=tmp_path).network, weights_of(network))
-
-
 def test_a_card_that_has_lost_one_of_its_checksums_is_refused(small, tmp_path):
     network, card = small
     path = pretrained.save(network, card, tmp_path)
     path.write_text(path.read_text().replace('"card_sha256"', '"cqrd_sha256"'))
-    with pytest.raises(ValueError, match="one of its two checksums is missing"):
+    with pytest.raises(ValueError, match="lacks 'card_sha256'; publish the agent again"):
         pretrained.load("towers", "some", folder=tmp_path)
 
 

@@ -94,6 +94,7 @@ def card(number: int) -> dict:
         "frames": number,
         "agent": config().to_json()["agent"],
         "network": {
+            "kind": "RecurrentActorCritic",
             "observations": observations,
             "num_actions": num_actions,
             "hyperparameters": networks.RecurrentActorCritic.hyperparameters(None, SMALL),

@@ -18,6 +18,7 @@ import pytest
 import reading
 import subjects
 
+from physexp.agents import pretrained
 from physexp.analysis.training import run as run_lib
 
 pytestmark = pytest.mark.long
@@ -71,20 +72,21 @@ DOCUMENTS = {
     "null": b"null",
     "surrogates": b'"\\ud800"',
     "everything is null": b'{"format": 1, "train": null, "facts": null, "sha256": null, "network": null}',
-    "a huge network": json.dumps(
+    "a huge network": pretrained.sealed(
         {
             "format": 1,
             "domain": "which_is_heavier",
             "task": "features",
-            "difficulty": 10.0,
+            "task_kwargs": {"difficulty": 10.0},
             "agent": {},
             "network": {
+                "kind": "RecurrentActorCritic",
                 "observations": {"a": [[10**9, 10**9], "float64"]},
                 "num_actions": 10**12,
                 "hyperparameters": {"lstm_units": 10**9, "observation_scale": 1.0},
             },
         }
-    ).encode(),
+    ),
 }
 
 ROWS = {
@@ -172,10 +174,9 @@ def put(name, kind, folder):
     content = content[:-100] if kind == "truncated" else {**CONTENTS[name], **ANYTHING}[kind]
     path.write_bytes(content)
     beside = path.with_suffix(".json")
-    if name in ("checkpoint, tensors", "published weights") and '"sha256"' in beside.read_text():
-        card = json.loads(beside.read_text())
-        card["sha256"] = hashlib.sha256(content).hexdigest()
-        beside.write_text(json.dumps(card))
+    if name in ("checkpoint, tensors", "published weights"):
+        card = json.loads(beside.read_text()) | {"sha256": hashlib.sha256(content).hexdigest()}
+        beside.write_bytes(pretrained.sealed(card) if "card_sha256" in card else json.dumps(card).encode())
     return path
 
 
