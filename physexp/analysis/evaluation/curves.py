@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from physexp import suite
+from physexp.agents import files
 from physexp.analysis.evaluation import figures
 from physexp.analysis.training import run as run_lib
 
@@ -26,4 +27,5 @@ def draw(run: run_lib.Run, path: Path) -> Path:
         top.set(ylabel="share of right answers", ylim=(0, 1.02), title=config.name)
         bottom.plot(frames, [row["interactions"] for row in rows], color=figures.COLORS[2])
         bottom.set(xlabel="environment steps, millions", ylabel="interactions in an episode", ylim=(0, None))
-    return figures.save_png(drawn, path)
+    files.write_atomically(path, figures.png(drawn))
+    return path

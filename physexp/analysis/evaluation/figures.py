@@ -5,6 +5,8 @@ import io
 from pathlib import Path
 from typing import Any
 
+from physexp.agents import files
+
 # Okabe and Ito's colours (2008), darkest first, so that they differ in grey too; lines differ in dashes as well.
 COLORS = ("#000000", "#0072B2", "#D55E00", "#009E73", "#56B4E9", "#E69F00")
 DASHES = ("solid", (0, (5, 1.5)), (0, (1, 1.2)), (0, (5, 1.5, 1, 1.5)), (0, (3, 1, 1, 1, 1, 1)))
@@ -35,7 +37,6 @@ def style():
     """The context in which figures are drawn and saved."""
     import matplotlib
 
-    matplotlib.use("Agg")
     with matplotlib.rc_context(_STYLE):
         yield
 
@@ -46,11 +47,17 @@ def new(columns: int = 1, rows: int = 1, width: float = 3.4, height: float = 2.6
     Args:
       columns, rows: of axes.
       width, height: of one pair of axes, inches.
-      kwargs: for `pyplot.subplots`.
+      kwargs: for `Figure.subplots`.
     """
-    from matplotlib import pyplot
+    figure = empty(width * columns, height * rows)
+    return figure, figure.subplots(rows, columns, **kwargs)
 
-    return pyplot.subplots(rows, columns, figsize=(width * columns, height * rows), layout="constrained", **kwargs)
+
+def empty(width: float, height: float):
+    """A figure without axes, inches; matplotlib keeps no list of it, so it needs not be closed."""
+    from matplotlib import figure
+
+    return figure.Figure(figsize=(width, height), layout="constrained")
 
 
 def svg(figure) -> bytes:
@@ -61,16 +68,8 @@ def svg(figure) -> bytes:
     return drawn.getvalue()
 
 
-def save(figure, folder: Path, name: str) -> list[Path]:
-    """Writes a figure as SVG and PNG and closes it; returns the paths."""
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / f"{name}.svg").write_bytes(svg(figure))
-    return [folder / f"{name}.svg", save_png(figure, folder / f"{name}.png")]
-
-
-def save_png(figure, path: Path) -> Path:
-    """Writes a figure as PNG and closes it; returns the path."""
-    from matplotlib import pyplot
+def png(figure) -> bytes:
+    """Returns a figure as PNG."""
     from PIL import Image
 
     drawn = io.BytesIO()
@@ -78,9 +77,22 @@ def save_png(figure, path: Path) -> Path:
         figure.savefig(drawn, dpi=_DPI, format="png")
     # A figure has few colours: a palette of 256 makes the file a third as large.
     palette = Image.open(drawn).convert("RGB").quantize(256, dither=Image.Dither.NONE)
-    palette.save(path, optimize=True, dpi=(_DPI, _DPI))
-    pyplot.close(figure)
-    return path
+    packed = io.BytesIO()
+    palette.save(packed, format="png", optimize=True, dpi=(_DPI, _DPI))
+    return packed.getvalue()
+
+
+def save(figure, folder: Path, name: str) -> list[Path]:
+    """Writes a figure as SVG and PNG; returns the paths.
+
+    Raises:
+      OSError: if it cannot be written.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = [folder / f"{name}.svg", folder / f"{name}.png"]
+    for path, draw in zip(paths, (svg, png), strict=True):
+        files.write_atomically(path, draw(figure))
+    return paths
 
 
 def reference(axes, level: float, text: str, vertical: bool = False, at: float = 1.0) -> None:

@@ -67,7 +67,7 @@ def of_episodes(
     ends = lengths.cumsum()
     chosen, values = np.concatenate(taken), np.concatenate([judgement.values for judgement in judged])
     num_interactions = values.shape[1] - judged[0].beliefs.shape[1]
-    are_answers, rows = chosen >= num_interactions, np.arange(len(chosen))
+    rows = np.arange(len(chosen))
     bits = information(np.concatenate([judgement.beliefs for judgement in judged]))
     between = (lengths + 1).cumsum()[:-1] - 1  # From the last belief of an episode to the first of the next one.
     together = Actions(
@@ -77,7 +77,7 @@ def of_episodes(
         tells=np.concatenate([judgement.tells for judgement in judged]),
         bits=np.delete(bits, between),
     )
-    found = costs(together, are_answers, ~are_answers & np.isin(rows, ends - 1))
+    found = costs(together, chosen >= num_interactions, np.isin(rows, ends - 1))
     factors = discount ** (rows - np.repeat(ends - lengths, lengths))
     return {kind: np.add.reduceat(factors * cost, ends - lengths) for kind, cost in found.items()}
 
@@ -87,16 +87,16 @@ def information(beliefs: np.ndarray) -> np.ndarray:
     return np.diff(np.sum(beliefs * np.log2(beliefs.clip(1e-300)), axis=1))
 
 
-def costs(judged: Actions, are_answers: np.ndarray, are_silent: np.ndarray) -> dict[str, np.ndarray]:
+def costs(judged: Actions, are_answers: np.ndarray, are_last: np.ndarray) -> dict[str, np.ndarray]:
     """Returns what actions cost, by kind, float64 [N] each; together V - Q.
 
     Args:
       judged: the actions.
       are_answers: which are answers, bool [N].
-      are_silent: which ended an episode without an answer, bool [N].
+      are_last: which ended an episode, bool [N].
     """
     cost = judged.value - judged.worth
-    goes_on = ~are_answers & ~are_silent
+    are_silent, goes_on = ~are_answers & are_last, ~are_answers & ~are_last
     is_late = judged.answering >= judged.value
     return {
         "uninformative": np.where(goes_on & ~is_late & ~judged.tells, cost, 0.0),

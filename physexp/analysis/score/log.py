@@ -97,8 +97,8 @@ def said(asked: protocol.Question, actions: np.ndarray, judged: mistakes.Actions
 
 def _kinds(asked: protocol.Question, actions: np.ndarray, judged: mistakes.Actions) -> np.ndarray:
     """Returns of which kind each action of an episode is, or is most, object [T]; None for no mistake."""
-    are_answers = actions >= asked.num_interactions
-    costs = mistakes.costs(judged, are_answers, ~are_answers & (np.arange(len(actions)) == len(actions) - 1))
+    are_last = np.arange(len(actions)) == len(actions) - 1
+    costs = mistakes.costs(judged, actions >= asked.num_interactions, are_last)
     kinds, table = np.array(list(costs), object), np.array(list(costs.values()))
     found = kinds[table.argmax(axis=0)]
     found[table.max(axis=0) <= _NO_REGRET] = None

@@ -1,10 +1,9 @@
 """A score's report: one page about it, as HTML that needs no other file, and as an image."""
 
 import base64
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 import html
 from pathlib import Path
-import tempfile
 import textwrap
 from typing import Any
 
@@ -32,21 +31,12 @@ def write(folder: Path) -> list[Path]:
     found = {**scoring.read(folder), "name": folder.resolve().name}
     paths = [folder / f"{NAME}.html", folder / f"{NAME}.png"]
     files.write_atomically(paths[0], _html(found).encode())
-    files.write_atomically(paths[1], _drawn(_page(found))[1])
+    files.write_atomically(paths[1], figures.png(_page(found)))
     return paths
-
-
-def _drawn(figure) -> tuple[bytes, bytes]:
-    """Returns a figure as SVG and as PNG, and closes it."""
-    with tempfile.TemporaryDirectory() as folder:
-        svg, png = (path.read_bytes() for path in figures.save(figure, Path(folder), NAME))
-    return svg, png
 
 
 def _page(found: Mapping[str, Any]):
     """Draws the whole page."""
-    from matplotlib import pyplot
-
     told = "\n".join(textwrap.fill(f"{name}: {value}", 190) for name, value in facts(found).items())
     heights = [
         0.85,
@@ -56,7 +46,7 @@ def _page(found: Mapping[str, Any]):
         0.35 + 0.15 * (1 + told.count("\n")),
     ]
     with figures.style():
-        figure = pyplot.figure(figsize=(_WIDTH, sum(heights)), layout="constrained")
+        figure = figures.empty(_WIDTH, sum(heights))
         head, overview, legend, information, foot = figure.subfigures(5, 1, squeeze=False, height_ratios=heights).flat
         _draw_head(head, found)
         _draw_overview(overview, found)
@@ -159,11 +149,11 @@ def _html(found: Mapping[str, Any]) -> str:
     )
     parts = [
         head,
-        _figure(_overview(found), "Scores, mistakes and skills"),
+        _figure(found, _height_of_overview(found), _draw_overview, "Scores, mistakes and skills"),
         f"<ul>{kinds}</ul>",
         _table(found),
         f"<h2>What is found out</h2><p>{_INFORMATION}</p>",
-        _figure(_information(found), "Bits from each interaction"),
+        _figure(found, _height_of_information(found), _draw_information, "Bits from each interaction"),
         "<h2>How it was made</h2>",
         _rows([[f"<th>{name}</th>", f"<td>{html.escape(value)}</td>"] for name, value in facts(found).items()]),
     ]
@@ -171,26 +161,12 @@ def _html(found: Mapping[str, Any]) -> str:
     return f"<!doctype html><meta charset=utf-8><title>{title}</title><style>{_STYLE}</style>" + "\n".join(parts) + "\n"
 
 
-def _overview(found: Mapping[str, Any]):
-    from matplotlib import pyplot
-
+def _figure(found: Mapping[str, Any], height: float, draw: Callable[[Any, Mapping[str, Any]], None], words: str) -> str:
+    """Draws a part of the page."""
     with figures.style():
-        figure = pyplot.figure(figsize=(_WIDTH, _height_of_overview(found)), layout="constrained")
-        _draw_overview(figure, found)
-        return figure
-
-
-def _information(found: Mapping[str, Any]):
-    from matplotlib import pyplot
-
-    with figures.style():
-        figure = pyplot.figure(figsize=(_WIDTH, _height_of_information(found)), layout="constrained")
-        _draw_information(figure, found)
-        return figure
-
-
-def _figure(figure, words: str) -> str:
-    content = base64.b64encode(_drawn(figure)[0]).decode()
+        figure = figures.empty(_WIDTH, height)
+        draw(figure, found)
+    content = base64.b64encode(figures.svg(figure)).decode()
     return f'<img alt="{words}" src="data:image/svg+xml;base64,{content}">'
 
 

@@ -104,7 +104,7 @@ def of_task(
         return np.bincount(index, factors * values)
 
     judged = mistakes.Actions(**{field.name: columns[field.name] for field in dataclasses.fields(mistakes.Actions)})
-    costs = mistakes.costs(judged, are_answers, last & ~are_answers)
+    costs = mistakes.costs(judged, are_answers, last)
     return TaskScore(
         asked=asked,
         ideal=ideal,

@@ -33,11 +33,8 @@ def found(folder):
 @pytest.fixture
 def axes():
     with figures.style():
-        figure, axes = figures.new()
+        _, axes = figures.new()
         yield axes
-    from matplotlib import pyplot
-
-    pyplot.close(figure)
 
 
 def test_the_page_says_what_was_played_and_found_and_needs_no_other_file(folder, found):
@@ -79,16 +76,13 @@ def test_bars_of_mistakes_begin_at_the_score_and_end_at_1(axes, found):
 
 
 def test_every_skill_has_an_axis_beside_random_actions_and_the_ideal(found):
-    from matplotlib import pyplot
-
-    figure, polar = pyplot.subplots(subplot_kw={"projection": "polar"})
+    _, polar = figures.new(subplot_kw={"projection": "polar"})
     drawing.draw_skills(polar, found)
     told = " ".join(text.get_text() for text in polar.texts)
     assert all(domains.find(name).skill in told for name in found["domains"])
     lines = {line.get_label(): line.get_ydata()[:-1] for line in polar.lines}
     assert set(lines["ideal"]) == {1} and set(lines["no experiment"]) == {0}
     np.testing.assert_allclose(lines["this agent"], [row["score"] for row in found["domains"].values()])
-    pyplot.close(figure)
 
 
 def test_every_domain_asks_for_a_skill_of_its_own():
@@ -97,9 +91,7 @@ def test_every_domain_asks_for_a_skill_of_its_own():
 
 
 def test_bits_of_each_interaction_are_drawn_beside_the_ideals(found):
-    from matplotlib import pyplot
-
-    figure, panels = pyplot.subplots(1, len(found["tasks"]))
+    _, panels = figures.new(columns=len(found["tasks"]))
     drawing.draw_information(panels, found)
     threshold = panels[0]
     # The ideal halves eight levels three times: a bit each.
@@ -107,7 +99,6 @@ def test_bits_of_each_interaction_are_drawn_beside_the_ideals(found):
     gains = found["tasks"]["threshold/features"]["gains"]
     heights = [patch.get_height() for patch in threshold.patches[:-1]]
     np.testing.assert_allclose(heights[: len(gains)], gains[: len(heights)])
-    pyplot.close(figure)
 
 
 @pytest.mark.parametrize("name", ["threshold/features", "which_is_heavier/features", "strings/features"])
