@@ -142,6 +142,3 @@ class RecurrentActor(core.Actor):
     @torch.inference_mode()
     def observe(self, action, next_timestep):
         self._state = self._network.note(torch.tensor([action]), self._state)
-
-    def update(self):
-        """Does nothing: the network is fixed."""

@@ -80,9 +80,8 @@ class Actor(abc.ABC):
     def observe(self, action: int, next_timestep: dm_env.TimeStep) -> None:
         """Notes an action and the timestep that followed."""
 
-    @abc.abstractmethod
-    def update(self) -> None:
-        """Brings the actor's variables up to date."""
+    def update(self) -> None:  # noqa: B027
+        """Brings the actor's variables up to date, after each step; one whose variables are fixed does nothing."""
 
 
 class Learner(abc.ABC):

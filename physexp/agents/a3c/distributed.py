@@ -102,7 +102,7 @@ class DistributedA3C(core.Agent):
     def _updates(self, workers: supervision.Workers, poll_seconds: float):
         """Yields updates while workers are running, or are to come."""
         watch = watching.Watch(self._tensors["rounds"].tolist(), "worker {}".format, self._patience, self._tell)
-        room = supervision.RoomWatch(self._config.num_workers, lambda: self._patience.room, self._tell)
+        room = supervision.RoomWatch(self._config.num_workers, self._patience.room, self._tell)
         waited, deadline, is_done = time.monotonic(), None, False
         while workers.running or (workers.coming and not is_done):
             workers.look(self._is_stopping)

@@ -120,7 +120,7 @@ class Workers:
 class RoomWatch:
     """Reports how many workers find no room on the cluster."""
 
-    def __init__(self, num_workers: int, patience_seconds: Callable[[], float], tell: Callable[[str], None]):
+    def __init__(self, num_workers: int, patience_seconds: float, tell: Callable[[str], None]):
         """Starts watching; a line comes when workers have found no room for as long as patience lasts."""
         self._num_workers, self._patience_seconds, self._tell = num_workers, patience_seconds, tell
         self._without_room = 0
@@ -131,7 +131,7 @@ class RoomWatch:
         now = time.monotonic()
         if not coming:
             self._crowded, self._without_room = now, 0
-        elif now - self._crowded >= self._patience_seconds() and len(coming) != self._without_room:
+        elif now - self._crowded >= self._patience_seconds and len(coming) != self._without_room:
             self._without_room = len(coming)
             processors = ray.cluster_resources().get("CPU", 0)
             self._tell(

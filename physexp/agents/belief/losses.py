@@ -6,6 +6,8 @@ With `b` the belief over the labels after some steps of an episode, to answer th
 import torch
 from torch.nn import functional
 
+_NUM_BINS = 10  # Of confidence, in which calibration is measured.
+
 
 def worth_of_answers(beliefs: torch.Tensor) -> torch.Tensor:
     """Returns the expected rewards of answers that are right with these probabilities, a tensor of any shape."""
@@ -98,14 +100,15 @@ def interaction_targets(
     return targets
 
 
-def calibration_error(confidences: torch.Tensor, outcomes: torch.Tensor, num_bins: int = 10) -> float:
+def calibration_error(confidences: torch.Tensor, outcomes: torch.Tensor) -> float:
     """Returns how far confidence is from the share of right answers, expected (ECE: Naeini et al., 2015).
+
+    Confidence is sorted into ten bins of equal width.
 
     Args:
       confidences: beliefs in what was answered, [N].
       outcomes: 1 where that was right, 0 where it was wrong, [N].
-      num_bins: bins of equal width over [0, 1].
     """
-    bins = (confidences * num_bins).long().clamp(0, num_bins - 1)
-    gaps = torch.zeros(num_bins, dtype=confidences.dtype).index_add_(0, bins, confidences - outcomes)
+    bins = (confidences * _NUM_BINS).long().clamp(0, _NUM_BINS - 1)
+    gaps = torch.zeros(_NUM_BINS, dtype=confidences.dtype).index_add_(0, bins, confidences - outcomes)
     return float(gaps.abs().sum() / max(1, len(confidences)))

@@ -51,9 +51,6 @@ class GlueRule(core.Actor):
         self._has_moved |= bool((np.linalg.norm(positions - self._first, axis=-1) > self._change).any())
         self._are_apart = are_apart
 
-    def update(self):
-        """Does nothing: it knows all that it needs."""
-
 
 def _distances(positions):
     """Returns the distances of neighbours, [4], of the centres of a tower's cubes, [5, 3]."""

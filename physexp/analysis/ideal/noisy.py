@@ -114,9 +114,6 @@ class Player(core.Actor):
                 self._touched[k] = (*touched, k == action)
                 self._logs[k] += self._log_likelihoods(read[k], self._touched[k])
 
-    def update(self):
-        """Does nothing: it knows all that can be known."""
-
     def _log_likelihoods(self, read, touched: tuple[bool, ...]) -> np.ndarray:
         """Returns them for each of the values, up to a constant: [G], or [N, G] of readings [N, 1]."""
         return -0.5 * ((read - self._responses.after(touched)) / self._noise) ** 2

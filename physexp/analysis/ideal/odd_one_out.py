@@ -234,9 +234,6 @@ class _Player(core.Actor):
         if action < self._solution.prior.num_things and not next_timestep.last():
             self._known[0, action] = self._read(next_timestep.observation, action)
 
-    def update(self):
-        """Does nothing: it knows all that can be known."""
-
 
 @functools.lru_cache(maxsize=64)
 def _evenly_drawn_episodes(solution: Solution) -> tuple[np.ndarray, np.ndarray]:

@@ -282,9 +282,6 @@ class _Player(core.Actor):
         self._state = self._solution.apparatus.after(self._state, int(action), reading)
         self._step += 1
 
-    def update(self):
-        """Does nothing: it knows all that can be known."""
-
 
 def solve(apparatus: Apparatus, discount: float, step_limit: int) -> Solution:
     """Finds the best policy, exactly.

@@ -69,6 +69,3 @@ class _Player(core.Actor):
 
     def observe(self, action, next_timestep):
         """Does nothing: each observation tells all."""
-
-    def update(self):
-        """Does nothing: it knows all that can be known."""

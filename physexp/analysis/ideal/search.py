@@ -283,6 +283,3 @@ class _Player(core.Actor):
         if node.seen is None or next_timestep.last():
             return
         self._node = node.children[node.group[self._hypotheses.nearest(next_timestep.observation, node.seen)]]
-
-    def update(self):
-        """Does nothing: it knows all that can be known."""

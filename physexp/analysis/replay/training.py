@@ -40,7 +40,9 @@ class Writer:
         """
         if frames - self._last_replay(frames) < self._config.replay_every:
             return
-        network = registry.make_network(trainer.make_environment(self._config, 0, 1, 1), self._config.agent)
+        environment = trainer.make_environment(self._config, 0, 1, 1)
+        network = registry.make_network(environment, self._config.agent)
+        environment.close()
         network.load_state_dict(variables)
         title = f"{self._config.name} after {frames:,} steps"
         path = self._folder / f"{frames:015d}.rrd"

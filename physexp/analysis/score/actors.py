@@ -28,9 +28,6 @@ class Policy(core.Actor):
     def observe(self, action, next_timestep):
         """Does nothing: the policy sees the next observation when it is asked."""
 
-    def update(self):
-        """Does nothing: the policy is fixed."""
-
 
 class _Baseline(core.Actor):
     """An experimenter who looks at nothing."""
@@ -42,9 +39,6 @@ class _Baseline(core.Actor):
         self._number += 1
 
     def observe(self, action, next_timestep):
-        """Does nothing."""
-
-    def update(self):
         """Does nothing."""
 
 
@@ -102,9 +96,6 @@ class Network(core.Actor):
 
     def observe(self, action, next_timestep):
         self._actor.observe(action, next_timestep)
-
-    def update(self):
-        """Does nothing: the network is fixed."""
 
 
 BASELINES: Mapping[str, Callable[[protocol.Question], core.Actor]] = {

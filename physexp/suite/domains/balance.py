@@ -122,16 +122,7 @@ class Balance(task.QuestionTask):
             **_STOPPING,
         )
         for side, sign in SIDES.items():
-            world.add(
-                "geom",
-                name=f"{side}_pan",
-                type="box",
-                size=_PAN_HALF_SIZE,
-                pos=[sign * _REACH, 0, _PAN_HALF_SIZE[2]],
-                rgba=_PAN_RGBA,
-                contype=0,
-                conaffinity=0,
-            )
+            room.add_scenery(f"{side}_pan", _PAN_HALF_SIZE, [sign * _REACH, 0, _PAN_HALF_SIZE[2]], _PAN_RGBA)
         self._blocks, loads = [], []
         for k in range(NUM_BLOCKS):
             is_suspect = k < num_suspects(options.difficulty)

@@ -144,16 +144,8 @@ class SealedBox(task.QuestionTask):
         push = root.actuator.add("motor", name="push", joint=rail)
         self._position = root.sensor.add("jointpos", name="position", joint=rail)
         self._force = root.sensor.add("actuatorfrc", name="force", actuator=push)
-        self._curtain = root.worldbody.add(
-            "geom",
-            name="curtain",
-            type="box",
-            size=_CURTAIN_HALF_SIZE,
-            pos=[0, _CURTAIN_Y, _CURTAIN_HALF_SIZE[2] - _CURTAIN_RISE],
-            rgba=_CURTAIN_RGBA,
-            contype=0,
-            conaffinity=0,
-        )
+        place = [0, _CURTAIN_Y, _CURTAIN_HALF_SIZE[2] - _CURTAIN_RISE]
+        self._curtain = room.add_scenery("curtain", _CURTAIN_HALF_SIZE, place, _CURTAIN_RGBA)
         self._pointer = flag.stand(room, "pointer", _POINTER_RGBA, 0, _POINTER_Y)
         super().__init__(room, options, sense)
 

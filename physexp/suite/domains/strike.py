@@ -110,16 +110,7 @@ class Strike(task.QuestionTask):
         root.option.flag.contact = "disable"
         near, far = options.goal_distance / RATIO, options.goal_distance * RATIO
         room.add_cover(_COVER_HALF_SIZE, _COVER_X)
-        root.worldbody.add(
-            "geom",
-            name="goal",
-            type="box",
-            size=[(far - near) / 2, 0.1, 0.001],
-            pos=[_START + (near + far) / 2, 0, 0.002],
-            rgba=_GOAL_RGBA,
-            contype=0,
-            conaffinity=0,
-        )
+        room.add_scenery("goal", [(far - near) / 2, 0.1, 0.001], [_START + (near + far) / 2, 0, 0.002], _GOAL_RGBA)
         struck = puck.Puck(block.COLORS[0], mass=1.0)
         frame = room.attach(struck)
         frame.pos = [_START, 0, 0.01 + puck.HALF_HEIGHT]

@@ -61,7 +61,7 @@ class WhichIsHeavier(task.QuestionTask):
         room = arena.Laboratory(**_ROOM)
         room.mjcf_model.option.gravity = [0, 0, 0]
         room.mjcf_model.option.flag.contact = "disable"
-        self.blocks, self._joints, motors = [], [], room.mjcf_model.actuator
+        self._joints, motors = [], room.mjcf_model.actuator
         for k in range(NUM_BLOCKS):
             cube = block.Block(rgba=block.COLORS[k], mass=HEAVIEST, name=f"block_{k}")
             frame = room.attach(cube)
@@ -79,7 +79,6 @@ class WhichIsHeavier(task.QuestionTask):
                 )
             )
             motors.add("motor", name=f"poke_{k}", joint=self._joints[-1])
-            self.blocks.append(cube)
         self._rails = tuple(joint.full_identifier for joint in self._joints)
         self._height_sensors = [
             room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=joint)

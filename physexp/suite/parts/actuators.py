@@ -77,15 +77,13 @@ class FistActuator:
           model: a compiled model with the fist.
           displacements: in [-1, 1], [N, 2].
         """
-        joints = (model.joint(joint.full_identifier) for joint in self.fist.observable_joints)
+        joints = (model.joint(joint.full_identifier) for joint in self.fist.joints)
         addresses = np.array([joint.qposadr[0] for joint in joints])
         return addresses, displacements * FIST_VARIATION
 
     def attach_to(self, room: arena.Laboratory) -> None:
         """Places the fist in the room."""
-        frame = room.attach(self.fist)
-        frame.pos = -self._distance, 0.0, _FIST_HEIGHT
-        self.fist.create_root_joints(frame)
+        room.attach(self.fist).pos = -self._distance, 0.0, _FIST_HEIGHT
 
     def equip(self, built: tower.Tower) -> None:
         """Does nothing: the fist has its own actuators."""

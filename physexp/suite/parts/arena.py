@@ -49,26 +49,8 @@ class Laboratory(composer.Arena):
             diffuse=[0.5] * 3,
             specular=[0.0] * 3,
         )
-        self.floor = world.add(
-            "geom",
-            name="floor",
-            type="box",
-            size=[FLOOR_HALF_SIZE, FLOOR_HALF_SIZE, 0.01],
-            pos=[0, 0, -0.015],
-            rgba=FLOOR_RGBA,
-            contype=0,
-            conaffinity=0,
-        )
-        self.mat = world.add(
-            "geom",
-            name="mat",
-            type="box",
-            size=[*mat_size, 0.001],
-            pos=[0, 0, 0],
-            rgba=MAT_RGBA,
-            contype=0,
-            conaffinity=0,
-        )
+        self.floor = self.add_scenery("floor", [FLOOR_HALF_SIZE, FLOOR_HALF_SIZE, 0.01], [0, 0, -0.015], FLOOR_RGBA)
+        self.mat = self.add_scenery("mat", [*mat_size, 0.001], [0, 0, 0], MAT_RGBA)
         self.ground = world.add(
             "geom",
             name="ground",
@@ -81,18 +63,22 @@ class Laboratory(composer.Arena):
             "camera", name="observer", pos=camera_pos, fovy=fovy, xyaxes=_looking_at(camera_pos, camera_target)
         )
 
+    def add_scenery(self, name: str, half_size, pos, rgba):
+        """Adds a box that is seen and touches nothing; returns its geom.
+
+        Args:
+          name: of the geom.
+          half_size: half its edges, m (3,).
+          pos: of its centre, m (3,).
+          rgba: its colour and opacity.
+        """
+        return self.mjcf_model.worldbody.add(
+            "geom", name=name, type="box", size=half_size, pos=pos, rgba=rgba, contype=0, conaffinity=0
+        )
+
     def add_cover(self, half_size, x: float = 0.0) -> None:
         """Adds a box, m (3,), whose middle is at `x` of the floor, and which hides what is in it."""
-        self.mjcf_model.worldbody.add(
-            "geom",
-            name="cover",
-            type="box",
-            size=half_size,
-            pos=[x, 0, half_size[2]],
-            rgba=COVER_RGBA,
-            contype=0,
-            conaffinity=0,
-        )
+        self.add_scenery("cover", half_size, [x, 0, half_size[2]], COVER_RGBA)
 
     def add_walls(self, distance: float, height: float) -> None:
         """Adds four walls and a ceiling that are not drawn, so that nothing leaves the view.

@@ -1,7 +1,6 @@
 """The fist: a large sphere that moves in a horizontal plane (paper, Section 6.2)."""
 
-from dm_control import mjcf
-from dm_control.locomotion.walkers import base
+from dm_control import composer, mjcf
 
 from physexp.suite.parts import material
 
@@ -12,7 +11,7 @@ MAX_FORCE = 400.0  # N, so that a block caught between fist and wall is not crus
 RGBA = (0.15, 0.15, 0.18, 1.0)
 
 
-class Fist(base.Walker):
+class Fist(composer.Entity):
     """A sphere on two sliding joints, driven by velocity actuators."""
 
     def _build(self, x_range, y_range, friction=material.FRICTION, name="fist"):
@@ -24,39 +23,20 @@ class Fist(base.Walker):
           name: name of the MJCF model.
         """
         self._root = mjcf.RootElement(model=name)
-        self._ranges = {"x": x_range, "y": y_range}
-        self._body = self._root.worldbody.add("body", name="body")
-        for axis, direction in (("x", [1, 0, 0]), ("y", [0, 1, 0])):
-            joint = self._body.add(
-                "joint", name=axis, type="slide", axis=direction, limited=True, range=self._ranges[axis]
-            )
+        body = self._root.worldbody.add("body", name="body")
+        self.joints = []
+        for axis, direction, limits in (("x", [1, 0, 0], x_range), ("y", [0, 1, 0], y_range)):
+            joint = body.add("joint", name=axis, type="slide", axis=direction, limited=True, range=limits)
+            self.joints.append(joint)
             self._root.actuator.add(
                 "velocity", name=axis, joint=joint, kv=SPEED_GAIN, forcelimited=True, forcerange=[-MAX_FORCE, MAX_FORCE]
             )
-        self.geom = self._body.add(
+        self.geom = body.add(
             "geom", name="geom", type="sphere", size=[RADIUS], mass=MASS, rgba=RGBA, **material.solid(friction)
         )
-        center = self._body.add("site", name="center", size=[0.001], group=5)
+        center = body.add("site", name="center", size=[0.001], group=5)
         self.position_sensor = self._root.sensor.add("framepos", name="position", objtype="site", objname=center)
-
-    def create_root_joints(self, attachment_frame) -> None:
-        """Adds nothing: the fist brings its own joints, which keep it in its plane."""
-
-    def initialize_episode(self, physics, random_state):
-        """Does nothing: the task places everything."""
 
     @property
     def mjcf_model(self):
         return self._root
-
-    @property
-    def root_body(self):
-        return self._body
-
-    @property
-    def actuators(self):
-        return self._root.find_all("actuator")
-
-    @property
-    def observable_joints(self):
-        return tuple(self._root.find_all("joint"))

@@ -48,15 +48,13 @@ class Tower(composer.Entity):
         """
         self._root = mjcf.RootElement(model=name)
         heights = [(2 * k + 1) * half_size for k in range(NUM_BLOCKS)]  # Of the cubes' centres.
-        self.pattern = tuple(pattern)
         self.blocks = []
-        self.joints = []
-        for number, members in enumerate(_rigid_bodies(self.pattern)):
+        for number, members in enumerate(_rigid_bodies(pattern)):
             center = np.mean([heights[k] for k in members])
             body = self._root.worldbody.add("body", name=f"body_{number}", pos=[0, 0, center])
             for axis, direction in zip("xyz", np.eye(3), strict=True):
-                self.joints.append(body.add("joint", name=f"{axis}_{number}", type="slide", axis=direction))
-            self.joints.append(body.add("joint", name=f"ball_{number}", type="ball"))
+                body.add("joint", name=f"{axis}_{number}", type="slide", axis=direction)
+            body.add("joint", name=f"ball_{number}", type="ball")
             for k in members:
                 cube = block.Block(block.COLORS[k], BLOCK_MASS, half_size, friction, name=f"block_{k}")
                 mount = body.add("site", name=f"mount_{k}", pos=[0, 0, heights[k] - center], group=5)
