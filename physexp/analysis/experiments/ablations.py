@@ -39,7 +39,7 @@ def load(results: base.Results):
     """
     frame = scores.load(results, CONDITIONS)
     if not frame.algorithm.isin(VARIANTS).any():
-        raise ValueError(f"{results.path} holds no finished runs of the variants; `physexp reproduce ablations` first")
+        raise results.lacks("finished runs")
     return frame
 
 

@@ -64,6 +64,10 @@ class Results:
     def episodes_path(self, trial: Trial, config: config_lib.TrainConfig) -> Path:
         return self.path / "episodes" / trial.name / f"{config.name}.parquet"
 
+    def lacks(self, what: str) -> ValueError:
+        """Returns the error of an experiment of whose data, as `episodes`, there are none yet."""
+        return ValueError(f"{self.path} holds no {what} of this experiment; `physexp reproduce` and its name make them")
+
     def all_episodes(self, config: config_lib.TrainConfig) -> list[Path]:
         """The files of all that a run's agent played, of whichever trial."""
         return sorted(self.path.glob(f"episodes/*/{config.name}.parquet"))
@@ -84,7 +88,7 @@ class Results:
         always = ["domain", "task", "difficulty", "discount", "training_seed", "interaction", "control_timestep"]
         paths = [path for config in configs for path in self._complete(trials, config)]
         if not paths:
-            raise ValueError(f"{self.path} holds no episodes of this experiment; `physexp reproduce` it first")
+            raise self.lacks("episodes")
         frame = records.read(paths, [*always, *columns])
         return frame.assign(condition=_labels(frame))
 
@@ -114,7 +118,7 @@ class Results:
                     )
                 )
         if not frames:
-            raise ValueError(f"{self.path} holds no finished runs of this experiment; `physexp reproduce` it first")
+            raise self.lacks("finished runs")
         frame = pandas.concat(frames, ignore_index=True)
         return frame.assign(condition=_labels(frame))
 

@@ -119,7 +119,7 @@ def load(results: base.Results):
                         for seed, its in frame.groupby("training_seed")
                     ]
     if not rows:
-        raise ValueError(f"{results.path} holds no episodes of this experiment; `physexp reproduce` it first")
+        raise results.lacks("episodes")
     played = {row["condition"] for row in rows}
     for task in conditions.TOWERS:
         if task.label in played and domains.find(task.domain).baselines.get(task.task):

@@ -48,7 +48,7 @@ def load(results: base.Results):
                 }
             )
     if not rows:
-        raise ValueError(f"{results.path} holds no episodes of this experiment; `physexp reproduce ideal_gap` first")
+        raise results.lacks("episodes")
     frame = pandas.DataFrame(rows)
     frame.attrs["towers"] = towers
     return frame

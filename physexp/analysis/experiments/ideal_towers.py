@@ -57,7 +57,8 @@ def best(rows: list[dict], objective: str = "return", resolution: float = 0.0) -
         if row["resolution"] == resolution and row["objective"] == objective:
             return row
     raise ValueError(
-        f"results/ideal has no observer who sees {resolution:g} for {objective}; remove it and reproduce ideal_gap"
+        f"the results have no observer of towers who sees {resolution:g} for {objective}; remove their folder `ideal`, "
+        "and `physexp reproduce ideal_gap` makes it again"
     )
 
 

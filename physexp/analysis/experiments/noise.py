@@ -68,7 +68,7 @@ def load(results: base.Results):
             share = records.discounted_return(frame) / base.read_made(_path(results), "noise", _is_value)["value"]
         frames.append(frame.assign(readings=readings, again=frame.interactions - frame.blocks, share=share))
     if not any((frame.readings == NOISY).any() for frame in frames):
-        raise ValueError(f"{results.path} holds no episodes of this experiment; `physexp reproduce` it first")
+        raise results.lacks("episodes")
     return pandas.concat(frames, ignore_index=True)
 
 

@@ -44,7 +44,7 @@ def load(results: base.Results):
                 frame = results.curves([config])
                 frames.append(frame.assign(condition=kind, player=player, score=frame.greedy_success_rate))
     if not frames:
-        raise ValueError(f"{results.path} holds no finished runs of this experiment; `physexp reproduce` it first")
+        raise results.lacks("finished runs")
     return pandas.concat(frames, ignore_index=True)
 
 

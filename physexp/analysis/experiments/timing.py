@@ -94,7 +94,7 @@ def load(results: base.Results):
                 for seed, its in frame.groupby("training_seed"):
                     rows.append(_row(player, seed, timestep, friction, _summary(its)))
     if not any(row["player"] == MANY for row in rows):
-        raise ValueError(f"{results.path} holds no episodes of this experiment; `physexp reproduce` it first")
+        raise results.lacks("episodes")
     made = base.read_made(_path(results), "timing", _is_made)
     for timestep in STEPS:
         its = {"right": made["right"][f"{timestep:g}"], "interactions": made["wait"], "time": made["wait"] * timestep}
