@@ -8,9 +8,6 @@ import torch
 
 from physexp.agents import core, networks, rounds
 
-ActionOverride = Callable[[np.ndarray, np.random.Generator], np.ndarray]
-"""Maps chosen actions, int [N], and a generator to the actions that the environments get, int [N]."""
-
 Choose = Callable[[torch.Tensor, np.ndarray, int], np.ndarray]
 """Maps logits [N, A], the indices of the environments, int [N], and the number of the step to actions, int64 [N]."""
 
@@ -32,17 +29,25 @@ def draw(probabilities: np.ndarray, generator: np.random.Generator) -> np.ndarra
     return (cumulative <= thresholds).sum(axis=1).clip(max=cumulative.shape[1] - 1)
 
 
+def drawn(generator: np.random.Generator) -> Choose:
+    """Returns a choice that draws actions from the policy."""
+    return lambda logits, environments, step: sample(logits, generator)
+
+
+def likeliest(logits: torch.Tensor, environments: np.ndarray, step: int) -> np.ndarray:
+    """Chooses the likeliest actions."""
+    return logits.cpu().numpy().argmax(axis=1)
+
+
 @torch.no_grad()
 def play_round(
     network: networks.RecurrentNetwork,
     environment: core.Batch,
     episode: int,
-    generator: np.random.Generator,
-    greedy: bool = False,
-    action_override: ActionOverride | None = None,
+    choose: Choose,
+    *,
     keep_inputs: bool = False,
     keep_behaviour: bool = False,
-    choose: Choose | None = None,
 ) -> rounds.Round:
     """Plays one whole episode in each environment of a batch.
 
@@ -50,13 +55,10 @@ def play_round(
       network: the policy.
       environment: the batch.
       episode: index of the episode that every environment starts.
-      generator: source of the actions.
-      greedy: take the likeliest action instead of drawing one.
-      action_override: changes the chosen actions on their way to the environment.
+      choose: chooses the actions, as `drawn(generator)` and `likeliest` do.
       keep_inputs: keep the network's inputs, with the graph that made them where it is learned from, so that what is
         seen passes the torso only once.
       keep_behaviour: keep observations, probabilities and values, to learn with other parameters, too.
-      choose: chooses the actions, instead of drawing them from the policy.
     """
     timestep = environment.reset(episode=episode)
     active = np.arange(environment.num_environments)
@@ -69,12 +71,7 @@ def play_round(
         with torch.set_grad_enabled(keep_inputs):
             inputs = network.encode(as_tensors(observation))
         logits, values, state = network.step(inputs, state)
-        if choose is not None:
-            actions = choose(logits, active, len(steps))
-        else:
-            actions = logits.cpu().numpy().argmax(axis=1) if greedy else sample(logits, generator)
-        if action_override is not None:
-            actions = action_override(actions, generator)
+        actions = choose(logits, active, len(steps))
         state = network.note(torch.from_numpy(actions), state)
         timestep = environment.step(actions, active)
         steps.append((active, actions, timestep.reward))

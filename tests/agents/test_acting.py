@@ -39,14 +39,14 @@ def test_acting_logits_and_values_equal_those_of_training(domain, task):
     network.calibrate(acting.as_tensors(batch.reset().observation))
     label = batch.action_spec().num_values - 1
 
-    def vary_lengths(actions, generator):
-        """Whatever the network prefers, an episode ends with a probability of 0.1 to 0.3 at each step."""
-        drawn = generator.choice([0, label, -1], len(actions), p=[0.7, 0.1, 0.2])
-        return np.where(drawn < 0, actions, drawn)
+    generator = np.random.default_rng(seed)
 
-    episodes = acting.play_round(
-        network, batch, 0, np.random.default_rng(seed), action_override=vary_lengths, keep_inputs=True
-    )
+    def vary_lengths(logits, environments, step):
+        """Whatever the network prefers, an episode ends with a probability of 0.1 to 0.3 at each step."""
+        drawn = generator.choice([0, label, -1], len(logits), p=[0.7, 0.1, 0.2])
+        return np.where(drawn < 0, acting.sample(logits, generator), drawn)
+
+    episodes = acting.play_round(network, batch, 0, vary_lengths, keep_inputs=True)
     batch.close()
     lengths = episodes.lengths
     # All of 24 episodes end within two steps with a probability of 0.51^24 = 1e-7 at most.
@@ -80,7 +80,7 @@ def test_what_was_encoded_to_act_is_what_there_is_to_learn_from(task, monkeypatc
     seed = fresh_seed()
     batch = suite.load_batch("which_is_heavier", task, 6, {"random": seed})
     network = make_network(batch, seed)
-    episodes = acting.play_round(network, batch, 3, np.random.default_rng(seed), keep_inputs=True)
+    episodes = acting.play_round(network, batch, 3, acting.drawn(np.random.default_rng(seed)), keep_inputs=True)
     batch.close()
     order = np.argsort(-episodes.lengths, kind="stable")
     seen = [[] for _ in episodes.lengths]
@@ -138,7 +138,7 @@ def test_behaviour_data_give_back_the_probabilities_and_values_of_acting(domain,
     seed = fresh_seed()
     batch = suite.load_batch(domain, task, 12, {"random": seed})
     network = make_network(batch, seed)
-    played = acting.play_round(network, batch, 0, np.random.default_rng(seed), keep_behaviour=True)
+    played = acting.play_round(network, batch, 0, acting.drawn(np.random.default_rng(seed)), keep_behaviour=True)
     batch.close()
     some = played.select(np.array([3, 7, 1, 11, 5]))
     with torch.no_grad():
@@ -174,8 +174,10 @@ def test_a_round_depends_on_its_number_and_its_generator_but_not_on_earlier_roun
         batch = suite.load_batch(domain, task, 8, {"random": seed})
         network = make_network(batch, seed)
         for number in earlier:
-            acting.play_round(network, batch, number, np.random.default_rng(number))
-        episodes = acting.play_round(network, batch, 2, np.random.default_rng([seed, 2]), keep_inputs=True)
+            acting.play_round(network, batch, number, acting.drawn(np.random.default_rng(number)))
+        episodes = acting.play_round(
+            network, batch, 2, acting.drawn(np.random.default_rng([seed, 2])), keep_inputs=True
+        )
         batch.close()
         return episodes
 
@@ -189,7 +191,7 @@ def test_rounds_of_another_number_are_other_episodes():
     seed = fresh_seed()
     batch = suite.load_batch("which_is_heavier", "features", 64, {"random": seed})
     network = make_network(batch, seed)
-    answers = [acting.play_round(network, batch, n, np.random.default_rng(0)).answers for n in (0, 1)]
+    answers = [acting.play_round(network, batch, n, acting.drawn(np.random.default_rng(0))).answers for n in (0, 1)]
     batch.close()
     # Two independent sets of 64 answers out of 4 agree with probability 4^-64.
     assert (answers[0] != answers[1]).any()
@@ -199,7 +201,7 @@ def test_a_rounds_rewards_answers_and_lengths_fit_together():
     seed = fresh_seed()
     batch = suite.load_batch("which_is_heavier", "features", 64, {"random": seed})
     network = make_network(batch, seed)
-    episodes = acting.play_round(network, batch, 3, np.random.default_rng(seed))
+    episodes = acting.play_round(network, batch, 3, acting.drawn(np.random.default_rng(seed)))
     batch.close()
     for b, length in enumerate(episodes.lengths):
         last = episodes.actions[length - 1, b]
@@ -282,13 +284,11 @@ def test_actors_of_one_seed_draw_the_same_actions_and_of_two_seeds_others():
     assert draws(5) != draws(6)
 
 
-def test_an_action_override_changes_what_the_environment_gets_and_what_is_recorded():
+def test_what_is_chosen_is_what_the_environment_gets_and_what_is_recorded():
     batch = suite.load_batch("which_is_heavier", "features", 8, {"random": fresh_seed()})
     network = make_network(batch, 0)
     # Whatever the policy wants, label 2 (action 6) is what is said: every episode is one action long.
-    episodes = acting.play_round(
-        network, batch, 0, np.random.default_rng(0), action_override=lambda actions, generator: np.full_like(actions, 6)
-    )
+    episodes = acting.play_round(network, batch, 0, lambda logits, environments, step: np.full(len(logits), 6))
     batch.close()
     assert episodes.lengths.tolist() == [1] * 8
     assert episodes.actions.tolist() == [[6] * 8]

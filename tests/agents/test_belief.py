@@ -31,8 +31,7 @@ def make_network(environment, seed, config=SMALL):
 
 def play(network, environment, number, config=SMALL):
     explorer = belief_acting.Explorer(network, config, number)
-    unused = np.random.default_rng()
-    return acting.play_round(network, environment, number, unused, keep_inputs=True, choose=explorer.choose)
+    return acting.play_round(network, environment, number, explorer.choose, keep_inputs=True)
 
 
 def room(network, environment, num_rounds):
@@ -276,7 +275,7 @@ def test_the_greedy_share_of_episodes_is_played_as_the_agent_plays_without_learn
     environment = load("which_is_heavier", "features", seed)
     network = make_network(environment, seed)
     learning = play(network, environment, 0, SMALL.replace(greedy=0.5))
-    plain = acting.play_round(network, environment, 0, np.random.default_rng(), greedy=True)
+    plain = acting.play_round(network, environment, 0, acting.likeliest)
     for episode in range(4):
         length = plain.lengths[episode]
         assert learning.lengths[episode] == length
@@ -290,7 +289,8 @@ def test_an_episode_has_no_more_interactions_than_were_trained_for(greedy):
     environment = load("which_is_heavier", "features", seed)
     network = make_network(environment, seed)
     network.members.shares.bias.data += 10.0  # It would interact for ever.
-    played = acting.play_round(network, environment, 0, np.random.default_rng(seed), greedy)
+    choose = acting.likeliest if greedy else acting.drawn(np.random.default_rng(seed))
+    played = acting.play_round(network, environment, 0, choose)
     assert (played.lengths == SMALL.most_interactions + 1).all()
     environment.close()
 
@@ -328,7 +328,7 @@ def test_what_was_played_is_played_again_from_its_actions_to_the_last_bit(domain
     again.actions.copy_(kept.actions)
 
     def play_again(number, choose):
-        return acting.play_round(network, environment, number, np.random.default_rng(), keep_inputs=True, choose=choose)
+        return acting.play_round(network, environment, number, choose, keep_inputs=True)
 
     again.restore(play_again, 3)
     drawn, expected = (

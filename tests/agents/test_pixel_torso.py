@@ -130,7 +130,7 @@ def test_a_gpu_agrees_with_the_processor_within_bf16():
     network.to("cpu")
     batch = suite.load_batch("towers", "fist_pixels", 4, {"random": 0})
     network.to("cuda")
-    episodes = acting.play_round(network, batch, 0, np.random.default_rng(0))
+    episodes = acting.play_round(network, batch, 0, acting.drawn(np.random.default_rng(0)))
     batch.close()
     assert episodes.num_frames > 0
     with torch.no_grad():

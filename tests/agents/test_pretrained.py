@@ -61,7 +61,7 @@ def test_an_agent_answers_as_well_as_its_card_says(name):
     batch = suite.load_batch(
         agent.card["domain"], agent.card["task"], num_episodes, {"random": seed, **agent.card["task_kwargs"]}
     )
-    played = acting.play_round(agent.network, batch, 0, np.random.default_rng(seed))
+    played = acting.play_round(agent.network, batch, 0, acting.drawn(np.random.default_rng(seed)))
     batch.close()
     right = (played.rewards.sum(axis=0) > 0).mean()
     rate = agent.card["evaluation"]["drawn"]["success_rate"]

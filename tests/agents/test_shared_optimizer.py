@@ -37,7 +37,7 @@ def learn_once(shared, worker, results):
     network = networks.RecurrentActorCritic(batch.observation_spec(), 8, lstm_units=16, observation_scale=10.0)
 
     def play(number):
-        return acting.play_round(network, batch, number, np.random.default_rng(worker), keep_inputs=True)
+        return acting.play_round(network, batch, number, acting.drawn(np.random.default_rng(worker)), keep_inputs=True)
 
     learner = a3c.A3CLearner(network, shared, play, worker, CONFIG)
     metrics = learner.step()
@@ -110,7 +110,7 @@ def test_a_learner_restores_what_it_saved():
     network = networks.RecurrentActorCritic(batch.observation_spec(), 8, lstm_units=16, observation_scale=10.0)
 
     def play(number):
-        return acting.play_round(network, batch, number, np.random.default_rng(number), keep_inputs=True)
+        return acting.play_round(network, batch, number, acting.drawn(np.random.default_rng(number)), keep_inputs=True)
 
     memory = a3c.SharedMemory(shared, multiprocessing.get_context("spawn").Lock(), config.max_staleness)
     learner = a3c.A3CLearner(network, memory, play, 0, config)

@@ -28,7 +28,7 @@ def work(
 
     def play(episode: int) -> rounds.Round:
         generator = starting.round_generator(config.seed, index, episode)
-        return acting.play_round(network, environment, episode, generator, keep_inputs=True)
+        return acting.play_round(network, environment, episode, acting.drawn(generator), keep_inputs=True)
 
     learner = a3c_learning.A3CLearner(network, shared, play, index, config)
     frames = shared.pull(network, index).frames

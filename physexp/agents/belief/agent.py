@@ -42,5 +42,4 @@ class Belief(synchronous.SynchronousAgent):
         super().__init__(learner, config.frames, seed, config.num_threads)
 
     def _play(self, network: networks.BeliefNetwork, number: int, choose: acting.Choose) -> rounds.Round:
-        unused = np.random.default_rng()  # Whoever chooses draws.
-        return acting.play_round(network, self._environment, number, unused, keep_inputs=True, choose=choose)
+        return acting.play_round(network, self._environment, number, choose, keep_inputs=True)

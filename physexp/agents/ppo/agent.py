@@ -33,4 +33,5 @@ class PPO(synchronous.SynchronousAgent):
 
     def _play(self, episode: int) -> rounds.Round:
         generator = starting.round_generator(self._config.seed, 0, episode)
-        return acting.play_round(self._network, self._environment, episode, generator, keep_behaviour=True)
+        choose = acting.drawn(generator)
+        return acting.play_round(self._network, self._environment, episode, choose, keep_behaviour=True)

@@ -1,7 +1,6 @@
 """Evaluation: plays episodes with a trained agent."""
 
 from collections.abc import Callable
-import functools
 
 import numpy as np
 import torch
@@ -64,13 +63,15 @@ def play(
         config, seed, _BATCH if num_steps else min(num_episodes, _BATCH), num_threads
     )
     num_interactions = environment.task.num_interactions
-    action_override = functools.partial(randomize, num_interactions) if interaction == "random" else None
     rounds: list[Episodes] = []
     episodes_left, steps_left = num_episodes, num_steps
     while episodes_left > 0 or steps_left > 0:
         episode = len(rounds)
         generator = np.random.default_rng([seed, episode])
-        played = acting.play_round(network, environment, episode, generator, greedy, action_override)
+        choose = acting.likeliest if greedy else acting.drawn(generator)
+        if interaction == "random":
+            choose = randomized(choose, num_interactions, generator)
+        played = acting.play_round(network, environment, episode, choose)
         rounds.append(Episodes.of_round(played, num_interactions, environment.seeds, episode, environment.hidden))
         episodes_left, steps_left = episodes_left - len(rounds[-1]), steps_left - played.num_frames
         if show is not None:
@@ -80,7 +81,12 @@ def play(
     return joined if num_steps else joined.first(num_episodes)
 
 
-def randomize(num_interactions: int, actions: np.ndarray, generator: np.random.Generator) -> np.ndarray:
-    """Replaces interaction actions by uniformly drawn ones; labeling actions pass (paper, Section 5.3)."""
-    drawn = generator.integers(num_interactions, size=len(actions))
-    return np.where(actions < num_interactions, drawn, actions)
+def randomized(choose: acting.Choose, num_interactions: int, generator: np.random.Generator) -> acting.Choose:
+    """Returns a choice whose interaction actions are drawn uniformly; labeling actions pass (paper, Section 5.3)."""
+
+    def choose_anew(logits: torch.Tensor, environments: np.ndarray, step: int) -> np.ndarray:
+        actions = choose(logits, environments, step)
+        drawn = generator.integers(num_interactions, size=len(actions))
+        return np.where(actions < num_interactions, drawn, actions)
+
+    return choose_anew

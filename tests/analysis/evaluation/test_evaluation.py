@@ -65,7 +65,8 @@ def test_randomized_interaction_passes_labels_and_draws_every_poke_anew():
     generator = np.random.default_rng(seed)
     actions = generator.integers(0, 8, 40_000)
     actions[:8_000] = 2  # Whatever was wanted, most of all one block.
-    replaced = playing.randomize(4, actions, generator)
+    choose = playing.randomized(lambda logits, environments, step: actions, 4, generator)
+    replaced = choose(torch.zeros(len(actions), 8), np.arange(len(actions)), 0)
     labels = actions >= 4
     np.testing.assert_array_equal(replaced[labels], actions[labels])
     for wanted in range(4):  # Uniform over 0 to 3, given any poke that was wanted.
