@@ -30,4 +30,5 @@ OptionalFloat = Annotated[float | None, tyro.conf.arg(metavar="FLOAT", help_beha
 OptionalInt = Annotated[int | None, tyro.conf.arg(metavar="INT", help_behavior_hint="")]
 OptionalPath = Annotated[Path | None, tyro.conf.arg(metavar="PATH", help_behavior_hint="")]
 OptionalAgent = Annotated[str | None, tyro.conf.arg(metavar="AGENT", help_behavior_hint="")]
+OptionalTask = Annotated[str | None, tyro.conf.arg(metavar="TASK", help_behavior_hint="")]
 OptionalAddress = Annotated[str | None, tyro.conf.arg(metavar="HOST:PORT", help_behavior_hint="")]

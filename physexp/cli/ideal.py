@@ -1,8 +1,7 @@
 """The command that prints what an ideal experimenter achieves."""
 
-from collections.abc import Sequence
 import dataclasses
-from typing import Annotated, Any, ClassVar, Generic, Literal
+from typing import Annotated, ClassVar, Generic, Literal
 
 import tyro
 from tyro.conf import OmitArgPrefixes, Positional
@@ -10,18 +9,18 @@ from tyro.conf import OmitArgPrefixes, Positional
 from physexp.analysis import domains
 from physexp.cli import options as options_lib
 from physexp.cli import printing
-from physexp.cli.arguments import OptionalFloat, Switch
+from physexp.cli.arguments import OptionalFloat, OptionalTask, Switch
 
 _IDEALS = {name: domain.ideal for name, domain in domains.DOMAINS.items() if domain.ideal is not None}
 
 
-def _domains_of(words: Sequence[str]) -> list[str]:
-    """Returns the domain that is named, or else all of which an ideal experimenter is known."""
-    return [word for word in words[:1] if word in _IDEALS] or list(_IDEALS)
-
-
 def _options_of(domain_name: str) -> type:
-    return _IDEALS[domain_name].options
+    """Returns the class of the options of a domain and of its ideal experimenter."""
+    of_task = options_lib.of_task(domain_name)
+    if domain_name not in _IDEALS:
+        return of_task
+    bases = (_IDEALS[domain_name].options, of_task)
+    return dataclasses.make_dataclass("IdealOptions", [], bases=bases, frozen=True, kw_only=True)
 
 
 @dataclasses.dataclass
@@ -29,14 +28,15 @@ class Ideal(Generic[options_lib.Options]):
     """Print what the ideal experimenter achieves: no agent's expected return is larger.
 
     Attributes:
-      options: what can be chosen of it.
+      options: what can be chosen of the task, and of what the ideal experimenter can tell apart.
+      task: the task; by default the domain's first.
       discount: the agent's gamma; by default the domain's.
       json: print JSON.
       keep: write down what can be told apart after every sequence of actions, where physics takes long: the package
         holds it, and it has to be written anew when the suite is changed.
     """
 
-    domains_of: ClassVar = staticmethod(_domains_of)
+    domains_of: ClassVar = staticmethod(options_lib.of_domain)
     options_of: ClassVar = staticmethod(_options_of)
 
     domain: Annotated[
@@ -44,6 +44,7 @@ class Ideal(Generic[options_lib.Options]):
         tyro.conf.arg(metavar="DOMAIN", help=f"{' or '.join(_IDEALS)}; --help after it lists its options."),
     ]
     options: OmitArgPrefixes[options_lib.Options]
+    task: OptionalTask = None
     discount: OptionalFloat = None
     json: Switch = False
     keep: Switch = False
@@ -52,18 +53,15 @@ class Ideal(Generic[options_lib.Options]):
         from physexp import suite
         from physexp.analysis.ideal import kept
 
-        ideal = _IDEALS[self.domain]
-        defaults = {field.name: field.default for field in dataclasses.fields(ideal.options)}
-        settings: dict[str, Any] = {**defaults, **options_lib.chosen(self.options)}
-        settings = {name: value for name, value in settings.items() if value is not None}
         tasks = suite.TASKS_BY_DOMAIN[self.domain]
-        task = settings.pop("task", tasks[0])
+        task = tasks[0] if self.task is None else self.task
         if task not in tasks:
             raise ValueError(f"task is {task!r}; choose from {', '.join(tasks)}")
-        of_task = {field.name for field in dataclasses.fields(suite.options(self.domain))} & set(settings)
-        task_kwargs = {name: settings.pop(name) for name in sorted(of_task)}
+        ideal, chosen = _IDEALS[self.domain], options_lib.chosen(self.options)
+        names = {field.name for field in dataclasses.fields(ideal.options)} & set(chosen)
+        own = {name: chosen.pop(name) for name in names}
         discount = domains.find(self.domain).discount if self.discount is None else self.discount
-        solution = ideal(task, task_kwargs, discount, **settings)
+        solution = ideal(task, chosen, discount, **own)
         with printing.warned_if_slow(
             f"searching for the ideal experimenter of {self.domain}/{task}; that can take minutes"
         ):

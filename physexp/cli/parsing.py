@@ -97,7 +97,6 @@ class _Command:
         self.name = arguments[0] if arguments[:1] and arguments[0] in COMMANDS else ""
         domains_of = getattr(COMMANDS.get(self.name), "domains_of", None)
         self._words = _words(arguments[1:], self._switches()) if domains_of else []
-        self._all_domains: list[str] = domains_of([]) if domains_of else []
         self.domains: list[str] = domains_of(self._words) if domains_of else []
         self._options_of = getattr(COMMANDS.get(self.name), "options_of", options_lib.of_task)
         default = "the agent's" if domains_of is options_lib.of_agent else None
@@ -155,9 +154,9 @@ class _Command:
             return
         from physexp import suite
 
-        owner, of_any = self.domains[0], {*options_lib.offered(list(suite.TASKS_BY_DOMAIN))}
-        if self._options_of is not options_lib.of_task:  # The command has options of its own for each domain.
-            owner, of_any = f"{self.name} {owner}", of_any | {*options_lib.offered(self._all_domains, self._options_of)}
+        of_any = options_lib.offered(list(suite.TASKS_BY_DOMAIN), self._options_of)
+        has_its_own = self._options_of is not options_lib.of_task
+        owner = f"{self.name} {self.domains[0]}" if has_its_own else self.domains[0]
         for flag in _flags(event.tokens):
             if flag.replace("-", "_") in of_any:
                 raise ValueError(f"--{flag} is not an option of {owner}; leave it out")

@@ -15,6 +15,11 @@ if TYPE_CHECKING:
     from physexp.analysis.ideal import base as ideal
 
 
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class NoOptions:
+    """What can be chosen of an ideal experimenter where the task says all."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Ideal:
     """How to find the ideal experimenter of a domain's tasks. Calling it solves, once for each question.
@@ -25,13 +30,12 @@ class Ideal:
       domain: the domain's name.
       solve: returns the `Solution` of a task, its `task_kwargs` and a discount, with further options by name; raises
         ValueError for a value that makes no sense.
-      options: a dataclass of what the command line lets choose, with its defaults: `task`, options of the domain, and
-        further options of `solve`.
+      options: a dataclass of those further options, with their defaults.
     """
 
     domain: str
     solve: "Callable[..., ideal.Solution]"
-    options: type
+    options: type = NoOptions
     _found: "dict[str, ideal.Solution]" = dataclasses.field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __call__(self, task: str, task_kwargs: Mapping[str, Any], discount: float, **options: Any) -> "ideal.Solution":

@@ -1,27 +1,12 @@
 """What the analysis knows of Sealed Box: its ideal and its columns."""
 
 from collections.abc import Mapping
-import dataclasses
 from typing import Any
 
 from physexp.analysis.domains import base
 
 _NAME = "sealed_box"
-_DISCOUNT = 0.95
 _FRAMES = 4_000_000  # Of A3C and PPO.
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class IdealOptions:
-    """What can be chosen of the ideal experimenter, who knows the physics.
-
-    Attributes:
-      task: the task.
-      difficulty: how finely the place of the box is read, 1 to 3, the larger the easier; by default the task's.
-    """
-
-    task: str = "features"
-    difficulty: float | None = None
 
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
@@ -39,7 +24,6 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
 DOMAIN = base.Domain(
     name=_NAME,
     skill="excite and watch",
-    discount=_DISCOUNT,
     presets={
         "features": {
             "a3c": base.A3C_OF_BITS.replace(frames=_FRAMES),
@@ -51,6 +35,6 @@ DOMAIN = base.Domain(
         },
     },
     targets={"sealed_box-features": ("mean_return", 0.82), "sealed_box-pixels": ("mean_return", 0.76)},
-    ideal=base.Ideal(_NAME, _solve, IdealOptions),
+    ideal=base.Ideal(_NAME, _solve),
     hidden_columns=lambda hidden: {"content": hidden},  # An index in `sealed_box.ALL_CONTENTS`.
 )

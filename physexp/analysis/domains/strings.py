@@ -1,24 +1,11 @@
 """What the analysis knows of Strings: its ideal and its columns."""
 
 from collections.abc import Mapping
-import dataclasses
 from typing import Any
 
 from physexp.analysis.domains import base
 
 _NAME = "strings"
-_DISCOUNT = 0.95
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class IdealOptions:
-    """What can be chosen of the ideal experimenter, who reads only which pucks are away from home.
-
-    Attributes:
-      difficulty: the odds that two pucks are not joined, a number >= 1, the larger the easier; by default the task's.
-    """
-
-    difficulty: float | None = None
 
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
@@ -40,9 +27,8 @@ def _away(observation) -> int:
 DOMAIN = base.Domain(
     name=_NAME,
     skill="control confounds",
-    discount=_DISCOUNT,
     presets=base.PRESETS_OF_BITS,
     targets={"strings-features": ("mean_return", 0.82), "strings-pixels": ("mean_return", 0.82)},
-    ideal=base.Ideal(_NAME, _solve, IdealOptions),
+    ideal=base.Ideal(_NAME, _solve),
     hidden_columns=lambda hidden: {"slacks": hidden},  # m; 0 where there is no band
 )

@@ -1,24 +1,11 @@
 """What the analysis knows of Threshold: presets of its agents, its ideal, its columns."""
 
 from collections.abc import Mapping
-import dataclasses
 from typing import Any
 
 from physexp.analysis.domains import base
 
 _NAME = "threshold"
-_DISCOUNT = 0.95
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class IdealOptions:
-    """What can be chosen of the ideal experimenter, to whom each push tells whether the block slides.
-
-    Attributes:
-      difficulty: the skew of the prior over levels, a number >= 1, the larger the easier; by default the task's.
-    """
-
-    difficulty: float | None = None
 
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
@@ -39,9 +26,8 @@ def _slid(observation) -> int:
 DOMAIN = base.Domain(
     name=_NAME,
     skill="halve what is left",
-    discount=_DISCOUNT,
     presets=base.PRESETS_OF_BITS,
     targets={"threshold-features": ("mean_return", 0.84), "threshold-pixels": ("mean_return", 0.76)},
-    ideal=base.Ideal(_NAME, _solve, IdealOptions),
+    ideal=base.Ideal(_NAME, _solve),
     hidden_columns=lambda hidden: {"friction": hidden},  # N
 )

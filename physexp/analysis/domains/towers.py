@@ -84,17 +84,11 @@ class IdealOptions:
     """What can be chosen of the ideal experimenter, who knows the physics.
 
     Attributes:
-      task: the task.
       resolution: the smallest difference that can be observed: in metres for features, in differing pixels for images;
         at 0 every bit counts.
-      noise: standard deviation of readings, m; with it, the ideal is bounded from both sides.
-      variation: how far episodes differ in what is not asked, 0 to 1; with it, the same.
     """
 
-    task: str = "fist_features"
     resolution: float = 0.0
-    noise: float | None = None
-    variation: float | None = None
 
 
 def hypotheses(task: str, task_kwargs: Mapping[str, Any] | None = None, nuisances=None):

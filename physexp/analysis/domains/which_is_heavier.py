@@ -23,16 +23,10 @@ class IdealOptions:
     """What can be chosen of the ideal experimenter, to whom one poke reveals a mass exactly.
 
     Attributes:
-      difficulty: the paper's beta, a number >= 1, the larger the easier; by default the task's.
       blocks: how many blocks; by default the task's.
-      noise: standard deviation of readings, m; with it, the ideal is bounded from both sides.
-      variation: how far episodes differ in what is not asked, 0 to 1; with it, the same.
     """
 
-    difficulty: float | None = None
     blocks: int | None = None
-    noise: float | None = None
-    variation: float | None = None
 
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks: int | None = None):
