@@ -19,11 +19,11 @@ def seed():
     return fresh_seed()
 
 
-def _right(task, player, seed, **task_kwargs):
-    """The share of right answers of a baseline, and its mean number of actions."""
+def _right(task, player, seed, num_rounds=1, **task_kwargs):
+    """The share of right answers of a baseline, and its mean number of actions, in rounds of 32 episodes."""
     make = domains.find("towers").baselines[task][player]
     actors = [make() for _ in range(NUM_ACTORS)]
-    rewards, lengths = rollouts.play(actors, "towers", task, task_kwargs, 1, seed)
+    rewards, lengths = rollouts.play(actors, "towers", task, task_kwargs, num_rounds, seed)
     return (rewards > 0).mean(), lengths.mean()
 
 
@@ -44,7 +44,8 @@ def test_the_lookup_is_right_where_it_has_seen_all_and_often_wrong_where_towers_
     interactions, _ = ideal.outcomes().T
     assert right == 1
     assert interactions.min() + 1 <= length <= interactions.max() + 1
-    assert _right(task, "lookup", seed, variation=1.0)[0] < 0.9
+    # It is in 0.62 with pushes and 0.31 with the fist; 116 of 128, where 0.65 are right, are less likely than 1e-9.
+    assert _right(task, "lookup", seed, 4, variation=1.0)[0] < 0.9
 
 
 class _Counter(core.Actor):

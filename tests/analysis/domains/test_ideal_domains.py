@@ -15,6 +15,7 @@ from physexp.analysis import domains
 from physexp.analysis.data import episodes
 from physexp.analysis.domains import base
 from physexp.analysis.evaluation import records
+from physexp.analysis.ideal import rollouts
 from physexp.analysis.training import config as config_lib
 
 IDEALS = [(domain, task) for domain, task in suite.tagged("features") if domains.find(domain).ideal is not None]
@@ -35,15 +36,18 @@ class Recorder(observers.Watcher):
 def test_what_it_earns_in_the_real_environment_is_its_value(domain, task):
     discount = domains.find(domain).discount
     solution = ideals.of(domain, task)
-    environment = suite.load(domain, task, task_kwargs={"random": fresh_seed()})
-    played = environment_loop.EnvironmentLoop(environment, solution.actor()).run(150)
-    returns = np.array([discount ** (each["episode_length"] - 1) * each["episode_return"] for each in played])
+    rewards, lengths = rollouts.play([solution.actor() for _ in range(64)], domain, task, {}, 10, fresh_seed())
+    returns = rewards * discount ** (lengths - 1)
     # A return is plus or minus the discount to the number of interactions. Wrong answers are so rare in some domains
     # that a sample may have none, and say nothing of their spread.
     histogram = solution.summary()["histogram"]
     square = sum(share * discount ** (2 * interactions) for interactions, share in histogram.items())
-    spread = math.sqrt(max(0.0, square - solution.value**2))
-    assert abs(returns.mean() - solution.value) < 5 * spread / math.sqrt(len(returns)) + 1e-3
+    variance = max(0.0, square - solution.value**2)
+    # Bernstein's inequality for returns within 2 of their mean: t is exceeded with a probability of
+    # 2 exp(-N t^2 / (2 variance + 4 t / 3)), which is 1e-6.
+    chance = math.log(2e6)
+    most = (2 * chance / 3 + math.sqrt((2 * chance / 3) ** 2 + 2 * returns.size * chance * variance)) / returns.size
+    assert abs(returns.mean() - solution.value) < most + 1e-3
     assert solution.bound == pytest.approx(solution.value)
 
 

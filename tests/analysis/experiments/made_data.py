@@ -483,11 +483,11 @@ def second_pokes(num_agents, generator, noisy=0.6, exact=0.0, widest=0.3, slope=
 
     All pokes have these slopes on the mass gap, with noise and without; and what is earned.
     """
-    agents = []
+    agents, count = [], 2 * _EPISODES  # Few blocks are poked again.
     for seed in range(num_agents):
-        gaps = generator.random(_EPISODES)
+        gaps = generator.random(count)
         for readings, again, steep in ((noise.EXACT, exact, exact_slope), (noise.NOISY, noisy, slope)):
-            pokes = (gaps < widest) & (generator.random(_EPISODES) < again - 0.02 * generator.random())
+            pokes = (gaps < widest) & (generator.random(count) < again - 0.02 * generator.random())
             agents.append(
                 pandas.DataFrame(
                     {
@@ -496,8 +496,8 @@ def second_pokes(num_agents, generator, noisy=0.6, exact=0.0, widest=0.3, slope=
                         "readings": readings,
                         "mass_gap": gaps,
                         "again": pokes.astype(int),
-                        "interactions": 4 + steep * (gaps - 0.5) + generator.normal(0, 1, _EPISODES),
-                        "share": share + generator.normal(0, 0.01, _EPISODES) if readings == noise.NOISY else np.nan,
+                        "interactions": 4 + steep * (gaps - 0.5) + generator.normal(0, 1, count),
+                        "share": share + generator.normal(0, 0.01, count) if readings == noise.NOISY else np.nan,
                     }
                 )
             )
@@ -728,7 +728,7 @@ WORLDS: dict[str, dict[str, _World]] = {
         "paper": few_frames,
         "belief is slow": functools.partial(few_frames, belief=2.0),
         "belief computes for long": functools.partial(few_frames, seconds_of_a_frame=1.0),
-        "A3C is quick": functools.partial(few_frames, a3c=0.3, belief=0.63),
+        "A3C is quick": functools.partial(few_frames, a3c=0.24, belief=0.5, fist=0.68, direct=1.2),
         "single episodes teach most": functools.partial(few_frames, papers=0.5),
         "pushes are quick": functools.partial(few_frames, fist=1.2, direct=0.4),
         "agents who stop short": functools.partial(few_frames, loss=4.0),

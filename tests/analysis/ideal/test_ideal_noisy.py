@@ -89,7 +89,8 @@ def test_it_touches_again_where_a_gap_is_small(played):
     is_again = np.array([touches_again(actions) for _, actions, *_ in played])
     again, once = gaps[is_again], gaps[~is_again]
     error = np.hypot(again.std() / len(again) ** 0.5, once.std() / len(once) ** 0.5)
-    assert once.mean() - again.mean() > 5 * error
+    # The difference is about eight standard errors: it is below three as rarely as it would exceed five if it were 0.
+    assert once.mean() - again.mean() > 3 * error
 
 
 def test_it_earns_more_than_who_takes_readings_for_exact(played):

@@ -488,7 +488,8 @@ def test_the_ideal_posterior_beside_an_agent_follows_its_pokes():
     for step, action in enumerate(episode.actions[:-1]):
         again = action in poked
         poked.add(int(action))
-        assert np.array_equal(posteriors[step], posteriors[step + 1]) == again
+        is_sure = posteriors[step].max() == 1  # Of a mass of nearly 1 all doubt is rounded away.
+        assert np.array_equal(posteriors[step], posteriors[step + 1]) == (again or is_sure)
 
 
 def test_an_episode_with_noise_is_enacted_as_it_was_and_no_ideal_is_shown_beside_it(tmp_path):

@@ -149,7 +149,7 @@ def test_whoever_dies_training_ends_as_if_nobody_had(nodes, tmp_path):
     # One after the other: a worker, the parameter server, and a node with whatever runs there.
     # However old a gradient is, it is applied: a worker that has just started may be slower than a hundred updates.
     run = trainers.create(
-        tmp_path / "run", frames=200_000, num_workers=2, max_staleness=10**9, seed=fresh_seed(), **QUICK
+        tmp_path / "run", frames=400_000, num_workers=2, max_staleness=10**9, seed=fresh_seed(), **QUICK
     )
 
     def disturb(told, wait_for):
@@ -289,7 +289,7 @@ def test_a_sweep_gathers_what_the_cluster_made_and_survives_a_killed_task(nodes,
 
 
 def test_training_ends_without_workers_that_find_no_room_and_says_how_many(nodes, tmp_path):
-    config = trainers.create(tmp_path / "run", frames=500, num_workers=3, envs_per_worker=8).config
+    config = trainers.create(tmp_path / "run", frames=10**9, num_workers=3, envs_per_worker=8).config
     lines = []
     agent = distributed.DistributedA3C(
         functools.partial(trainer.make_environment, config),
@@ -298,10 +298,16 @@ def test_training_ends_without_workers_that_find_no_room_and_says_how_many(nodes
         lines.append,
         distributed.Patience(room=0.0),
     )
-    assert sum(update is not None for update in agent.updates()) == int(agent.save()["updates"])
-    assert agent.frames >= 500
+    updates, num_updates = agent.updates(poll_seconds=0.05), 0
     # Two processors, three workers: the two that are placed were without room for as long as they took to start.
-    assert "1 of 3 workers find no room on the cluster, which has 2 processors; they join when there is some" in lines
+    sought = "1 of 3 workers find no room on the cluster, which has 2 processors; they join when there is some"
+    patience = Patience()
+    while sought not in lines or not num_updates:
+        assert not patience.is_over(), (patience, lines)
+        num_updates += next(updates) is not None
+    agent.stop()
+    num_updates += sum(update is not None for update in updates)
+    assert num_updates == int(agent.save()["updates"])
 
 
 def test_stopped_processes_of_a_cluster_hang_nobody(nodes, tmp_path):
