@@ -1,5 +1,6 @@
 """What an actor does is what a learner thinks it did; draws follow the policy; rounds depend on nothing but seeds."""
 
+from chance import P_VALUE
 import numpy as np
 import pytest
 from scipy import stats
@@ -104,8 +105,10 @@ def test_what_was_encoded_to_act_is_what_there_is_to_learn_from(task, monkeypatc
         torch.autograd.grad((anew * weights).sum(), parameters),
         strict=True,
     ):
-        # A sum of many numbers is rounded as they are, however small it is.
-        torch.testing.assert_close(ours, theirs, rtol=1e-3, atol=1e-4 * theirs.abs().max().item())
+        # A unit of the convolutions that is at zero may be on in one sum and off in the other, which are rounded in
+        # other orders: one of some ten thousand, that is 1 % of what their squares have together.
+        apart = torch.linalg.vector_norm(ours - theirs) / torch.linalg.vector_norm(theirs)
+        assert apart < {"features": 1e-4, "pixels": 0.05}[task]
 
 
 def test_packing_lays_out_all_first_steps_then_all_second_steps_in_the_given_order():
@@ -157,7 +160,7 @@ def test_draws_follow_the_softmax_of_the_logits():
     counts = np.bincount(drawn, minlength=6)
     assert len(counts) == 6
     # A right sampler fails this once in a million runs.
-    assert stats.chisquare(counts, expected * counts.sum() / expected.sum()).pvalue > 1e-6
+    assert stats.chisquare(counts, expected * counts.sum() / expected.sum()).pvalue > P_VALUE
 
 
 def test_an_action_of_probability_zero_is_never_drawn():

@@ -1,5 +1,6 @@
 """Noise: readings are inexact, in every episode in the same way, whatever is hidden."""
 
+from chance import P_VALUE
 from every_task import NOISY
 import numpy as np
 import pytest
@@ -9,7 +10,6 @@ from physexp import suite
 from physexp.suite.engine import seeding
 
 NOISE = 0.01  # m
-P_VALUE = 1e-6  # A right generator fails one test in a million.
 every_noisy_task = pytest.mark.parametrize("domain, task", [name.split("/") for name in NOISY])
 
 

@@ -1,5 +1,6 @@
 """Sealed Box: what is in it moves it as physics says, and only who waits sees where it is, to a mark."""
 
+import chance
 import mujoco
 import numpy as np
 import pytest
@@ -130,14 +131,13 @@ def test_nobody_pushes_a_box_or_its_weight_out_of_the_room_there_is(seed):
 
 
 def test_kinds_are_equally_likely_and_so_are_the_contents_of_one_kind(seed):
-    """Each content's share of 100 000 episodes is within five standard errors of its probability."""
+    """Each content's share of 100 000 episodes is what its probability makes likely."""
     count = 100_000
     drawn = sealed_box.draw_contents(np.full(count, seed), np.arange(count))
     kinds = [content.kind for content in sealed_box.ALL_CONTENTS]
     expected = np.array([1 / 4 / kinds.count(kind) for kind in kinds])
     assert [kinds.count(kind) for kind in range(4)] == [6, 12, 12, 12]
-    shares = np.bincount(drawn, minlength=len(ALL)) / count
-    assert (np.abs(shares - expected) <= 5 * np.sqrt(expected * (1 - expected) / count)).all()
+    chance.assert_drawn(np.bincount(drawn, minlength=len(ALL)), expected)
     assert suite.load_task("sealed_box", "features").answers(ALL).tolist() == kinds
 
 

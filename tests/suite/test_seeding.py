@@ -5,14 +5,13 @@ import os
 import subprocess
 import sys
 
+from chance import P_VALUE
 import numpy as np
 import pytest
 from scipy import stats
 
 from physexp import suite
 from physexp.suite.engine import seeding
-
-P_VALUE = 1e-6  # A right generator fails one comparison in a million.
 
 FEATURE_TASKS = suite.tagged("features")
 every_feature_task = pytest.mark.parametrize("domain_name, task_name", FEATURE_TASKS)

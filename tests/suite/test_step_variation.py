@@ -1,5 +1,6 @@
 """Control steps that differ among episodes: drawn from a range, and the same in all steps of an episode."""
 
+from chance import P_VALUE
 import numpy as np
 import pytest
 from scipy import stats
@@ -8,7 +9,6 @@ from physexp import suite
 from physexp.analysis import domains, replay
 from physexp.suite.engine import seeding
 
-P_VALUE = 1e-6  # A right distribution fails one comparison in a million.
 TOWER = ("towers", "fist_features")
 
 

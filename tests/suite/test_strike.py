@@ -1,5 +1,6 @@
 """Strike: one strike alone takes the puck into the goal, and pokes show the last gate and nothing else."""
 
+import chance
 import mujoco
 import numpy as np
 import pytest
@@ -116,12 +117,11 @@ def test_observations_tell_nothing_but_the_poke_and_the_gate(seed, domain_name, 
 
 
 def test_strikes_are_equally_likely_and_so_are_the_pucks(seed):
-    """Each puck's share of 100 000 episodes is within five standard errors of its probability."""
+    """Each puck's share of 100 000 episodes is what its probability makes likely."""
     count = 100_000
     drawn = strike.draw_pucks(np.full(count, seed), np.arange(count))
-    expected = 1 / len(ALL)
-    shares = np.bincount(drawn, minlength=len(ALL)) / count
-    assert (np.abs(shares - expected) <= 5 * np.sqrt(expected * (1 - expected) / count)).all()
+    expected = np.full(len(ALL), 1 / len(ALL))
+    chance.assert_drawn(np.bincount(drawn, minlength=len(ALL)), expected)
     answers = suite.load_task("strike", "features").answers(ALL)
     assert np.bincount(answers).tolist() == [len(ALL) // 7] * 7
 

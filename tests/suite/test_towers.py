@@ -3,6 +3,7 @@
 import functools
 import itertools
 
+from chance import P_VALUE
 from episodes import EVERY_PATTERN, SEED, batch_of, episode_with
 import numpy as np
 import pytest
@@ -11,8 +12,6 @@ from scipy import stats
 from physexp import suite
 from physexp.suite.domains import towers
 from physexp.suite.parts import tower
-
-P_VALUE = 1e-6  # A right distribution fails one comparison in a million.
 
 EDGE = 0.1  # m, of a cube
 FIST_RADIUS = 0.1  # m

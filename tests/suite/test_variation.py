@@ -3,6 +3,7 @@
 import copy
 import itertools
 
+from chance import P_VALUE
 from every_task import VARYING, load_batch
 import mujoco
 import numpy as np
@@ -14,7 +15,6 @@ from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import seeding
 from physexp.suite.parts import tower
 
-P_VALUE = 1e-6  # A right generator fails one test in a million.
 every_varying_task = pytest.mark.parametrize("name", VARYING)
 TOWERS = ["direct_features", "fist_features"]
 

@@ -2,6 +2,7 @@
 
 import copy
 
+from chance import P_VALUE
 import mujoco
 import numpy as np
 import pytest
@@ -9,8 +10,6 @@ from scipy import stats
 
 from physexp import suite
 from physexp.suite.domains import which_is_heavier as heavier
-
-P_VALUE = 1e-6  # A right distribution fails one comparison in a million.
 
 # The physics step and the numbers of the scene, as the module documents them.
 TIMESTEP, SUBSTEPS, FORCE, STIFFNESS, DAMPING = 0.025, 4, 20.0, 6.25, 5.0

@@ -2,6 +2,7 @@
 
 import math
 
+from chance import P_VALUE
 import numpy as np
 import pytest
 from scipy import stats
@@ -9,7 +10,6 @@ from seeds import fresh_seed
 
 from physexp.analysis.data import estimates
 
-RARE = 1e-7  # The probability with which a test of right estimates may fail, at either end.
 _NORMAL_975 = stats.norm.ppf(0.975)
 
 
@@ -20,7 +20,7 @@ def generator():
 def assert_covers(estimates, truth, level=0.95, slack=0.0):
     """The share of intervals that hold the truth is the level, to what chance and a slack may change."""
     held = np.mean([estimate.low <= truth <= estimate.high for estimate in estimates])
-    least, most = stats.binom.ppf([RARE, 1 - RARE], len(estimates), level) / len(estimates)
+    least, most = stats.binom.ppf([P_VALUE, 1 - P_VALUE], len(estimates), level) / len(estimates)
     assert least - slack <= held <= most + slack, f"{held:.3f} of {len(estimates)}, wanted {level:.3f}"
 
 
@@ -50,7 +50,7 @@ def test_intervals_of_proportions_hold_the_truth_on_average_over_truths():
     held = (ends[:, :1] <= truths) & (truths <= ends[:, 1:])
     expected = (stats.binom.pmf(counts[:, None], 40, truths) * held).sum(axis=0).mean()
     assert abs(expected - 0.95) < 0.005
-    assert stats.binomtest(int(np.sum(shares)), len(shares), expected).pvalue > RARE
+    assert stats.binomtest(int(np.sum(shares)), len(shares), expected).pvalue > P_VALUE
 
 
 def test_the_interval_of_a_mean_is_students():
@@ -396,7 +396,7 @@ def test_intervals_of_correlations_cover_them_where_few_pairs_weigh_much():
         x, noise = source.normal(size=(2, 2000))
         estimate = estimates.correlation(x, x * noise)
         covered.append(estimate.low < 0 < estimate.high)
-    assert np.sum(covered) >= stats.binom.ppf(RARE, len(covered), 0.95)
+    assert np.sum(covered) >= stats.binom.ppf(P_VALUE, len(covered), 0.95)
 
 
 def test_a_median_of_too_few_or_of_something_unknown_tells_nothing():

@@ -3,6 +3,7 @@
 import dataclasses
 import math
 
+from chance import P_VALUE
 import evaluation_figures
 import numpy as np
 import pytest
@@ -72,7 +73,7 @@ def test_randomized_interaction_passes_labels_and_draws_every_poke_anew():
     for wanted in range(4):  # Uniform over 0 to 3, given any poke that was wanted.
         counts = np.bincount(replaced[actions == wanted], minlength=4)
         assert len(counts) == 4
-        assert stats.chisquare(counts).pvalue > 1e-6
+        assert stats.chisquare(counts).pvalue > P_VALUE
 
 
 def test_evaluation_repeats_with_its_seed_and_differs_with_another(untrained):

@@ -3,6 +3,7 @@
 import math
 import types
 
+from chance import P_VALUE
 import numpy as np
 import pytest
 from scipy import integrate, stats
@@ -76,7 +77,7 @@ def test_the_posterior_is_what_is_found_among_many_drawn_masses(difficulty):
             rows = (likely[:, block] > low) & (likely[:, block] <= high)
             if rows.sum() > 200:
                 found = stats.binomtest(int(truth[rows, block].sum()), rows.sum(), likely[rows, block].mean())
-                assert found.pvalue > 1e-6 / 48  # So many there are of three difficulties, at most.
+                assert found.pvalue > P_VALUE
 
 
 def test_the_value_for_two_uniform_blocks_is_the_integral_done_by_hand():
