@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 import dataclasses
 import math
+import numbers
 from typing import Any, ClassVar, Literal, Self, get_args
 
 Device = Literal["auto", "cpu", "cuda"]
@@ -78,6 +79,8 @@ class AgentConfig:
         return 1
 
     def __post_init__(self):
+        for field in dataclasses.fields(self):
+            object.__setattr__(self, field.name, as_python(getattr(self, field.name)))
         for name, (least, most) in self._WHOLE.items():
             value = getattr(self, name)
             if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
@@ -164,6 +167,13 @@ class ActorCriticConfig(AgentConfig):
         super().__post_init__()
         if not isinstance(self.action_prior, tuple) or not all(map(is_number, self.action_prior)):
             raise ValueError(f"action_prior is {self.action_prior!r}; give finite numbers, one for each action")
+
+
+def as_python(value: Any) -> Any:
+    """Returns a number of another kind, such as NumPy's, as Python's own, which JSON can hold; all else as it is."""
+    if not isinstance(value, numbers.Real) or isinstance(value, (int, float)):
+        return value
+    return int(value) if isinstance(value, numbers.Integral) else float(value)
 
 
 def is_number(value) -> bool:

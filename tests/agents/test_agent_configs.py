@@ -1,8 +1,11 @@
 """A configuration that makes no sense is refused, with the value and what is allowed."""
 
+import dataclasses
+import json
 import math
 import re
 
+import numpy as np
 import pytest
 
 from physexp.agents.a3c import config as a3c
@@ -66,6 +69,14 @@ BAD_FOR = [
 def test_a_bad_value_is_refused_by_name_with_what_is_allowed(config, name, value):
     with pytest.raises(ValueError, match=rf"^{name} is {re.escape(repr(value))}; give a(n| finite)? ?(integer|number)"):
         config(**{name: value})
+
+
+def test_numbers_of_numpy_are_taken_and_become_pythons_own():
+    config = a3c.A3CConfig(frames=np.int64(500), discount=np.float32(0.5), trace=np.float64(0.25))
+    assert config == a3c.A3CConfig(frames=500, discount=0.5, trace=0.25)
+    assert json.loads(json.dumps(dataclasses.asdict(config)))["frames"] == 500
+    with pytest.raises(ValueError, match="frames is 0; give an integer >= 1"):
+        a3c.A3CConfig(frames=np.int32(0))
 
 
 def test_more_parts_than_episodes_are_refused():

@@ -124,6 +124,6 @@ def check_discount(discount) -> float:
     Raises:
       ValueError: if it is no number in (0, 1].
     """
-    if not (isinstance(discount, (int, float)) and 0 < discount <= 1):
+    if isinstance(discount, bool) or not isinstance(discount, (int, float, np.number)) or not 0 < discount <= 1:
         raise ValueError(f"discount is {checks.shown(discount)}; give a number in (0, 1]")
     return float(discount)

@@ -56,14 +56,16 @@ class TrainConfig:
     agent: agent_config.AgentConfig
 
     def __post_init__(self):
+        object.__setattr__(self, "replay_every", agent_config.as_python(self.replay_every))
         if not isinstance(self.replay_every, int) or isinstance(self.replay_every, bool) or self.replay_every < 0:
             raise ValueError(f"replay_every is {self.replay_every!r}; give an integer >= 0")
         if not isinstance(self.task_kwargs, Mapping):
             raise ValueError(f"task_kwargs is {self.task_kwargs!r}; give a dictionary")
-        for name, value in self.task_kwargs.items():
+        task_kwargs = {name: agent_config.as_python(value) for name, value in self.task_kwargs.items()}
+        for name, value in task_kwargs.items():
             if not isinstance(name, str) or not isinstance(value, (int, float, str)):
                 raise ValueError(f"task_kwargs has {name!r}: {value!r}; give numbers, texts or flags by name")
-        object.__setattr__(self, "task_kwargs", dict(self.task_kwargs))  # One's own: nobody else changes it.
+        object.__setattr__(self, "task_kwargs", task_kwargs)  # One's own: nobody else changes it.
 
     @property
     def task_name(self) -> str:

@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 from physexp import suite
@@ -19,7 +20,14 @@ def make_config(**changes):
     return config_lib.TrainConfig(**{**fields, **changes})
 
 
-@pytest.mark.parametrize("changes", [{}, {"task_kwargs": {"control_timestep": 0.05, "blocks": 3, "colour": "red"}}])
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"task_kwargs": {"control_timestep": 0.05, "blocks": 3, "colour": "red"}},
+        {"task_kwargs": {"difficulty": np.float32(3.5), "blocks": np.int64(3)}, "replay_every": np.int64(5)},
+    ],
+)
 def test_a_configuration_survives_json(changes):
     config = make_config(**changes)
     assert config_lib.TrainConfig.from_json(json.loads(json.dumps(config.to_json()))) == config
