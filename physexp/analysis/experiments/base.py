@@ -66,7 +66,7 @@ class Results:
 
     def lacks(self, what: str) -> ValueError:
         """Returns the error of an experiment of whose data, as `episodes`, there are none yet."""
-        return ValueError(f"{self.path} holds no {what} of this experiment; `physexp reproduce` and its name make them")
+        return ValueError(f"{self.path} holds no {what} of this experiment; `physexp reproduce EXPERIMENT` makes them")
 
     def all_episodes(self, config: config_lib.TrainConfig) -> list[Path]:
         """The files of all that a run's agent played, of whichever trial."""
