@@ -128,14 +128,13 @@ def _default(domain: str, task: str, folder: Path) -> str | None:
 
 def card_named(stem: str, folder: Path = FOLDER) -> dict[str, Any]:
     """Reads the card of the agent whose files have this name, not its network; raises as `load`."""
-    path = _path(stem, folder)
-    with _explained(path):
-        return _checked(files.read_json(path), path.stem)
+    return _read_card(_path(stem, folder))
 
 
 def load_named(stem: str, folder: Path = FOLDER) -> Pretrained:
     """Loads the trained agent whose files have this name; raises as `load`."""
-    path, card = _path(stem, folder), card_named(stem, folder)
+    path = _path(stem, folder)
+    card = _read_card(path)
     with _explained(path), torch.device("meta"):  # Nothing is made that its weights do not fit.
         like = _network(card["network"]).state_dict()
     try:
@@ -167,12 +166,14 @@ def _explained(path: Path):
         raise ValueError(f"{path} is not what was written: {what}; publish the agent again") from None
 
 
-def _checked(card: dict[str, Any], stem: str) -> dict[str, Any]:
-    """Returns a card; refuses one that was changed since it was written, or belongs to another agent."""
-    if card["card_sha256"] != checkpointing.json_digest({**card, "card_sha256": None}):
-        raise ValueError("its checksum differs")
-    if (found := name(card["domain"], card["task"], card["task_kwargs"])) != stem:
-        raise ValueError(f"it is of {found}")
+def _read_card(path: Path) -> dict[str, Any]:
+    """Reads a card; refuses one that was changed since it was written, or belongs to another agent."""
+    card = files.read_json(path)
+    with _explained(path):
+        if card["card_sha256"] != checkpointing.json_digest({**card, "card_sha256": None}):
+            raise ValueError("its checksum differs")
+        if (found := name(card["domain"], card["task"], card["task_kwargs"])) != path.stem:
+            raise ValueError(f"it is of {found}")
     return card
 
 

@@ -105,10 +105,14 @@ def test_what_was_encoded_to_act_is_what_there_is_to_learn_from(task, monkeypatc
         torch.autograd.grad((anew * weights).sum(), parameters),
         strict=True,
     ):
-        # A unit of the convolutions that is at zero may be on in one sum and off in the other, which are rounded in
-        # other orders: one of some ten thousand, that is 1 % of what their squares have together.
-        apart = torch.linalg.vector_norm(ours - theirs) / torch.linalg.vector_norm(theirs)
-        assert apart < {"features": 1e-4, "pixels": 0.05}[task]
+        if task == "features":
+            # A sum of many numbers is rounded as they are, however small it is.
+            torch.testing.assert_close(ours, theirs, rtol=1e-3, atol=1e-4 * theirs.abs().max().item())
+        else:
+            # A unit of the convolutions that is at zero may be on in one sum and off in the other, which are rounded in
+            # other orders: one of some ten thousand, that is 1 % of what their squares have together.
+            apart = torch.linalg.vector_norm(ours - theirs) / torch.linalg.vector_norm(theirs)
+            assert apart < 0.05
 
 
 def test_packing_lays_out_all_first_steps_then_all_second_steps_in_the_given_order():

@@ -9,7 +9,7 @@ from physexp.analysis import domains
 from physexp.analysis.ideal import bounds, rollouts
 from physexp.suite.domains import which_is_heavier
 
-_DISCOUNT, _NUM_ACTORS, _NUM_ROUNDS = 0.95, 64, 10
+_DISCOUNT, _NUM_ACTORS, _NUM_ROUNDS = 0.95, 64, 20
 NOISE = 0.03  # m; a poke shows the lightest and the heaviest block 0.16 m apart.
 
 
@@ -89,8 +89,8 @@ def test_it_touches_again_where_a_gap_is_small(played):
     is_again = np.array([touches_again(actions) for _, actions, *_ in played])
     again, once = gaps[is_again], gaps[~is_again]
     error = np.hypot(again.std() / len(again) ** 0.5, once.std() / len(once) ** 0.5)
-    # The difference is about eight standard errors: it is below three as rarely as it would exceed five if it were 0.
-    assert once.mean() - again.mean() > 3 * error
+    # In 640 episodes the difference is about eight standard errors, so in twice as many it is eleven.
+    assert once.mean() - again.mean() > 5 * error
 
 
 def test_it_earns_more_than_who_takes_readings_for_exact(played):
