@@ -390,7 +390,7 @@ def test_what_cannot_be_done_is_refused_in_one_line(run, arguments, words):
         ),
         (
             ["train", "towers", "fist_features", "--discount", "2"],
-            "discount is 2.0; give a number in (0, 1]; see physexp train --help",
+            "discount is 2.0; give a number from 0 to 1 but not 0; see physexp train --help",
         ),
         (
             ["train", "towers", "fist_features", "--num-workers", "0"],

@@ -1,14 +1,45 @@
 """The hyperparameters that all agents share. Imports nothing heavy, since the command line is made from it."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 import dataclasses
-import math
-import numbers
+import functools
 from typing import Any, ClassVar, Literal, Self, get_args
 
+from physexp import checks
+
 Device = Literal["auto", "cpu", "cuda"]
-LARGEST = 2**63 - 1
-"""The largest integer that a checkpoint can hold."""
+Check = Callable[[str, Any], Any]
+"""Takes an option's name and value; returns the value as Python's own, or raises ValueError."""
+
+POSITIVE: Check = functools.partial(checks.number, minimum=0, strictly=True)
+NOT_NEGATIVE: Check = functools.partial(checks.number, minimum=0)
+SHARE: Check = functools.partial(checks.between, minimum=0, maximum=1)
+BELOW_ONE: Check = functools.partial(checks.between, minimum=0, maximum=1, without=1)
+
+_LARGEST = 2**63 - 1  # The largest integer that a checkpoint can hold.
+
+
+def at_least(minimum: int, maximum: int = _LARGEST) -> Check:
+    """Returns a check for integers."""
+    return functools.partial(checks.integer, minimum=minimum, maximum=maximum)
+
+
+def one_of(choices: Sequence[str]) -> Check:
+    """Returns a check for words."""
+
+    def check(name: str, value) -> str:
+        if value in choices:
+            return value
+        raise ValueError(f"{name} is {checks.shown(value)}; choose from {', '.join(choices)}")
+
+    return check
+
+
+def logits(name: str, value) -> tuple[float, ...]:
+    """Checks finite numbers, one for each action."""
+    if isinstance(value, tuple) and all(map(checks.is_number, value)):
+        return tuple(map(float, value))
+    raise ValueError(f"{name} is {checks.shown(value)}; give finite numbers, one for each action")
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -31,6 +62,16 @@ class AgentConfig:
     """Names of what the learner measures in each update, and what they mean where the name does not say it."""
     can_run_on_cluster: ClassVar[bool] = False
     """Whether its workers may be spread over machines."""
+    allowed: ClassVar[Mapping[str, Check]] = {
+        "discount": checks.discount,
+        "frames": at_least(1),
+        "seed": at_least(0),
+        "learning_rate": POSITIVE,
+        "max_gradient_norm": POSITIVE,
+        "device": one_of(get_args(Device)),
+        "checkpoint_seconds": POSITIVE,
+    }
+    """What each hyperparameter may be."""
 
     discount: float = 0.95
     frames: int = 8_000_000
@@ -39,17 +80,6 @@ class AgentConfig:
     max_gradient_norm: float = 1.0
     device: Device = "auto"
     checkpoint_seconds: float = 60.0
-
-    _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {  # With what they are at least and at most.
-        "frames": (1, LARGEST),
-        "seed": (0, LARGEST),
-    }
-    _POSITIVE: ClassVar[tuple[str, ...]] = ("learning_rate", "max_gradient_norm", "checkpoint_seconds")
-    _NOT_NEGATIVE: ClassVar[tuple[str, ...]] = ()
-    _SHARES: ClassVar[tuple[str, ...]] = ()  # From 0 to 1.
-    _BELOW_ONE: ClassVar[tuple[str, ...]] = ()  # From 0 to less than 1.
-    _FLAGS: ClassVar[tuple[str, ...]] = ()
-    _CHOICES: ClassVar[Mapping[str, tuple[str, ...]]] = {"device": get_args(Device)}
 
     def replace(self, **changes) -> Self:
         """Returns a copy with some values changed."""
@@ -79,28 +109,8 @@ class AgentConfig:
         return 1
 
     def __post_init__(self):
-        for field in dataclasses.fields(self):
-            object.__setattr__(self, field.name, as_python(getattr(self, field.name)))
-        for name, (least, most) in self._WHOLE.items():
-            value = getattr(self, name)
-            if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
-                raise ValueError(f"{name} is {value!r}; give an integer >= {least} and <= {most}")
-        for name in (*self._POSITIVE, *self._NOT_NEGATIVE):
-            value, positive = getattr(self, name), name in self._POSITIVE
-            if not is_number(value) or value < 0 or (positive and value == 0):
-                raise ValueError(f"{name} is {value!r}; give a finite number {'> 0' if positive else '>= 0'}")
-        for name in (*self._SHARES, *self._BELOW_ONE):
-            value, below = getattr(self, name), name in self._BELOW_ONE
-            if not is_number(value) or not 0 <= value <= 1 or (below and value == 1):
-                raise ValueError(f"{name} is {value!r}; give a number in [0, 1{')' if below else ']'}")
-        for name in self._FLAGS:
-            if not isinstance(getattr(self, name), bool):
-                raise ValueError(f"{name} is {getattr(self, name)!r}; give True or False")
-        for name, choices in self._CHOICES.items():
-            if getattr(self, name) not in choices:
-                raise ValueError(f"{name} is {getattr(self, name)!r}; choose from {', '.join(choices)}")
-        if not is_number(self.discount) or not 0 < self.discount <= 1:
-            raise ValueError(f"discount is {self.discount!r}; give a number in (0, 1]")
+        for name, check in self.allowed.items():
+            object.__setattr__(self, name, check(name, getattr(self, name)))
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -128,6 +138,18 @@ class ActorCriticConfig(AgentConfig):
         **AgentConfig.metrics,
         "entropy_cost": "",
     }
+    allowed: ClassVar[Mapping[str, Check]] = {
+        **AgentConfig.allowed,
+        "entropy_cost": NOT_NEGATIVE,
+        "final_entropy_cost": NOT_NEGATIVE,
+        "relative_entropy": checks.flag,
+        "trace": SHARE,
+        "baseline_cost": NOT_NEGATIVE,
+        "lstm_units": at_least(1, 65_536),
+        "observation_scale": POSITIVE,
+        "action_prior": logits,
+        "relative_pixels": checks.flag,
+    }
 
     entropy_cost: float = 0.15
     final_entropy_cost: float = 0.0001
@@ -138,12 +160,6 @@ class ActorCriticConfig(AgentConfig):
     observation_scale: float = 40.0
     action_prior: tuple[float, ...] = ()
     relative_pixels: bool = True
-
-    _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {**AgentConfig._WHOLE, "lstm_units": (1, 65_536)}
-    _POSITIVE: ClassVar[tuple[str, ...]] = (*AgentConfig._POSITIVE, "observation_scale")
-    _NOT_NEGATIVE: ClassVar[tuple[str, ...]] = ("entropy_cost", "final_entropy_cost", "baseline_cost")
-    _SHARES: ClassVar[tuple[str, ...]] = ("trace",)
-    _FLAGS: ClassVar[tuple[str, ...]] = ("relative_entropy", "relative_pixels")
 
     @property
     def advice(self):
@@ -162,23 +178,6 @@ class ActorCriticConfig(AgentConfig):
         else:
             entropy_cost = self.entropy_cost * (1 - progress)
         return self.learning_rate_at(frames), entropy_cost
-
-    def __post_init__(self):
-        super().__post_init__()
-        if not isinstance(self.action_prior, tuple) or not all(map(is_number, self.action_prior)):
-            raise ValueError(f"action_prior is {self.action_prior!r}; give finite numbers, one for each action")
-
-
-def as_python(value: Any) -> Any:
-    """Returns a number of another kind, such as NumPy's, as Python's own, which JSON can hold; all else as it is."""
-    if not isinstance(value, numbers.Real) or isinstance(value, (int, float)):
-        return value
-    return int(value) if isinstance(value, numbers.Integral) else float(value)
-
-
-def is_number(value) -> bool:
-    """Returns whether a value is a finite number."""
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def shown(value: Any) -> str:

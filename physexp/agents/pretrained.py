@@ -13,6 +13,7 @@ from dm_env import specs
 import numpy as np
 import torch
 
+from physexp import checks
 from physexp.agents import acting, checkpointing, config, files, networks, registry
 
 FOLDER = Path(__file__).with_name("pretrained_agents")
@@ -183,7 +184,7 @@ def _network(facts: dict[str, Any]) -> networks.RecurrentNetwork:
         key: specs.Array(tuple(shape), np.dtype(dtype), key) for key, (shape, dtype) in facts["observations"].items()
     }
     for key, value in facts["hyperparameters"].items():
-        if not config.is_number(value) and not isinstance(value, str):
+        if not checks.is_number(value) and not isinstance(value, str):
             raise ValueError(f"{key} is {value!r}")
     return _KINDS[facts["kind"]](observation_spec, facts["num_actions"], **facts["hyperparameters"])
 

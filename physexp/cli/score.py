@@ -89,7 +89,7 @@ class Score:
 
     def _made(self) -> dict:
         """Returns what was said of how the agent was made; raises ValueError for numbers that make no sense."""
-        from physexp.suite.engine import checks
+        from physexp import checks
 
         if self.frames is not None:
             checks.integer("frames", self.frames, 0, 2**63 - 1)

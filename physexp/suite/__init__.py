@@ -7,9 +7,9 @@ from physexp.suite.engine import gl
 
 gl.choose_backend()
 
+from physexp import checks
 from physexp.suite.domains import DOMAINS as _DOMAINS
 from physexp.suite.engine import batch as _batch
-from physexp.suite.engine import checks
 from physexp.suite.engine import environment as _environment
 from physexp.suite.engine.batch import BatchEnvironment
 from physexp.suite.engine.environment import Environment

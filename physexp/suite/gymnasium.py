@@ -13,9 +13,9 @@ from typing import Any
 
 import dm_env
 
-from physexp import extras, suite
+from physexp import checks, extras, suite
 from physexp.suite.engine import batch as batch_lib
-from physexp.suite.engine import checks, rendering, seeding
+from physexp.suite.engine import rendering, seeding
 
 extras.require("gymnasium")
 

@@ -71,11 +71,16 @@ def test_a_bad_value_is_refused_by_name_with_what_is_allowed(config, name, value
         config(**{name: value})
 
 
+@pytest.mark.parametrize("config", [a3c.A3CConfig, belief.BeliefConfig, ppo.PPOConfig])
+def test_every_hyperparameter_is_checked(config):
+    assert set(config.allowed) == {field.name for field in dataclasses.fields(config)}
+
+
 def test_numbers_of_numpy_are_taken_and_become_pythons_own():
     config = a3c.A3CConfig(frames=np.int64(500), discount=np.float32(0.5), trace=np.float64(0.25))
     assert config == a3c.A3CConfig(frames=500, discount=0.5, trace=0.25)
     assert json.loads(json.dumps(dataclasses.asdict(config)))["frames"] == 500
-    with pytest.raises(ValueError, match="frames is 0; give an integer >= 1"):
+    with pytest.raises(ValueError, match=r"frames is np.int32\(0\); give an integer >= 1"):
         a3c.A3CConfig(frames=np.int32(0))
 
 

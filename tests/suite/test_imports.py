@@ -48,7 +48,7 @@ def test_importing_the_suite_imports_neither_torch_nor_what_learns_and_plots():
     found, _ = interpreters.run(f"{LOOK_AROUND}\nimport physexp.suite\nfound.update(look_around())")
     unwanted = {"torch", "matplotlib", "pandas", "pyarrow", "rerun", "gymnasium", "ray", "tensorboard", "tyro"}
     assert not unwanted & set(found["loaded"])
-    assert [name for name in found["physexp"] if not name.startswith("physexp.suite")] == ["physexp"]
+    assert [name for name in found["physexp"] if not name.startswith("physexp.suite")] == ["physexp", "physexp.checks"]
 
 
 def test_importing_physexp_imports_nothing_heavy():

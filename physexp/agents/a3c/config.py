@@ -23,17 +23,16 @@ class A3CConfig(config.ActorCriticConfig):
         "staleness": "updates of others between taking the parameters and applying the gradient",
     }
     can_run_on_cluster: ClassVar[bool] = True
+    allowed: ClassVar[Mapping[str, config.Check]] = {
+        **config.ActorCriticConfig.allowed,
+        "num_workers": config.at_least(1, 10_000),
+        "envs_per_worker": config.at_least(1, 65_536),
+        "max_staleness": config.at_least(0),
+    }
 
     num_workers: int = 2
     envs_per_worker: int = 256
     max_staleness: int = 100
-
-    _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {
-        **config.ActorCriticConfig._WHOLE,
-        "num_workers": (1, 10_000),
-        "envs_per_worker": (1, 65_536),
-        "max_staleness": (0, config.LARGEST),
-    }
 
     @property
     def title(self):

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 import dataclasses
 from typing import ClassVar, Literal, get_args
 
+from physexp import checks
 from physexp.agents import config
 
 Memory = Literal["attention", "lstm"]
@@ -46,6 +47,27 @@ class BeliefConfig(config.AgentConfig):
         "calibration_error": "of that belief, expected, in ten bins",
         **config.AgentConfig.metrics,
     }
+    allowed: ClassVar[Mapping[str, config.Check]] = {
+        **config.AgentConfig.allowed,
+        "answers_revealed": checks.flag,
+        "every_step": checks.flag,
+        "memory": config.one_of(get_args(Memory)),
+        "num_members": config.at_least(2, 1_024),
+        "units": config.at_least(1, 65_536),
+        "num_environments": config.at_least(2, 65_536),
+        "num_threads": config.at_least(1, 1_024),
+        "most_interactions": config.at_least(1, 10_000),
+        "greedy": config.SHARE,
+        "cut": config.SHARE,
+        "exploration": config.SHARE,
+        "trace": config.SHARE,
+        "frames_per_step": config.at_least(1),
+        "batch_size": config.at_least(1, 65_536),
+        "replay_episodes": config.at_least(1, 100_000_000),
+        "dropout": config.BELOW_ONE,
+        "weight_decay": config.NOT_NEGATIVE,
+        "averaging": config.BELOW_ONE,
+    }
 
     frames: int = 100_000
     learning_rate: float = 4e-3
@@ -67,26 +89,6 @@ class BeliefConfig(config.AgentConfig):
     dropout: float = 0.1
     weight_decay: float = 0.02
     averaging: float = 0.99
-
-    _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {
-        **config.AgentConfig._WHOLE,
-        "num_members": (2, 1_024),
-        "units": (1, 65_536),
-        "num_environments": (2, 65_536),
-        "num_threads": (1, 1_024),
-        "most_interactions": (1, 10_000),
-        "frames_per_step": (1, config.LARGEST),
-        "batch_size": (1, 65_536),
-        "replay_episodes": (1, 100_000_000),
-    }
-    _NOT_NEGATIVE: ClassVar[tuple[str, ...]] = ("weight_decay",)
-    _SHARES: ClassVar[tuple[str, ...]] = ("greedy", "cut", "exploration", "trace")
-    _BELOW_ONE: ClassVar[tuple[str, ...]] = ("dropout", "averaging")
-    _FLAGS: ClassVar[tuple[str, ...]] = ("answers_revealed", "every_step")
-    _CHOICES: ClassVar[Mapping[str, tuple[str, ...]]] = {
-        **config.AgentConfig._CHOICES,
-        "memory": get_args(Memory),
-    }
 
     @property
     def title(self):

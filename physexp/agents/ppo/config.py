@@ -20,21 +20,20 @@ class PPOConfig(config.ActorCriticConfig):
     """
 
     algorithm: ClassVar[str] = "ppo"
+    allowed: ClassVar[Mapping[str, config.Check]] = {
+        **config.ActorCriticConfig.allowed,
+        "num_environments": config.at_least(1, 65_536),
+        "num_threads": config.at_least(1, 1_024),
+        "num_epochs": config.at_least(1, 1_000),
+        "num_minibatches": config.at_least(1, 65_536),
+        "clip": config.POSITIVE,
+    }
 
     num_environments: int = 256
     num_threads: int = 2
     num_epochs: int = 4
     num_minibatches: int = 4
     clip: float = 0.2
-
-    _WHOLE: ClassVar[Mapping[str, tuple[int, int]]] = {
-        **config.ActorCriticConfig._WHOLE,
-        "num_environments": (1, 65_536),
-        "num_threads": (1, 1_024),
-        "num_epochs": (1, 1_000),
-        "num_minibatches": (1, 65_536),
-    }
-    _POSITIVE: ClassVar[tuple[str, ...]] = (*config.ActorCriticConfig._POSITIVE, "clip")
 
     def __post_init__(self):
         super().__post_init__()

@@ -36,10 +36,9 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks
     those of a usual episode. Nobody earns more than where there is neither, since the force of all pokes, once known,
     tells each mass exactly.
     """
-    from physexp import suite
+    from physexp import checks, suite
     from physexp.analysis.ideal import bounds, calibration, noisy, odd_one_out
     from physexp.suite.domains import which_is_heavier
-    from physexp.suite.engine import checks
 
     if not bounds.is_certain(task_kwargs):
         if blocks is not None:

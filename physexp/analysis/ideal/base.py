@@ -8,7 +8,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from physexp.agents import core
-from physexp.suite.engine import checks, rules
+from physexp.suite.engine import rules
 
 
 class Episode(Protocol):
@@ -116,14 +116,3 @@ _Numbers = TypeVar("_Numbers", float, np.ndarray)
 def worth_of_answers(beliefs: _Numbers) -> _Numbers:
     """Returns what answers are worth that are right with these probabilities, a number or an array of any shape."""
     return rules.WRONG + (rules.RIGHT - rules.WRONG) * beliefs
-
-
-def check_discount(discount) -> float:
-    """Returns `discount` as a float.
-
-    Raises:
-      ValueError: if it is no number in (0, 1].
-    """
-    if isinstance(discount, bool) or not isinstance(discount, (int, float, np.number)) or not 0 < discount <= 1:
-        raise ValueError(f"discount is {checks.shown(discount)}; give a number in (0, 1]")
-    return float(discount)

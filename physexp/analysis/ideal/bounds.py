@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from physexp import suite
+from physexp import checks, suite
 from physexp.agents import core
 from physexp.analysis.ideal import base, rollouts
 
@@ -46,7 +46,7 @@ class Solution:
 
         Args:
           domain, task, task_kwargs: what is played, as for `suite.load`.
-          discount: the agent's gamma, in (0, 1].
+          discount: the agent's gamma, above 0 and at most 1.
           make_actor: makes an actor that plays the policy.
           find_bounds: finds the values of ideal experimenters who are told all that episodes differ in, one for each of
             some episodes that are drawn at random; one alone where it is the same in all.
@@ -56,7 +56,7 @@ class Solution:
         """
         suite.load_task(domain, task, dict(task_kwargs))  # Refuses now what could not be played later.
         self._played = (domain, task, dict(task_kwargs))
-        self.discount = base.check_discount(discount)
+        self.discount = checks.discount("discount", discount)
         self._make_actor = make_actor
         self._find_bounds = find_bounds
 

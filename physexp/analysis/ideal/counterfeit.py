@@ -7,8 +7,8 @@ is less than a thing weighs, so that pans with unequal numbers tell nothing.
 
 import numpy as np
 
+from physexp import checks
 from physexp.analysis.ideal import resting
-from physexp.suite.engine import checks
 
 SIDES = (0, -1, 1)
 """Where things lie, that is aside, on the left pan or on the right one.

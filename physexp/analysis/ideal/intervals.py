@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from physexp import checks
 from physexp.analysis.ideal import resting
-from physexp.suite.engine import checks
 
 
 class Thresholds(resting.Apparatus):

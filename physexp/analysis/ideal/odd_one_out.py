@@ -15,9 +15,10 @@ import numpy as np
 from scipy import interpolate, special
 from scipy.stats import qmc
 
+from physexp import checks
 from physexp.agents import core
 from physexp.analysis.ideal import base
-from physexp.suite.engine import checks, priors, rules
+from physexp.suite.engine import priors, rules
 
 _LARGEST_NODES, _RATIO_NODES = 400, 33
 _QUADRATURE_NODES = 48  # Per half of each density; many more where there is only one state to integrate from.
@@ -252,7 +253,7 @@ def solve(
 
     Args:
       prior: of 2 to 20 things, with a difficulty in [1, 1e6].
-      discount: the agent's gamma, in (0, 1].
+      discount: the agent's gamma, above 0 and at most 1.
       step_limit, find_read: as in `Solution`.
 
     Raises:
@@ -262,7 +263,7 @@ def solve(
     if not (isinstance(difficulty, (int, float)) and 1 <= difficulty <= _EASIEST):
         raise ValueError(f"difficulty is {difficulty!r}; give a number in [1, {_EASIEST:g}] (the paper's beta)")
     checks.integer("num_things", prior.num_things, 2, MOST_THINGS)
-    return Solution(prior, base.check_discount(discount), step_limit, find_read)
+    return Solution(prior, checks.discount("discount", discount), step_limit, find_read)
 
 
 @functools.lru_cache(maxsize=64)

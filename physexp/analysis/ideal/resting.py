@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from physexp import suite
+from physexp import checks, suite
 from physexp.agents import core
 from physexp.analysis.ideal import base
-from physexp.suite.engine import checks, rules
+from physexp.suite.engine import rules
 
 _MOST_STEPS = 100_000
 _TIE = 1e-12  # Returns that differ by less are equal: the shorter way is taken.
@@ -290,13 +290,13 @@ def solve(apparatus: Apparatus, discount: float, step_limit: int) -> Solution:
 
     Args:
       apparatus: what is experimented with.
-      discount: the agent's gamma, in (0, 1].
+      discount: the agent's gamma, above 0 and at most 1.
       step_limit: steps in an unanswered episode, from 1 to 100 000.
 
     Raises:
       ValueError: for a value that makes no sense.
     """
-    discount = base.check_discount(discount)
+    discount = checks.discount("discount", discount)
     steps = checks.integer("step_limit", step_limit, 1, _MOST_STEPS)
     states = _States(apparatus)
     answers = apparatus.num_interactions + states.label
@@ -330,7 +330,7 @@ def of_task(
 
     Args:
       domain, task, task_kwargs: as for `suite.load`.
-      discount: the agent's gamma, in (0, 1].
+      discount: the agent's gamma, above 0 and at most 1.
       apparatus: returns what is experimented with, of the task's options.
       read: returns the reading of an observation of features.
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from physexp import suite
+from physexp import checks, suite
 from physexp.agents import core
 from physexp.analysis.ideal import base
 from physexp.suite.engine import rules
@@ -23,7 +23,7 @@ class Solution:
         Raises:
           ValueError: for a value that makes no sense.
         """
-        self.discount = base.check_discount(discount)
+        self.discount = checks.discount("discount", discount)
         self._task = suite.load_task(domain, task, dict(task_kwargs))
 
     def actor(self) -> core.Actor:

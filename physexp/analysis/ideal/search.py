@@ -12,11 +12,12 @@ from typing import Any
 
 import numpy as np
 
+from physexp import checks
 from physexp.agents import core
 from physexp.analysis.ideal import base, branch_and_bound, random_play
 from physexp.analysis.ideal import hypotheses as hypotheses_lib
 from physexp.analysis.ideal import situations as situations_lib
-from physexp.suite.engine import checks, rules
+from physexp.suite.engine import rules
 
 OBJECTIVES = ("return", "time")
 _MOST_SITUATIONS = 30_000  # Kept to judge others: about 600 MB for 40 hypotheses.
@@ -224,7 +225,7 @@ def solve(
       hypotheses: what may be hidden.
       resolution: by how much two observations must differ to be told apart: in the readings' unit for features, pixels
         for images. At 0 every bit counts, and the bound holds for every agent.
-      discount: the agent's gamma, in (0, 1].
+      discount: the agent's gamma, above 0 and at most 1.
       objective: `return`, the expected discounted return; or `time`, as few interactions as possible until the right
         label is known for certain.
       max_depth: longest sequences of actions looked at for the policy.
@@ -237,7 +238,7 @@ def solve(
     """
     if not (isinstance(resolution, (int, float)) and 0 <= resolution < math.inf):
         raise ValueError(f"resolution is {resolution!r}; give a finite number >= 0 (m, or pixels)")
-    base.check_discount(discount)
+    checks.discount("discount", discount)
     for name, limit in (("max_depth", max_depth), ("max_steps", max_steps)):
         if not isinstance(limit, int) or limit < 1:
             raise ValueError(f"{name} is {limit!r}; give an integer >= 1")

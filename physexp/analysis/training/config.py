@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import dataclasses
 from typing import Any
 
+from physexp import checks
 from physexp.agents import config as agent_config
 from physexp.agents.a3c import config as a3c
 from physexp.agents.belief import config as belief
@@ -56,15 +57,10 @@ class TrainConfig:
     agent: agent_config.AgentConfig
 
     def __post_init__(self):
-        object.__setattr__(self, "replay_every", agent_config.as_python(self.replay_every))
-        if not isinstance(self.replay_every, int) or isinstance(self.replay_every, bool) or self.replay_every < 0:
-            raise ValueError(f"replay_every is {self.replay_every!r}; give an integer >= 0")
+        object.__setattr__(self, "replay_every", checks.integer("replay_every", self.replay_every, 0, 2**63 - 1))
         if not isinstance(self.task_kwargs, Mapping):
             raise ValueError(f"task_kwargs is {self.task_kwargs!r}; give a dictionary")
-        task_kwargs = {name: agent_config.as_python(value) for name, value in self.task_kwargs.items()}
-        for name, value in task_kwargs.items():
-            if not isinstance(name, str) or not isinstance(value, (int, float, str)):
-                raise ValueError(f"task_kwargs has {name!r}: {value!r}; give numbers, texts or flags by name")
+        task_kwargs = {name: _as_python(name, value) for name, value in self.task_kwargs.items()}
         object.__setattr__(self, "task_kwargs", task_kwargs)  # One's own: nobody else changes it.
 
     @property
@@ -102,3 +98,14 @@ class TrainConfig:
         others = {name: value for name, value in fields.items() if name not in _OF_FORMAT_1}
         task_kwargs = {**chosen, **fields.get("task_kwargs", {})}
         return cls(**{**others, "task_kwargs": task_kwargs, "agent": algorithm(**agent)})
+
+
+def _as_python(name: str, value):
+    """Returns an option's value, which may be NumPy's, as JSON can hold it."""
+    if isinstance(name, str):
+        if isinstance(value, str):
+            return value
+        for kind, is_one in {bool: checks.is_flag, int: checks.is_integer, float: checks.is_float}.items():
+            if is_one(value):
+                return kind(value)
+    raise ValueError(f"task_kwargs has {name!r}: {value!r}; give numbers, texts or flags by name")

@@ -10,7 +10,7 @@ import numpy as np
 import pyarrow
 import torch
 
-from physexp import suite
+from physexp import checks, suite
 from physexp.agents import checkpointing, core, files, learning
 from physexp.analysis import callbacks
 from physexp.analysis.data import episodes as episodes_lib
@@ -132,9 +132,9 @@ class Recorder:
             raise ValueError(
                 f"the checkpoint is of {task}, the run of {self._config.task_name}; put back the run's own"
             )
-        if not isinstance(episodes, int) or isinstance(episodes, bool) or not 0 <= episodes < 2**63:
+        if not checks.is_integer(episodes) or not 0 <= episodes < 2**63:
             raise ValueError("the checkpoint's `episodes` is no count; put back the run's own")
-        if not isinstance(seconds, (int, float)) or isinstance(seconds, bool) or not 0 <= seconds < 2**63:
+        if not checks.is_number(seconds) or not 0 <= seconds < 2**63:
             raise ValueError("the checkpoint's `seconds` is no duration; put back the run's own")
 
     def _write_checkpoint_when_complete(self) -> None:

@@ -5,8 +5,9 @@ import dataclasses
 from dm_control.utils import containers
 import numpy as np
 
+from physexp import checks
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import checks, declarations, rendering, seeding, senses, task
+from physexp.suite.engine import declarations, rendering, seeding, senses, task
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, block, flag, material
 

@@ -7,8 +7,9 @@ import math
 from dm_control.utils import containers
 import numpy as np
 
+from physexp import checks
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import checks, declarations, seeding, senses, task
+from physexp.suite.engine import declarations, seeding, senses, task
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import actuators, arena, block, fist, material, tower
 

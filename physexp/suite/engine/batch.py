@@ -9,7 +9,8 @@ import mujoco
 from mujoco.batch import Batch
 import numpy as np
 
-from physexp.suite.engine import checks, episodes, guard, rendering, seeding
+from physexp import checks
+from physexp.suite.engine import episodes, guard, rendering, seeding
 from physexp.suite.engine import task as task_lib
 
 _LOG = logging.getLogger(__name__)

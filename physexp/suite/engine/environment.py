@@ -9,7 +9,8 @@ import dm_env
 from dm_env import specs
 import numpy as np
 
-from physexp.suite.engine import checks, guard, rendering
+from physexp import checks
+from physexp.suite.engine import guard, rendering
 
 
 class Environment(composer.Environment):

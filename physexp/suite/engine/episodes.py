@@ -4,7 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from physexp.suite.engine import checks, seeding
+from physexp import checks
+from physexp.suite.engine import seeding
 
 
 class Ledger:

@@ -6,7 +6,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from physexp.suite.engine import checks, seeding
+from physexp import checks
+from physexp.suite.engine import seeding
 
 _ROUNDING = 1e-6  # A control step is as good as a multiple that it differs from by less: float32 keeps 7 digits.
 _LONGEST = {"control_timestep": 60.0, "time_limit": 1e6}  # s; a control step is simulated in one go.

@@ -8,7 +8,7 @@ import dataclasses
 
 import numpy as np
 
-from physexp.suite.engine import checks
+from physexp import checks
 
 RIGHT, WRONG = 1.0, -1.0
 

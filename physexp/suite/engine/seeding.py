@@ -7,7 +7,7 @@ rebuilt without playing those before it, and a batch draws all its resets in one
 import numpy as np
 from scipy import special
 
-from physexp.suite.engine import checks
+from physexp import checks
 
 LARGEST_SEED = 2**63 - 1
 LAST_EPISODE = 2**62 - 1  # Far enough from the largest int64 that counting on never overflows.

@@ -12,8 +12,9 @@ from dm_control.composer.observation import observable
 from dm_env import specs
 import numpy as np
 
+from physexp import checks
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import checks, declarations, episodes, rules, seeding
+from physexp.suite.engine import declarations, episodes, rules, seeding
 from physexp.suite.engine import options as options_lib
 from physexp.suite.engine import senses as senses_lib
 
