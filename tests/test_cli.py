@@ -463,7 +463,9 @@ def test_an_argument_that_is_empty_is_refused(run):
 
 def test_what_is_in_the_folder_of_a_run_is_not_taken_for_an_agent(run, untrained):
     file = untrained.path / "config.json"
-    assert_refused(run("evaluate", file), f"{file} is a file; give the folder of a run")
+    assert_refused(
+        run("evaluate", file), f"{file} is a file; give the folder of a run, or the card of a published agent"
+    )
 
 
 def test_a_second_trainer_in_the_same_folder_is_refused(run, untrained):

@@ -46,6 +46,16 @@ def test_the_python_of_a_page_runs_and_prints_what_the_page_shows(page, block, m
     assert printed == block.shown or not block.shown
 
 
+@pytest.mark.parametrize(("domain", "task"), suite.ALL_TASKS)
+def test_the_page_of_the_interface_says_what_each_feature_says(domain, task):
+    rows = (DOCS / "interface.md").read_text().splitlines()
+    played = suite.load_task(domain, task)
+    assert set(played.observation_meanings) == set(played.observation_spec())
+    for name, meaning in played.observation_meanings.items():
+        assert meaning
+        assert name not in played.readings or f"| `{domain}` | `{name}` | {meaning} |" in rows
+
+
 def commented(tree):
     """Names and docstrings of properties, and of attributes of modules and classes."""
     for node in ast.walk(tree):

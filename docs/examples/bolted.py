@@ -53,7 +53,7 @@ class WhichIsBolted(task.QuestionTask):
 
     @property
     def readings(self):
-        return {"heights": declarations.Reading(self._heights, (NUM_BLOCKS,))}
+        return {"heights": declarations.Reading(self._heights, (NUM_BLOCKS,), "how far each block is above its rest")}
 
     @property
     def label_names(self):

@@ -12,12 +12,15 @@ import subprocess
 def make(question):
     """Returns a policy that tells the program all that has happened, before each action anew."""
     program = shlex.split(os.environ["EXPERIMENTER"])
+    meanings = "\n".join(f"{name}: {meaning}" for name, meaning in question.observation_meanings.items())
     actions = "\n".join(f"{number}: {name}" for number, name in enumerate(question.action_names))
     task = f"""You experiment to answer a question: {question.question}
 The right answer earns 1, a wrong one -1, and so does none within {question.step_limit} actions.
 Every action before the answer makes what you earn {question.discount} times as much.
 These are the actions:
 {actions}
+This is what you see:
+{meanings}
 This is what has happened:"""
 
     def policy(observation, story):

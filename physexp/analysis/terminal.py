@@ -32,7 +32,8 @@ def legend(observation: Collection[str], readings: Readings) -> str:
         sentences.append(_legend_of_places(places))
     for reading in seen:
         if not reading.is_position:
-            sentences.append(f"You see {readings_lib.spoken(reading.name)}{_values_in_words(reading)}.")
+            unit = f", in {_shown_unit(reading.unit)}" if reading.unit else ""
+            sentences.append(f"You see {readings_lib.spoken(reading.name)}: {readings[reading.name].meaning}{unit}.")
     return "\n".join(sentences)
 
 
@@ -54,13 +55,9 @@ def drawing(observation: Mapping[str, np.ndarray], readings: Readings, columns: 
     return "\n".join([*parts, *rows])
 
 
-def _values_in_words(reading: readings_lib.Shown) -> str:
-    """Returns of what a reading has values, and in which unit, in words."""
-    of_things = f" of {', '.join(reading.names)}" if len(reading.names) > 1 else ""
-    if not reading.unit:
-        low_to_high = "" if reading.limits is None else f", from {reading.limits.min():g} to {reading.limits.max():g}"
-        return f"{of_things}{low_to_high}"
-    return f"{of_things}, in {'cm' if reading.unit == 'm' else reading.unit}"
+def _shown_unit(unit: str) -> str:
+    """Returns the unit in which values are shown."""
+    return "cm" if unit == "m" else unit
 
 
 def _legend_of_places(places: Sequence[readings_lib.Shown]) -> str:

@@ -1,15 +1,14 @@
 """The command that prints what an ideal experimenter achieves."""
 
 import dataclasses
-from typing import Annotated, ClassVar, Generic, Literal
+from typing import ClassVar, Generic
 
-import tyro
-from tyro.conf import OmitArgPrefixes, Positional
+from tyro.conf import OmitArgPrefixes
 
 from physexp.analysis import domains
 from physexp.cli import options as options_lib
 from physexp.cli import printing
-from physexp.cli.arguments import OptionalFloat, OptionalTask, Switch
+from physexp.cli.arguments import Domain, OptionalFloat, OptionalTask, Switch
 
 _IDEALS = {name: domain.ideal for name, domain in domains.DOMAINS.items() if domain.ideal is not None}
 
@@ -39,10 +38,7 @@ class Ideal(Generic[options_lib.Options]):
     domains_of: ClassVar = staticmethod(options_lib.of_domain)
     options_of: ClassVar = staticmethod(_options_of)
 
-    domain: Annotated[
-        Positional[Literal[tuple(_IDEALS)]],  # type: ignore[valid-type]
-        tyro.conf.arg(metavar="DOMAIN", help=f"{' or '.join(_IDEALS)}; --help after it lists its options."),
-    ]
+    domain: Domain
     options: OmitArgPrefixes[options_lib.Options]
     task: OptionalTask = None
     discount: OptionalFloat = None
@@ -53,6 +49,8 @@ class Ideal(Generic[options_lib.Options]):
         from physexp import suite
         from physexp.analysis.ideal import kept
 
+        if self.domain not in _IDEALS:
+            raise ValueError(f"no ideal experimenter is known of {self.domain}; choose from {', '.join(_IDEALS)}")
         tasks = suite.TASKS_BY_DOMAIN[self.domain]
         task = tasks[0] if self.task is None else self.task
         if task not in tasks:

@@ -114,7 +114,7 @@ def test_a_terminal_that_is_too_small_for_an_image_is_told_so():
 def test_a_switch_is_shown_as_0_or_1_and_what_has_no_bounds_as_a_number():
     switch = suite.load_task("threshold", "features").readings
     assert terminal.drawing({"slid": np.ones(1, np.float32)}, switch) == "slid 1"
-    assert terminal.legend({"slid"}, switch) == "You see slid, from 0 to 1."
+    assert terminal.legend({"slid"}, switch) == f"You see slid: {switch['slid'].meaning}."
     unbounded = {name: dataclasses.replace(reading, bounds=None) for name, reading in HEAVIER.items()}
     text = terminal.drawing({"heights": np.array([0.0, 0.123, 0.4, 0.0], np.float32)}, unbounded).splitlines()
     assert [line.split() for line in text[1:3]] == [["block", "1", "12.3", "cm"], ["block", "2", "40.0", "cm"]]

@@ -52,13 +52,15 @@ def find_agent(
     if agent := published(target):
         _check_options(target, config_of(agent.card), wanted)
         return _with_config(agent)
+    if Path(target).is_file():
+        raise ValueError(f"{target} is a file; give the folder of a run, or the card of a published agent (NAME.json)")
     if Path(target).exists():
         run = run_lib.Run(Path(target))
         _check_options(target, run.config, wanted)
         return load_network(run), run.config
     if (domain, task) in suite.ALL_TASKS:
         return shipped_agent(domain, task, wanted)
-    choices = difflib.get_close_matches(target, pretrained.names()) or pretrained.names()
+    choices = difflib.get_close_matches(target, pretrained.names()) or ["/".join(name) for name in suite.ALL_TASKS]
     raise ValueError(
         f"{target} holds no run (no config.json); give the folder of a run, the card of a published agent (NAME.json), "
         f"or a trained agent: {', '.join(choices)}"

@@ -29,6 +29,7 @@ class Question:
       domain, task: as for `suite.load`.
       question: what is asked, in words.
       observation_spec: specs of what is observed, by name.
+      observation_meanings: what each observation says, in words, by name.
       action_spec: the spec of an action.
       num_interactions: how many of the actions are interactions; they come first, answers after them.
       label_names: the answers, in words.
@@ -41,6 +42,7 @@ class Question:
     task: str
     question: str
     observation_spec: Mapping[str, specs.Array]
+    observation_meanings: Mapping[str, str]
     action_spec: specs.DiscreteArray
     num_interactions: int
     label_names: tuple[str, ...]
@@ -72,6 +74,7 @@ def question(domain: str, task: str) -> Question:
         task=task,
         question=played.question,
         observation_spec=played.observation_spec(),
+        observation_meanings=played.observation_meanings,
         action_spec=played.action_spec(),
         num_interactions=played.num_interactions,
         label_names=tuple(played.label_names),

@@ -116,11 +116,12 @@ def _interval(row: Mapping[str, Any]) -> str:
 def facts(found: Mapping[str, Any]) -> dict[str, str]:
     """Returns how an agent was made, and how it was scored, in words, of what `score.json` holds."""
     agent, versions = found["agent"], found["versions"]
-    how = "takes its likeliest actions" if found["greedy"] else "draws its actions"
+    is_trained = "seed" in agent or "agents" in agent  # Of any other, what is said is what its owner says.
+    how = ["takes its likeliest actions" if found["greedy"] else "draws its actions"] if is_trained else []
     used = ", ".join(f"{name} {version}" for name, version in versions.items())
     return {
         "Target": found["target"].replace(",", ", "),
-        "Agent": "; ".join([_made(agent), how] if agent else ["it was trained by nobody, or nothing is said of it"]),
+        "Agent": "; ".join([_made(agent), *how] if agent else ["it was trained by nobody, or nothing is said of it"]),
         **({"Trained by": agent["command"]} if agent.get("command") else {}),
         **{f"In {task}": _made(one) for task, one in agent.get("agents", {}).items() if task in found["tasks"]},
         "Scored": f"in {found['seconds']:,.0f} s, by commit {provenance.shortened(found['commit'])}, with {used}",

@@ -158,8 +158,22 @@ class Balance(task.QuestionTask):
     @property
     def readings(self):
         return {
-            "places": declarations.Reading(self._torques, (NUM_BLOCKS,), unit="", bounds=(-1, 1), measure=np.sign),
-            "tilt": declarations.Reading([self._angle], (1,), unit="", bounds=(-1, 1), measure=_tilt),
+            "places": declarations.Reading(
+                self._torques,
+                (NUM_BLOCKS,),
+                "where each block lies: -1 on the left pan, 1 on the right pan, 0 aside",
+                unit="",
+                bounds=(-1, 1),
+                measure=np.sign,
+            ),
+            "tilt": declarations.Reading(
+                [self._angle],
+                (1,),
+                "which pan is heavier: -1 the left one, 1 the right one, 0 neither",
+                unit="",
+                bounds=(-1, 1),
+                measure=_tilt,
+            ),
         }
 
     @property

@@ -178,10 +178,29 @@ class SealedBox(task.QuestionTask):
     def readings(self):
         farthest = np.ceil(_REACH / self._mark)
         return {
-            "push": declarations.Reading([self._force], (1,), unit="", bounds=(-1, 1), measure=_share),
-            "covered": declarations.Reading([self._force], (1,), unit="", bounds=(0, 1), measure=_is_pushed),
+            "push": declarations.Reading(
+                [self._force],
+                (1,),
+                "the last push, as a share of a hard one, positive to the right; 0 for none",
+                unit="",
+                bounds=(-1, 1),
+                measure=_share,
+            ),
+            "covered": declarations.Reading(
+                [self._force],
+                (1,),
+                "1 if the box is hidden, as it is by a push, otherwise 0",
+                unit="",
+                bounds=(0, 1),
+                measure=_is_pushed,
+            ),
             "place": declarations.Reading(
-                [self._position, self._force], (1,), unit="", bounds=(-farthest, farthest), measure=self._place
+                [self._position, self._force],
+                (1,),
+                "how many marks the box is from home, positive to the right; 0 if it is hidden",
+                unit="",
+                bounds=(-farthest, farthest),
+                measure=self._place,
             ),
         }
 

@@ -146,9 +146,21 @@ class Strike(task.QuestionTask):
     @property
     def readings(self):
         return {
-            "strength": declarations.Reading([self._force], (1,), unit="", bounds=(0, 1), measure=_strength),
+            "strength": declarations.Reading(
+                [self._force],
+                (1,),
+                f"the force of the last poke, as a share of {max(POKES):g} N; 0 before the first",
+                unit="",
+                bounds=(0, 1),
+                measure=_strength,
+            ),
             "gate": declarations.Reading(
-                [self._position], (1,), unit="", bounds=(0, self._num_gates), measure=self._gate
+                [self._position],
+                (1,),
+                "the last light gate that the puck has passed, counted from 1; 0 for none",
+                unit="",
+                bounds=(0, self._num_gates),
+                measure=self._gate,
             ),
         }
 

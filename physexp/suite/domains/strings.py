@@ -161,11 +161,13 @@ class Strings(task.QuestionTask):
     @property
     def readings(self):
         return {
-            name: declarations.Reading(sensors, (NUM_PUCKS,), unit="", bounds=(0, 1), measure=measure)
-            for name, sensors, measure in (
-                ("pulled", self._pulls, _is_on),
-                ("clamped", self._presses, _is_on),
-                ("away", self._positions, _is_away),
+            name: declarations.Reading(
+                sensors, (NUM_PUCKS,), f"1 for {meaning}, 0 for the others", unit="", bounds=(0, 1), measure=measure
+            )
+            for name, sensors, measure, meaning in (
+                ("pulled", self._pulls, _is_on, "the puck that the last action pulled"),
+                ("clamped", self._presses, _is_on, "the puck that is clamped"),
+                ("away", self._positions, _is_away, "each puck that is away from home"),
             )
         }
 

@@ -155,8 +155,22 @@ class Threshold(task.QuestionTask):
     @property
     def readings(self):
         return {
-            "strength": declarations.Reading([self._force], (1,), unit="", bounds=(0, 1), measure=_strength),
-            "slid": declarations.Reading([self._position, self._force], (1,), unit="", bounds=(0, 1), measure=_slid),
+            "strength": declarations.Reading(
+                [self._force],
+                (1,),
+                f"the force of the last push, as a share of {NUM_LEVELS * LEVEL_SPACING:g} N; 0 before the first",
+                unit="",
+                bounds=(0, 1),
+                measure=_strength,
+            ),
+            "slid": declarations.Reading(
+                [self._position, self._force],
+                (1,),
+                "1 if the last push made the block slide, otherwise 0",
+                unit="",
+                bounds=(0, 1),
+                measure=_slid,
+            ),
         }
 
     @property

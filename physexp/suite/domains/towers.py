@@ -137,7 +137,12 @@ class Towers(task.QuestionTask):
     @property
     def readings(self):
         """Positions of the blocks and of what acts on them, bounded by walls that give way a little."""
-        positions = declarations.Reading(self.tower.position_sensors, (tower.NUM_BLOCKS, 3), components=("x", "y", "z"))
+        positions = declarations.Reading(
+            self.tower.position_sensors,
+            (tower.NUM_BLOCKS, 3),
+            "the blocks' centres (x, y, z), from the lowest block up",
+            components=("x", "y", "z"),
+        )
         corner = np.array([WALL_DISTANCE + _GIVE, WALL_DISTANCE + _GIVE, CEILING])
         bounds = (corner * [-1, -1, 0], corner)
         found = {"positions": positions, **self._actuator.readings}

@@ -102,7 +102,8 @@ class WhichIsHeavier(task.QuestionTask):
     def readings(self):
         greatest = POKE_FORCE * (1 + FORCE_VARIATION * self.options.variation)
         bounds = FLOOR, highest(greatest)
-        return {"heights": declarations.Reading(self._height_sensors, (NUM_BLOCKS,), bounds=bounds)}
+        meaning = "how far each block is above its rest"
+        return {"heights": declarations.Reading(self._height_sensors, (NUM_BLOCKS,), meaning, bounds=bounds)}
 
     largest_hidden = 1.0
 

@@ -37,6 +37,7 @@ class Reading:
     Attributes:
       sensors: the MJCF sensors that make it up.
       shape: of the feature.
+      meaning: what its values say, in words, without their unit.
       unit: of its values.
       components: names of the values of one sensor, as `x`, `y`, `z`; none where each sensor has one value.
       bounds: the least and the greatest values that it ever has, where they are known.
@@ -45,6 +46,7 @@ class Reading:
 
     sensors: Sequence[Any]
     shape: tuple[int, ...]
+    meaning: str
     unit: str = "m"
     components: tuple[str, ...] = ()
     bounds: tuple[Any, Any] | None = None

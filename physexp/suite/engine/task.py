@@ -20,6 +20,7 @@ from physexp.suite.engine import senses as senses_lib
 
 CAMERA_VARIATION = 0.02  # m, in each direction
 ANSWER = "answer"  # The name of what is observed of the right label, where it is revealed.
+_IMAGE = "an image from the task's camera: rows, columns, and red, green and blue"
 
 _OK_RGBA, _WRONG_RGBA = (0.45, 0.75, 0.45, 1.0), (0.80, 0.45, 0.40, 1.0)
 _ROW = np.zeros(1, np.intp)  # The only row of a single environment.
@@ -199,7 +200,19 @@ class QuestionTask(composer.Task):
         """The features, by name, and the right answer where it is revealed."""
         if not self.options.reveal:
             return dict(self.readings)
-        return {**self.readings, ANSWER: declarations.Reading((), (self.num_labels,), unit="", bounds=(0.0, 1.0))}
+        revealed = declarations.Reading(
+            (), (self.num_labels,), "1 for the right answer, 0 for the others", "", bounds=(0, 1)
+        )
+        return {**self.readings, ANSWER: revealed}
+
+    @property
+    def observation_meanings(self) -> dict[str, str]:
+        """What each observation says, in words, with the unit of its values."""
+        meanings = {
+            name: f"{reading.meaning}, {reading.unit}" if reading.unit else reading.meaning
+            for name, reading in self.all_readings.items()
+        }
+        return {name: meanings.get(name, _IMAGE) for name in self.observation_spec()}
 
     @property
     def hidden(self) -> np.ndarray:

@@ -68,7 +68,10 @@ class FistActuator:
     @property
     def readings(self) -> dict[str, declarations.Reading]:
         """The position of the fist's centre, m (3,)."""
-        return {"fist_position": declarations.Reading([self.fist.position_sensor], (3,), components=("x", "y", "z"))}
+        meaning, components = "the fist's centre (x, y, z)", ("x", "y", "z")
+        return {
+            "fist_position": declarations.Reading([self.fist.position_sensor], (3,), meaning, components=components)
+        }
 
     def start(self, model, displacements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Returns where the fist starts: addresses of its coordinates, int [2], and their values, m [N, 2].

@@ -201,9 +201,9 @@ def test_distances_are_the_largest_of_positions_or_the_number_of_pixels():
     fist = np.zeros((2, 3))
     fist[1] = [0, 0, 0.01]
     readings = {
-        "positions": declarations.Reading([], (5, 3), components=("x", "y", "z")),
-        "fist_position": declarations.Reading([], (3,), components=("x", "y", "z")),
-        "angles": declarations.Reading([], (3,), unit="rad"),
+        "positions": declarations.Reading([], (5, 3), "", components=("x", "y", "z")),
+        "fist_position": declarations.Reading([], (3,), "", components=("x", "y", "z")),
+        "angles": declarations.Reading([], (3,), "", unit="rad"),
     }
 
     def apart(**seen):

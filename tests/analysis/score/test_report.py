@@ -141,5 +141,6 @@ def test_the_command_writes_the_report_with_what_is_said_of_the_agent(tmp_path):
     made = ["--algorithm", "guessing", "--frames", "12000", "--minutes", "1.5"]
     done = commands.run("score", "random", *words, *made, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-    assert "guessing, 12,000 frames, 90 s" in (tmp_path / "guesses" / "report.html").read_text()
+    page = (tmp_path / "guesses" / "report.html").read_text()
+    assert "guessing, 12,000 frames, 90 s<" in page, "and nothing that only its owner knows"
     assert (tmp_path / "guesses" / "report.png").exists()
