@@ -29,7 +29,7 @@ from physexp.analysis.experiments import conditions
 from physexp.analysis.ideal import kept
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import progress
-from physexp.cli import commands, options, parsing, printing
+from physexp.cli import commands, ideal, options, parsing, printing
 
 PHYSEXP = Path(sys.executable).with_name("physexp")
 
@@ -341,6 +341,9 @@ def test_doctor_ends_with_status_1_only_if_the_core_is_broken(run, monkeypatch):
         (["ideal", "towers", "--difficulty", "3"], ["--difficulty is not an option of ideal towers"]),
         (["ideal", "towers", "--blocks", "3"], ["--blocks is not an option of ideal towers"]),
         (["ideal", "which_is_heavier", "--resolution", "0"], ["--resolution is not an option"]),
+        (["ideal", "towers", "--keep"], ["nothing is kept of this ideal experimenter", "--keep"]),
+        (["ideal", "which_is_heavier", "--reveal", "--blocks", "3"], ["blocks is 3", "leave it out with reveal"]),
+        (["ideal", "nowhere"], ["'nowhere'", "known domains: which_is_heavier"]),
         (["ideal", "towers", "--task", "feet"], ["task is 'feet'", "fist_features", "direct_features"]),
         (["evaluate", "no/such/run"], ["no/such/run", "holds no run"]),
         (["evaluate", __file__], [__file__, "is a file; give the folder of a run"]),
@@ -551,6 +554,13 @@ def test_training_writes_replays_as_often_as_it_is_told_and_says_where_nothing_w
     assert 1 <= len(list(Path("often/replays").glob("*.rrd"))) <= 3
     done = run("train", "towers", "fist_features", *TINY, *always, "--replay-every", 0, "--run-dir", "never")
     assert done.returncode == 0 and not Path("never/replays").exists()
+
+
+def test_a_domain_without_an_ideal_is_told_so(monkeypatch):
+    monkeypatch.delitem(ideal._IDEALS, "strings")
+    command = ideal.Ideal(domain="strings", options=options.NoOptions())
+    with pytest.raises(ValueError, match="^no ideal experimenter is known of strings; choose from which_is_heavier, "):
+        command.run()
 
 
 def test_an_ideal_is_kept_where_that_is_asked_for(run, monkeypatch):

@@ -14,7 +14,7 @@ EPISODES = 2000
 
 
 def config() -> config_lib.TrainConfig:
-    """What a demo trains."""
+    """Returns what a demo trains."""
     agent = config_lib.preset("which_is_heavier", "features").replace(frames=FRAMES)
     return config_lib.TrainConfig(
         domain="which_is_heavier", task="features", task_kwargs={"difficulty": DIFFICULTY}, agent=agent

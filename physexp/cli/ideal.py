@@ -60,6 +60,8 @@ class Ideal(Generic[options_lib.Options]):
         own = {name: chosen.pop(name) for name in names}
         discount = domains.find(self.domain).discount if self.discount is None else self.discount
         solution = ideal(task, chosen, discount, **own)
+        if self.keep:
+            kept.check(solution)  # Before what takes minutes.
         with printing.warned_if_slow(
             f"searching for the ideal experimenter of {self.domain}/{task}; that can take minutes"
         ):

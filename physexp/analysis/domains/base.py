@@ -53,6 +53,11 @@ class Ideal:
                     "give 0: the ideal experimenter is known where all control steps are alike"
                 )
             return self.solve(task, task_kwargs, discount, **options)
+        if options:
+            name, value = next(iter(options.items()))
+            raise ValueError(
+                f"{name} is {value}; leave it out with reveal: what is revealed is told apart from the start"
+            )
         from physexp.analysis.ideal import revealed
 
         return revealed.Solution(self.domain, task, task_kwargs, discount)

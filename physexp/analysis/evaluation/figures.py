@@ -42,7 +42,7 @@ def style():
 
 
 def new(columns: int = 1, rows: int = 1, width: float = 3.4, height: float = 2.6, **kwargs: Any):
-    """A figure and its axes, [rows, columns] where there are several.
+    """Returns a figure and its axes, [rows, columns] where there are several.
 
     Args:
       columns, rows: of axes.
@@ -54,7 +54,7 @@ def new(columns: int = 1, rows: int = 1, width: float = 3.4, height: float = 2.6
 
 
 def empty(width: float, height: float):
-    """A figure without axes, inches; matplotlib keeps no list of it, so it needs not be closed."""
+    """Returns a figure without axes, inches; matplotlib keeps no list of it, so it needs not be closed."""
     from matplotlib import figure
 
     return figure.Figure(figsize=(width, height), layout="constrained")

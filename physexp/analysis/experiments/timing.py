@@ -80,7 +80,7 @@ def load(results: base.Results):
     of wrong answers that count too many bodies, NaN where none is wrong).
 
     Raises:
-      ValueError: if no agent has played.
+      ValueError: if no agent that knows many control steps has played at all of them.
     """
     import pandas
 
@@ -93,7 +93,7 @@ def load(results: base.Results):
                 frame = results.episodes([trial], [config], columns)
                 for seed, its in frame.groupby("training_seed"):
                     rows.append(_row(player, seed, timestep, friction, _summary(its)))
-    if not any(row["player"] == MANY for row in rows):
+    if not rows or not len(_by_step(pandas.DataFrame(rows), MANY)):
         raise results.lacks("episodes")
     made = base.read_made(_path(results), "timing", _is_made)
     for timestep in STEPS:
@@ -201,10 +201,13 @@ def find_claims(frame) -> list[claims.Claim]:
 
 def _by_step(frame, player: str):
     """Returns a player's figures: a row for each agent that had all control steps, columns by figure and step."""
+    import pandas
+
     rows = frame[(frame.player == player) & ~frame.friction]
     values = ["right", "interactions", "time", "too_many"]
-    table = rows.pivot(index="training_seed", columns="step", values=values)
-    return table[table.right.reindex(columns=list(STEPS)).notna().all(axis=1)]
+    columns = pandas.MultiIndex.from_product([values, sorted(STEPS)])
+    table = rows.pivot(index="training_seed", columns="step", values=values).reindex(columns=columns)
+    return table[table.right.notna().all(axis=1)]
 
 
 def draw(frame):

@@ -93,13 +93,16 @@ def export(
                 "tasks": {writer.asked.name: writer.facts() for writer in writers if writer.num_episodes},
             }
             files.write_atomically(folder / FILE, (json.dumps(written, indent=1) + "\n").encode())
+        else:
+            with contextlib.suppress(OSError):  # Somebody else has put something there.
+                folder.rmdir()
     return written
 
 
 @contextlib.contextmanager
 def _player(target: str, greedy: bool, timeout: float) -> Iterator[Callable[..., Iterator[episodes.Episode]]]:
     """Returns a context with what plays, as `Player.play`: ours in this process, faster, others in their own."""
-    if ":" in target:
+    if targets.is_function(target):
         with player.Player(target, greedy, timeout) as elsewhere:
             yield elsewhere.play
     else:

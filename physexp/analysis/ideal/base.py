@@ -81,7 +81,7 @@ class Solution(Protocol):
         """Returns what the function `figures` does."""
 
     def summary(self) -> dict[str, Any]:
-        """Returns the figures, and the family's own, above all what others earn: `at_once`, `random_value`."""
+        """Returns the figures, and the family's own, such as what others earn: `at_once`, `random_value`."""
 
 
 def figures(

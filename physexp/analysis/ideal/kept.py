@@ -108,6 +108,18 @@ def _reached(path: bytes, moment: Any) -> _Place:
     return _Place(path, lambda: moment)
 
 
+def check(solution: Any) -> Hypotheses:
+    """Returns the hypotheses of a solution of which something is kept.
+
+    Raises:
+      ValueError: if nothing is.
+    """
+    hypotheses = getattr(solution, "hypotheses", None)
+    if not isinstance(hypotheses, Hypotheses):
+        raise ValueError("nothing is kept of this ideal experimenter; leave --keep out")
+    return hypotheses
+
+
 def keep(solution: Any) -> None:
     """Writes what can be told apart after every sequence of actions of an episode.
 
@@ -115,11 +127,9 @@ def keep(solution: Any) -> None:
       solution: a `search.Solution`.
 
     Raises:
-      ValueError: if it is of hypotheses of which nothing is kept.
+      ValueError: as `check`.
     """
-    hypotheses = getattr(solution, "hypotheses", None)
-    if not isinstance(hypotheses, Hypotheses):
-        raise ValueError("nothing is kept of this ideal experimenter: it is found within seconds")
+    hypotheses = check(solution)
     situations, most = solution.situations, hypotheses.task.rules.step_limit - 1
     found = dict(_looks(situations, situations.start, b"", most))
     paths = sorted(found, key=lambda path: (len(path), path))

@@ -9,7 +9,7 @@ from physexp.analysis import domains
 from physexp.analysis.evaluation import figures
 from physexp.analysis.ideal import mistakes
 
-COLORS = dict(zip(mistakes.KINDS, ("#E69F00", "#56B4E9", "#009E73", "#D55E00", "#000000", "#BBBBBB"), strict=True))
+_COLORS = dict(zip(mistakes.KINDS, ("#E69F00", "#56B4E9", "#009E73", "#D55E00", "#000000", "#BBBBBB"), strict=True))
 _HATCHES = dict(zip(mistakes.KINDS, ("", "///", "...", "xx", "", "\\\\"), strict=True))
 OURS = figures.COLORS[1]
 LEAST = -1.0  # What is less is drawn there.
@@ -49,7 +49,7 @@ def draw_scores(axes, found: Mapping[str, Any]) -> None:
         color = "black" if is_whole else OURS
         axes.plot([low, high], [place] * 2, color=color, linewidth=2.2, solid_capstyle="butt")
         axes.plot(center, place, "D" if is_whole else "o", color=color, markersize=5, zorder=3)
-        at_left = center > 0.5
+        at_left = center > 0.5 or -0.5 < center < 0  # Not over a mark of `mark_ends`.
         axes.annotate(
             f"{row['score']:.3f}",
             (low if at_left else high, place),
@@ -93,7 +93,7 @@ def draw_mistakes(axes, found: Mapping[str, Any]) -> None:
                 place,
                 cost,
                 left=end,
-                color=COLORS[kind],
+                color=_COLORS[kind],
                 hatch=_HATCHES[kind],
                 edgecolor="white",
                 linewidth=0,
@@ -125,7 +125,7 @@ def legend_of_mistakes(figure, found: Mapping[str, Any], **kwargs: Any) -> None:
 
     handles = [
         patches.Patch(
-            facecolor=COLORS[kind],
+            facecolor=_COLORS[kind],
             hatch=_HATCHES[kind],
             edgecolor="white",
             linewidth=0,

@@ -92,7 +92,7 @@ def write(results: Path) -> list[Path]:
       OSError, ValueError: as `read`.
     """
     rows = read(results)
-    page, readme = results / f"{NAME}.md", results.parent / "README.md"
+    page, readme = results / f"{NAME}.md", results.resolve().parent / "README.md"
     files.write_atomically(page, markdown(rows).encode())
     with figures.style():
         written = [page, *figures.save(draw(rows), results / "figures", NAME)]

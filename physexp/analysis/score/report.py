@@ -10,7 +10,6 @@ from typing import Any
 from physexp.agents import files
 from physexp.analysis.data import provenance
 from physexp.analysis.evaluation import figures
-from physexp.analysis.ideal import mistakes
 from physexp.analysis.score import drawing, scoring
 
 NAME = "report"
@@ -41,16 +40,14 @@ def _page(found: Mapping[str, Any]):
     heights = [
         0.85,
         _height_of_overview(found),
-        0.1 + 0.14 * -(-len(drawing.kinds_shown(found)) // 2),
         0.35 + _height_of_information(found),
         0.35 + 0.15 * (1 + told.count("\n")),
     ]
     with figures.style():
         figure = figures.empty(_WIDTH, sum(heights))
-        head, overview, legend, information, foot = figure.subfigures(5, 1, squeeze=False, height_ratios=heights).flat
+        head, overview, information, foot = figure.subfigures(4, 1, squeeze=False, height_ratios=heights).flat
         _draw_head(head, found)
         _draw_overview(overview, found)
-        drawing.legend_of_mistakes(legend, found, loc="upper left", ncols=2)
         _draw_information(information, found)
         information.suptitle(_INFORMATION, fontsize=8.5, x=0.01, ha="left")
         foot.text(0.01, 0.95, told, fontsize=7, color="0.35", va="top", linespacing=1.4)
@@ -67,15 +64,26 @@ def _draw_head(figure, found: Mapping[str, Any]) -> None:
     figure.text(0.99, 0.24, f"score, 95 % interval {_interval(whole)}", fontsize=8, ha="right", va="top", color="0.3")
 
 
-def _height_of_overview(found: Mapping[str, Any]) -> float:
+def _height_of_axes(found: Mapping[str, Any]) -> float:
     num_rows = max(len(found["domains"]) + 1, len(found["tasks"]))
     return max(3.5 if drawing.has_skills(found) else 0.0, 0.95 + 0.24 * num_rows)
 
 
+def _height_of_legend(found: Mapping[str, Any]) -> float:
+    return 0.1 + 0.14 * -(-len(drawing.kinds_shown(found)) // 2)
+
+
+def _height_of_overview(found: Mapping[str, Any]) -> float:
+    return _height_of_axes(found) + _height_of_legend(found)
+
+
 def _draw_overview(figure, found: Mapping[str, Any]) -> None:
-    """Draws scores, mistakes and skills, side by side."""
+    """Draws scores, mistakes and skills, side by side, and below them which mistakes there are."""
+    heights = [_height_of_axes(found), _height_of_legend(found)]
+    above, below = figure.subfigures(2, 1, height_ratios=heights)
+    drawing.legend_of_mistakes(below, found, loc="upper left", ncols=2)
     widths = [1, 1, 1.1] if drawing.has_skills(found) else [1, 1]
-    parts = figure.subfigures(1, len(widths), squeeze=False, width_ratios=widths)[0]
+    parts = above.subfigures(1, len(widths), squeeze=False, width_ratios=widths)[0]
     drawing.draw_scores(parts[0].subplots(), found)
     drawing.draw_mistakes(parts[1].subplots(), found)
     if drawing.has_skills(found):
@@ -144,14 +152,9 @@ def _html(found: Mapping[str, Any]) -> str:
         f"<p>{html.escape(_subtitle(found)).replace(chr(10), '<br>')}</p></div>"
         f"<div class=score><b>{whole['score']:.3f}</b><br>score, 95 % interval {_interval(whole)}</div></header>"
     )
-    kinds = "".join(
-        f'<li><i style="background:{drawing.COLORS[kind]}"></i><b>{kind}</b>: {mistakes.KINDS[kind]}</li>'
-        for kind in drawing.kinds_shown(found)
-    )
     parts = [
         head,
         _figure(found, _height_of_overview(found), _draw_overview, "Scores, mistakes and skills"),
-        f"<ul>{kinds}</ul>",
         _table(found),
         f"<h2>What is found out</h2><p>{_INFORMATION}</p>",
         _figure(found, _height_of_information(found), _draw_information, "Bits from each interaction"),
@@ -210,6 +213,4 @@ h1 {margin: 0; overflow-wrap: anywhere} header p {margin: .25rem 0; color: #555}
 img {width: 100%; height: auto; display: block; margin: 1rem 0}
 table {border-collapse: collapse; font-size: 13px; margin: 1rem 0}
 td, th {border-bottom: 1px solid #ccc; padding: .25rem .6rem; text-align: left; vertical-align: top}
-ul {list-style: none; padding: 0; font-size: 13px; columns: 2} i {display: inline-block; width: .9em; height: .9em;
-margin-right: .5em}
 """

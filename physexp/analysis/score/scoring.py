@@ -183,8 +183,15 @@ def read(folder: Path) -> dict[str, Any]:
     version = found.get("version") if isinstance(found, dict) else None
     if version != protocol.VERSION:
         raise ValueError(f"{path} is of protocol {version!r}; this version of physexp plays {protocol.VERSION}")
-    dicts = dict.fromkeys(("agent", "protocol", "tasks", "domains", "whole"), dict)
-    kinds = {"target": str, "complete": bool, **dicts}
+    kinds: dict[str, Any] = {
+        "target": str,
+        "greedy": bool,
+        "complete": bool,
+        "problem": str,
+        "seconds": (int, float),
+        "commit": str,
+        **dict.fromkeys(("versions", "agent", "protocol", "tasks", "domains", "whole"), dict),
+    }
     asked = {"seed": int, "episodes": int, "tasks": list}
     for fields, wanted in ((found, kinds), (found.get("protocol"), asked)):
         for name, kind in wanted.items():

@@ -36,7 +36,7 @@ def suitable(target: str) -> "tuple[protocol.Question, ...] | None":
     Raises:
       ValueError: if there is no such target; the line lists what there is.
     """
-    if target in actors.BASELINES or _is_function(target):
+    if target in actors.BASELINES or is_function(target):
         return None
     if team := _team(target):
         return protocol.named(list(team))
@@ -68,8 +68,8 @@ def _team(target: str) -> dict[str, str]:
     team: dict[str, str] = {}
     for member in target.split(",") if "," in target else []:
         can = suitable(member)
-        if can is None:
-            raise ValueError(f"{member} plays every task; a team is of trained agents, so give it alone")
+        if can is None or member in _all_baselines():
+            raise ValueError(f"{member} is no trained agent; a team is of trained agents, so give it alone")
         for asked in can:
             if other := team.get(asked.name):
                 raise ValueError(f"both {other} and {member} play {asked.name}; name one of them")
@@ -135,7 +135,7 @@ def maker(target: str, greedy: bool = False) -> MakeActor:
         return lambda asked: maker(team[asked.name], greedy)(asked)
     if _with_baseline(target):
         return lambda asked: domains.find(asked.domain).baselines[asked.task][target]()
-    if _is_function(target):
+    if is_function(target):
         return _of_function(target)
     from physexp.analysis.evaluation import finding
 
@@ -144,8 +144,11 @@ def maker(target: str, greedy: bool = False) -> MakeActor:
 
 
 def file_name(target: str) -> str:
-    """Returns the name that files of a target have: letters, digits and underscores, of a folder at least its own."""
-    return re.sub(r"\W+", "_", target).strip("_") or file_name(Path(target).resolve().name)
+    """Returns the name that files of a target have: letters, digits and underscores; of a folder like `..`, its own."""
+    for name in (target, Path(target).resolve().name):
+        if safe := re.sub(r"\W+", "_", name).strip("_"):
+            return safe
+    return "target"
 
 
 def facts(target: str, tasks: Collection[str] | None = None) -> dict[str, Any]:
@@ -157,7 +160,7 @@ def facts(target: str, tasks: Collection[str] | None = None) -> dict[str, Any]:
       target: see `maker`.
       tasks: what counts of a team, as `domain/task`; all of it by default.
     """
-    if target in _all_baselines() or _is_function(target):
+    if target in _all_baselines() or is_function(target):
         return {}
     if team := _team(target):
         each = {task: facts(member) for task, member in team.items() if tasks is None or task in tasks}
@@ -201,7 +204,8 @@ def _with_baseline(target: str) -> tuple[protocol.Question, ...]:
     )
 
 
-def _is_function(target: str) -> bool:
+def is_function(target: str) -> bool:
+    """Returns whether a target is anybody's function, given as `module:function`."""
     module, colon, function = target.partition(":")
     return bool(colon) and all(part.isidentifier() for part in [*module.split("."), function])
 

@@ -199,6 +199,13 @@ def test_where_no_ideal_judges_the_table_has_no_beliefs(monkeypatch):
     assert len(minari.MinariDataset("exported/minari/physexp/threshold-features/halving_policy-v0/data")) == 4
 
 
+def test_where_nothing_was_played_nothing_is_left(here):
+    (here / "failing.py").write_text("def policy(observation, state):\n    raise KeyError('no such thing')\n")
+    with pytest.raises(player.PlayerError, match="no such thing"):
+        export("failing:policy")
+    assert not Path("exported").exists()
+
+
 def test_an_agent_that_hangs_loses_nothing_that_was_played():
     with pytest.raises(player.PlayerError, match="did nothing within 2 s .*; the 2 episodes before are in exported"):
         export("hanging_agent:policy", timeout=2.0)

@@ -49,7 +49,7 @@ def test_a_domain_that_is_not_played_is_marked(results):
     assert (cells["threshold"], cells["balance"]) == ("1.000", "–")
 
 
-def test_the_page_its_figure_and_its_part_of_the_readme_are_written(results):
+def test_the_page_its_figure_and_its_part_of_the_readme_are_written(results, monkeypatch):
     readme = results.parent / "README.md"
     first, last = leaderboard.MARKS
     readme.write_text(f"Before.\n\n{first}\noutdated\n{last}\n\nAfter.\n")
@@ -58,7 +58,9 @@ def test_the_page_its_figure_and_its_part_of_the_readme_are_written(results):
     written = readme.read_text()
     assert written.startswith(f"Before.\n\n{first}\n\n|") and written.endswith(f"{last}\n\nAfter.\n")
     assert "outdated" not in written and "| [ideal](results/scores/ideal/report.png) |" in written
-    leaderboard.write(results)
+    readme.write_text(f"Before.\n\n{first}\noutdated\n{last}\n\nAfter.\n")
+    monkeypatch.chdir(results)
+    leaderboard.write(Path())
     assert readme.read_text() == written
 
 

@@ -125,7 +125,7 @@ def test_what_cannot_play_is_told_before_anything_is_played(target, said):
 
 def test_what_is_no_target_is_refused_with_what_there_is():
     with pytest.raises(
-        ValueError, match="fly holds no run.*threshold-features.*random, at_once, silent, ideal, .*rule"
+        ValueError, match="fly holds no run.*threshold/features.*random, at_once, silent, ideal, .*rule"
     ):
         targets.suitable("fly")
     with pytest.raises(ValueError, match="difficulty3 was trained with {'difficulty': 3.0}"):
@@ -158,13 +158,23 @@ def test_agents_that_come_with_the_package_are_a_team_of_which_each_plays_its_ow
     ("target", "said"),
     [
         ("threshold/features,threshold-features", "both threshold/features and threshold-features play threshold/"),
-        ("threshold/features,random", "random plays every task; a team is of trained agents, so give it alone"),
+        ("threshold/features,random", "random is no trained agent; a team is of trained agents, so give it alone"),
+        ("rule,threshold/features", "rule is no trained agent; a team is of trained agents, so give it alone"),
         ("threshold/features,fly", "fly holds no run"),
     ],
 )
 def test_a_team_whose_tasks_nobody_or_two_play_is_refused(target, said):
     with pytest.raises(ValueError, match=said):
         targets.suitable(target)
+
+
+@pytest.mark.parametrize(
+    ("target", "name"), [("threshold/features", "threshold_features"), ("../x", "x"), (".", "here"), ("+++", "target")]
+)
+def test_files_of_a_target_have_a_name_of_letters(target, name, tmp_path, monkeypatch):
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    assert targets.file_name(target) == name
 
 
 def test_a_team_scores_what_its_agents_score_alone():

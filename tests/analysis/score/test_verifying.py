@@ -133,6 +133,15 @@ def test_rows_that_are_missing_doubled_or_out_of_order_are_refused(folder, chang
         verifying.verify(folder)
 
 
+@pytest.mark.parametrize("name", ["greedy", "complete", "problem", "seconds", "commit", "versions", "whole", "tasks"])
+def test_a_score_that_lacks_a_field_is_refused(folder, name):
+    facts = json.loads((folder / scoring.FILE).read_text())
+    del facts[name]
+    (folder / scoring.FILE).write_text(json.dumps(facts))
+    with pytest.raises(ValueError, match=f"is not what was written: {name} is None; score again"):
+        scoring.read(folder)
+
+
 def test_episodes_out_of_order_are_refused(folder):
     def change(frame):
         first, second = of_episode(frame, THRESHOLD, 0), of_episode(frame, THRESHOLD, 1)
