@@ -26,6 +26,8 @@ _INTRODUCTION = (
     "play (–) counts as 0. Frames and minutes are those of training, of all agents of a team together; the commit is "
     "that of the score. [docs/score.md](../docs/score.md) says how to add a row."
 )
+_MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "*")  # Of domains.
+_COLORS = (*figures.COLORS[1:], "#CC79A7", "#7F4F24")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -182,16 +184,16 @@ def _commit(row: Row) -> str:
 
 def draw(rows: Sequence[Row]):
     """Draws the score of each row, with its interval, and those of the domains that it plays."""
-    figure, axes = figures.new(width=7.2, height=max(2.2, 0.75 + 0.24 * len(rows)))
-    markers = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "*")
+    figure, axes = figures.new(width=7.2, height=max(2.2, 0.75 + 0.3 * len(rows)))
     names = list(rows[0].domains)
+    heights = np.linspace(0.3, -0.3, len(names))  # One below the other, so that equal scores are all seen.
     places = np.arange(len(rows))[::-1]
     for place, row in zip(places, rows, strict=True):
         axes.axhline(place, color="0.93", linewidth=0.7, zorder=0)
         ends = np.clip(row.whole["interval"], drawing.LEAST, None)
-        axes.plot(ends, [place] * 2, color="black", linewidth=5, alpha=0.3, solid_capstyle="butt")
+        axes.plot(ends, [place] * 2, color="black", linewidth=9, alpha=0.3, solid_capstyle="butt")
         score = max(drawing.LEAST, row.whole["score"])
-        axes.plot(score, place, "|", color="black", markersize=12, markeredgewidth=2)
+        axes.plot(score, place, "|", color="black", markersize=15, markeredgewidth=2)
     for number, domain in enumerate(names):
         shown = [
             (row.domains[domain]["score"], place)
@@ -200,11 +202,11 @@ def draw(rows: Sequence[Row]):
         ]
         axes.plot(
             [max(drawing.LEAST, score) for score, _ in shown],
-            [place for _, place in shown],
-            markers[number % len(markers)],
-            color=figures.COLORS[1:][number % (len(figures.COLORS) - 1)],
-            markersize=4.5,
-            alpha=0.75,
+            [place + heights[number] for _, place in shown],
+            _MARKERS[number % len(_MARKERS)],
+            color=_COLORS[number % len(_COLORS)],
+            markersize=3.5,
+            zorder=3,
             linestyle="none",
             label=drawing.words(domain),
         )
