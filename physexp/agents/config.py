@@ -37,7 +37,7 @@ def one_of(choices: Sequence[str]) -> Check:
 
 def logits(name: str, value) -> tuple[float, ...]:
     """Checks finite numbers, one for each action."""
-    if isinstance(value, tuple) and all(map(checks.is_number, value)):
+    if isinstance(value, (tuple, list)) and all(map(checks.is_number, value)):
         return tuple(map(float, value))
     raise ValueError(f"{name} is {checks.shown(value)}; give finite numbers, one for each action")
 
@@ -182,7 +182,7 @@ class ActorCriticConfig(AgentConfig):
 
 def shown(value: Any) -> str:
     """Returns an option's value in the shortest words that mean it to the last digit: 5 for 5.0."""
-    if not isinstance(value, float):
+    if not checks.is_float(value):
         return str(value)
     short = f"{value:g}"
     return short if float(short) == value else str(value)

@@ -24,9 +24,16 @@ def choose(device: str, sees_images: bool) -> torch.device:
     return torch.device("cuda" if wanted and torch.cuda.is_available() else "cpu")
 
 
-def autocast(device: torch.device):
-    """Returns a context in which convolutions and products are computed in bf16, where the hardware is made for it."""
-    if _has_fast_bfloat16(device.type):
+def autocast(device: torch.device, sees_images: bool):
+    """Returns a context in which images are computed with in bf16, where the hardware is made for it.
+
+    Features keep their precision: bf16 has eight bits, in which a millimetre of a position is lost.
+
+    Args:
+      device: that computes.
+      sees_images: whether there are images.
+    """
+    if sees_images and _has_fast_bfloat16(device.type):
         return torch.autocast(device.type, torch.bfloat16)
     return contextlib.nullcontext()
 

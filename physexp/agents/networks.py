@@ -241,7 +241,7 @@ class RecurrentActorCritic(RecurrentNetwork):
             self.policy.bias.data += torch.tensor(logits)
 
     def encode(self, observation):
-        with devices.autocast(self.device):
+        with devices.autocast(self.device, self.sees_images):
             inputs, places = self.torso.distinct(observation)
             projected = self.lstm.project(inputs.to(self.device)).float()
             return projected if places is None else projected[places]

@@ -104,6 +104,8 @@ def load_batch(domain_name, task_name, num_environments, task_kwargs=None, num_t
       ValueError: for an unknown name or a bad argument.
     """
     task = load_task(domain_name, task_name, task_kwargs)
+    if task.options.visualize_reward:
+        raise ValueError("visualize_reward is True; give False to a batch, or load one environment")
     return _batch.BatchEnvironment(task, num_environments, num_threads)
 
 

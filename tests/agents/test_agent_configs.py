@@ -84,6 +84,12 @@ def test_numbers_of_numpy_are_taken_and_become_pythons_own():
         a3c.A3CConfig(frames=np.int32(0))
 
 
+def test_a_prior_may_be_a_list():
+    assert a3c.A3CConfig(action_prior=[1, np.float32(0)]) == a3c.A3CConfig(action_prior=(1.0, 0.0))
+    with pytest.raises(ValueError, match="action_prior is 'ab'; give finite numbers, one for each action"):
+        a3c.A3CConfig(action_prior="ab")
+
+
 def test_more_parts_than_episodes_are_refused():
     with pytest.raises(ValueError, match="num_minibatches is 9; give at most num_environments, 8"):
         ppo.PPOConfig(num_environments=8, num_minibatches=9)

@@ -121,6 +121,19 @@ def test_bf16_agrees_with_float32_within_its_precision(monkeypatch):
     assert 0 < difference(outputs, expected) < BF16_TOLERANCE
 
 
+def test_features_keep_their_precision(monkeypatch):
+    torch.manual_seed(0)
+    spec = {"heights": specs.Array((4,), np.float32)}
+    network = networks.RecurrentActorCritic(spec, num_actions=8, lstm_units=16, observation_scale=40.0)
+    heights = torch.tensor([[0.4, 0, 0, 0], [0.401, 0, 0, 0]])
+    found = []
+    for is_fast in (False, True):
+        monkeypatch.setattr(devices, "_has_fast_bfloat16", lambda device_type, is_fast=is_fast: is_fast)
+        with torch.no_grad():
+            found.append(network.encode({"heights": heights}))
+    assert torch.equal(*found) and not torch.equal(*found[1])
+
+
 @pytest.mark.skipif(not torch.cuda.is_available(), reason="needs a GPU")
 def test_a_gpu_agrees_with_the_processor_within_bf16():
     images, network = fresh_images(8), make_network()

@@ -99,6 +99,9 @@ def test_an_agent_is_found_by_the_options_of_its_task_by_position_and_by_name(na
     load = functools.partial(pretrained.load, domain, task, agent=learner[0] if learner else None)
     for found in (load(*options.values()), load(**options)):
         assert found.card == agent.card
+    for kind in (np.float32, np.float64):
+        options = {name: kind(value) if isinstance(value, float) else value for name, value in options.items()}
+        assert load(**options).card == agent.card
     assert pretrained.load(domain, task, None).card["task"] == task, "None is no choice"
 
 

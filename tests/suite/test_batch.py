@@ -268,6 +268,21 @@ def test_what_cannot_be_saved_or_restored_is_refused():
         batch.restore(moment)
 
 
+def test_an_episode_that_differs_in_what_is_not_asked_is_another_one():
+    batch = load_batch("towers/direct_features", 2, random=0, variation=1.0)
+    batch.reset()
+    moment, hidden = batch.save(), batch.hidden
+    batch.restore(moment)
+    batch.reset(episode=0, hidden=hidden, nuisances=np.zeros((2, batch.task.num_nuisances)))
+    with pytest.raises(ValueError, match="other episodes"):
+        batch.restore(moment)
+
+
+def test_a_batch_has_no_floor_to_colour():
+    with pytest.raises(ValueError, match="^visualize_reward is True; give False to a batch, or load one environment$"):
+        suite.load_batch("which_is_heavier", "features", 2, {"visualize_reward": True})
+
+
 def test_a_view_is_of_an_environment_that_is_there():
     batch = load_batch("which_is_heavier/features", 2, random=0)
     batch.reset()

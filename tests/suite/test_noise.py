@@ -59,6 +59,11 @@ def test_readings_with_noise_have_no_bounds(domain, task):
         assert spec.shape == exact.observation_spec()[name].shape
 
 
+def test_an_answer_that_is_revealed_has_no_noise_and_keeps_its_bounds():
+    spec = suite.load("which_is_heavier", "features", {"noise": NOISE, "reveal": True}).observation_spec()["answer"]
+    assert (spec.minimum, spec.maximum) == (0, 1)
+
+
 def test_an_answer_leaves_the_last_observation_as_it_was(seed):
     environment = suite.load("towers", "fist_features", {"random": seed, "noise": NOISE})
     environment.reset()

@@ -48,6 +48,11 @@ def test_environment_seeds_are_the_same_in_another_process(seed):
     assert printed.strip() == str([suite.environment_seed(seed, i) for i in range(5)])
 
 
+def test_environment_seeds_are_the_same_one_by_one_and_together(seed):
+    together = seeding.environment_seeds(seed, np.arange(100))
+    assert together.tolist() == [suite.environment_seed(seed, index) for index in range(100)]
+
+
 def test_environment_seeds_accept_numpy_integers(seed):
     assert suite.environment_seed(np.int64(seed), np.int32(3)) == suite.environment_seed(seed, 3)
 

@@ -175,7 +175,6 @@ class A3C(core.Agent):
 
     def _end(self) -> None:
         """Kills whoever is left: what they have learned is in the variables."""
-        self.stop()
         if not self._workers:
             return
         self._whole = False

@@ -1,7 +1,6 @@
 """The belief network: what the answer may be, and what each interaction is worth."""
 
 from collections.abc import Mapping
-import contextlib
 from typing import Any
 
 from dm_env import specs
@@ -110,7 +109,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         self.torso.calibrate(first)
 
     def encode(self, observation):
-        with devices.autocast(self.device) if self.sees_images else contextlib.nullcontext():
+        with devices.autocast(self.device, self.sees_images):
             inputs, places = self.torso.distinct(observation)
         inputs = inputs.to(self.device).float()
         return inputs if places is None else inputs[places]

@@ -27,6 +27,8 @@ class Moment:
       environments: which they are, int64 [N].
       episodes: indices of the episodes, int64 [N].
       hidden: their hidden properties, [N, ...].
+      nuisances: what they differ in beside, float64 [N, number of nuisances].
+      substeps: physics steps in a control step, int64 [N].
       steps: control steps taken, int64 [N].
       touched: whether each held entity has moved, bool [N, number of held entities].
       observed: what was observed last, arrays [N, ...].
@@ -37,6 +39,8 @@ class Moment:
     environments: np.ndarray
     episodes: np.ndarray
     hidden: np.ndarray
+    nuisances: np.ndarray
+    substeps: np.ndarray
     steps: np.ndarray
     touched: np.ndarray
     observed: dict[str, np.ndarray]
@@ -58,6 +62,8 @@ class Moment:
             environments=tiled(self.environments) + shifts,
             episodes=tiled(self.episodes),
             hidden=tiled(self.hidden),
+            nuisances=tiled(self.nuisances),
+            substeps=tiled(self.substeps),
             steps=tiled(self.steps),
             touched=tiled(self.touched),
             observed={name: tiled(values) for name, values in self.observed.items()},
@@ -105,8 +111,7 @@ class BatchEnvironment:
         """Takes another seed: every environment starts its first episode next; `random` as in `task_kwargs`."""
         with self._guard:
             self._task.reseed(random)
-            seed = self._task.options.random
-            self._ledger.reseed(np.array([seeding.environment_seed(seed, i) for i in range(self.num_environments)]))
+            self._ledger.reseed(seeding.environment_seeds(self._task.options.random, self._everyone))
 
     # Specs are those of the single environment.
 
@@ -241,6 +246,8 @@ class BatchEnvironment:
                 environments=chosen.copy(),
                 episodes=self.episodes[chosen],
                 hidden=self._ledger.hidden[chosen],
+                nuisances=self._ledger.nuisances[chosen],
+                substeps=self._ledger.substeps[chosen],
                 steps=self._ledger.steps[chosen],
                 touched=self._ledger.touched[chosen],
                 observed={name: values[chosen] for name, values in self._observations.items()},
@@ -257,10 +264,11 @@ class BatchEnvironment:
         """
         with self._guard:
             chosen = self._choose(moment.environments)
-            are_same = np.array_equal(self.episodes[chosen], moment.episodes)
-            if not are_same or not np.array_equal(self._ledger.hidden[chosen], moment.hidden):
-                raise ValueError("environments have begun other episodes since this was saved; restore before that")
             ledger = self._ledger
+            now = self.episodes, ledger.hidden, ledger.nuisances, ledger.substeps
+            saved = moment.episodes, moment.hidden, moment.nuisances, moment.substeps
+            if not all(np.array_equal(values[chosen], then) for values, then in zip(now, saved, strict=True)):
+                raise ValueError("environments have begun other episodes since this was saved; restore before that")
             ledger.steps[chosen], ledger.touched[chosen], ledger.over[chosen] = moment.steps, moment.touched, False
             for name, values in moment.observed.items():
                 self._observations[name][chosen] = values

@@ -64,19 +64,16 @@ class Ledger:
           episode: index of the episode, the same in each; by default that of the one that is next.
 
         Raises:
-          ValueError: if `hidden` or `nuisances` do not have the shape and the kind of what would be drawn, or if
-            `hidden` is out of its range.
+          ValueError: if `hidden` or `nuisances` do not have the shape and the kind of what would be drawn, or are out
+            of their range.
         """
         indices = self.next_episodes[rows] if episode is None else np.full(len(rows), episode)
         drawn = self._task.draw(self.seeds[rows], indices)
         differing = self._draw_nuisances(rows, indices)
         if nuisances is not None:
-            differing = _checked("nuisances", nuisances, differing)
+            differing = _checked("nuisances", nuisances, differing, -1, 1)
         if hidden is not None:
-            drawn = _checked("hidden", hidden, drawn)
-            largest = self._task.largest_hidden
-            if not ((drawn >= 0) & (drawn <= largest)).all():
-                raise ValueError(f"hidden is {checks.shown(hidden)}; give values from 0 to {largest:g}")
+            drawn = _checked("hidden", hidden, drawn, 0, self._task.largest_hidden)
         answers, structures = self._task.answers(drawn), self._task.structures(drawn)
         if self._hidden is None:
             self._hidden = np.zeros((len(self.seeds), *drawn.shape[1:]), drawn.dtype)
@@ -111,11 +108,13 @@ class Ledger:
         return rewards, last
 
 
-def _checked(name: str, given: Any, drawn: np.ndarray) -> np.ndarray:
-    """Returns what is given in place of what would be drawn."""
+def _checked(name: str, given: Any, drawn: np.ndarray, least: float, largest: float) -> np.ndarray:
+    """Returns what is given in place of what would be drawn, with values from the least to the largest."""
     values = np.asarray(given)
     if values.shape != drawn.shape or not np.can_cast(values.dtype, drawn.dtype, "same_kind"):
         raise ValueError(f"{name} is {checks.shown(given)}; give an array of shape {drawn.shape}, {drawn.dtype}")
     if not np.isfinite(values).all():
         raise ValueError(f"{name} is {checks.shown(given)}; give finite numbers")
+    if not ((values >= least) & (values <= largest)).all():
+        raise ValueError(f"{name} is {checks.shown(given)}; give values from {least:g} to {largest:g}")
     return values.astype(drawn.dtype)

@@ -33,8 +33,13 @@ def environment_seed(seed: int, index: int) -> int:
     """
     seed = checks.integer("seed", seed, 0, LARGEST_SEED)
     index = checks.integer("index", index, 0, LARGEST_SEED)
+    return int(environment_seeds(seed, np.array([index]))[0])
+
+
+def environment_seeds(seed: int, indices: np.ndarray) -> np.ndarray:
+    """Returns `environment_seed` of several environments, int64 [N], of their indices, int64 [N]."""
     key = _mix(np.array([seed], np.uint64))
-    return int(_mix(key ^ np.array([index], np.uint64))[0] >> np.uint64(32))
+    return (_mix(key ^ indices.astype(np.uint64)) >> np.uint64(32)).astype(np.int64)
 
 
 def uniforms(seeds: np.ndarray, episodes: np.ndarray, count: int, attempt: int = 0) -> np.ndarray:

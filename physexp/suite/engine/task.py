@@ -265,8 +265,8 @@ class QuestionTask(composer.Task):
         described = {}
         for name, blank in self.blank_observations(1).items():
             array = specs.Array(blank.shape[1:], blank.dtype, name)
-            bounds = self.all_readings[name].bounds if name in self.all_readings and not self.options.noise else None
-            if bounds is not None:
+            bounds = self.all_readings[name].bounds if name in self.all_readings else None
+            if bounds is not None and not (self.options.noise and name in self._noisy):
                 array = specs.BoundedArray(array.shape, array.dtype, *bounds, name)
             described[name] = array
         return described

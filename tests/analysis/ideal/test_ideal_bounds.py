@@ -87,3 +87,5 @@ def test_circumstances_that_are_given_are_those_of_the_episode_that_draws_them(t
         expected, found = (batch.step(np.zeros(8, np.int64)) for batch in (drawn, given))
     with pytest.raises(ValueError, match=r"nuisances is .*; give an array of shape \(8, "):
         given.reset(nuisances=nuisances[:, :-1])
+    with pytest.raises(ValueError, match=r"nuisances is .*; give values from -1 to 1"):
+        given.reset(nuisances=nuisances + 2)

@@ -56,6 +56,17 @@ def iterate_until(updates, condition):
     pytest.fail("training has ended")
 
 
+def test_an_agent_that_has_ended_trains_again_from_what_it_is_given(tmp_path):
+    config = trainers.create(tmp_path / "run", frames=400, num_workers=1, envs_per_worker=2).config
+    agent = a3c.A3C(functools.partial(trainer.make_environment, config), config.agent, print)
+    before = agent.save()
+    for _ in range(2):
+        agent.restore(before)
+        for _ in agent.updates(poll_seconds=0.05):
+            pass
+        assert agent.frames >= 400
+
+
 def test_training_goes_on_without_a_stopped_worker_and_ends_without_it(tmp_path):
     lines = []
     agent, patience = make_agent(tmp_path, 2, lines.append)
