@@ -178,7 +178,7 @@ class BatchEnvironment:
 
         Raises:
           ValueError: for indices out of range, or if `hidden` or `nuisances` do not have the shape and the kind of what
-            would be drawn; all episodes stay as they were.
+            would be drawn, or are out of their range; all episodes stay as they were.
           RuntimeError: if the batch is closed, or another thread is using it.
         """
         with self._guard:

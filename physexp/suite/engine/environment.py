@@ -48,7 +48,7 @@ class Environment(composer.Environment):
           hidden: its hidden property, for analysis; by default it is drawn.
 
         Raises:
-          ValueError: if `hidden` does not have the shape and the kind of what would be drawn.
+          ValueError: if `hidden` does not have the shape and the kind of what would be drawn, or is out of its range.
           RuntimeError: if the environment is closed, or another thread is using it.
         """
         with self._guard:

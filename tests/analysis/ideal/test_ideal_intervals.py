@@ -211,7 +211,7 @@ def test_a_reading_that_cannot_be_is_refused():
         ({"prior": [[0.5, 0.5]]}, "probabilities"),
         ({"prior": [math.nan, 1.0]}, "probabilities"),
         ({"discount": 0}, "discount is 0"),
-        ({"discount": 1.1}, r"\(0, 1\]"),
+        ({"discount": 1.1}, r"from 0 to 1 but not 0"),
         ({"discount": math.nan}, "discount is nan"),
         ({"step_limit": 0}, "step_limit is 0"),
         ({"step_limit": 2.5}, "step_limit is 2.5"),

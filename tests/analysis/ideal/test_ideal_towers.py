@@ -251,7 +251,7 @@ def test_an_answer_must_come_within_the_time_limit():
     [
         ((-1.0, 0.9), "resolution is -1.0; give a finite number >= 0"),
         ((math.inf, 0.9), "resolution is inf; give a finite number >= 0"),
-        ((0.0, 0.0), "discount is 0.0; give a number in"),
+        ((0.0, 0.0), "discount is 0.0; give a number from 0 to 1 but not 0"),
         ((0.0, 0.9, "fame"), "objective is 'fame'; choose from return, time"),
     ],
 )

@@ -235,8 +235,8 @@ def test_each_mistake_is_counted_under_its_name():
     [
         ((0.5, 0.95), "difficulty is 0.5; give a number in .1, 1e.06."),
         ((math.nan, 0.95), "difficulty is nan; give a number in .1, 1e.06."),
-        ((3.0, 0.0), "discount is 0.0; give a number in"),
-        ((3.0, 1.5), "discount is 1.5; give a number in"),
+        ((3.0, 0.0), "discount is 0.0; give a number from 0 to 1 but not 0"),
+        ((3.0, 1.5), "discount is 1.5; give a number from 0 to 1 but not 0"),
         ((3.0, 0.95, 1), "num_things is 1; give an integer >= 2 and <= 20"),
     ],
 )
