@@ -6,6 +6,9 @@ import numbers
 import sys
 from typing import TypeGuard
 
+LARGEST = 2**63 - 1
+"""The largest integer that files, checkpoints and arrays can hold."""
+
 _LONGEST = 120  # Characters of a value in a message.
 
 
@@ -40,7 +43,7 @@ def is_number(value) -> TypeGuard[float]:
     return is_float(value) and math.isfinite(value)
 
 
-def integer(name: str, value, minimum: int, maximum: int) -> int:
+def integer(name: str, value, minimum: int, maximum: int = LARGEST) -> int:
     """Returns `value` as an int.
 
     Raises:

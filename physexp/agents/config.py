@@ -16,10 +16,8 @@ NOT_NEGATIVE: Check = functools.partial(checks.number, minimum=0)
 SHARE: Check = functools.partial(checks.between, minimum=0, maximum=1)
 BELOW_ONE: Check = functools.partial(checks.between, minimum=0, maximum=1, without=1)
 
-_LARGEST = 2**63 - 1  # The largest integer that a checkpoint can hold.
 
-
-def at_least(minimum: int, maximum: int = _LARGEST) -> Check:
+def at_least(minimum: int, maximum: int = checks.LARGEST) -> Check:
     """Returns a check for integers."""
     return functools.partial(checks.integer, minimum=minimum, maximum=maximum)
 

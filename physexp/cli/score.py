@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 import tyro
 from tyro.conf import Positional
 
-from physexp import extras
+from physexp import checks, extras
 from physexp.cli import printing
 from physexp.cli.arguments import OptionalFloat, OptionalInt, OptionalPath, Switch
 
@@ -89,10 +89,8 @@ class Score:
 
     def _made(self) -> dict:
         """Returns what was said of how the agent was made; raises ValueError for numbers that make no sense."""
-        from physexp import checks
-
         if self.frames is not None:
-            checks.integer("frames", self.frames, 0, 2**63 - 1)
+            checks.integer("frames", self.frames, 0)
         seconds = None if self.minutes is None else 60 * checks.number("minutes", self.minutes, 0, "min")
         said = {"algorithm": self.algorithm, "frames": self.frames, "seconds": seconds}
         return {name: value for name, value in said.items() if value is not None}

@@ -57,7 +57,7 @@ class TrainConfig:
     agent: agent_config.AgentConfig
 
     def __post_init__(self):
-        object.__setattr__(self, "replay_every", checks.integer("replay_every", self.replay_every, 0, 2**63 - 1))
+        object.__setattr__(self, "replay_every", checks.integer("replay_every", self.replay_every, 0))
         if not isinstance(self.task_kwargs, Mapping):
             raise ValueError(f"task_kwargs is {self.task_kwargs!r}; give a dictionary")
         task_kwargs = {name: _as_python(name, value) for name, value in self.task_kwargs.items()}
