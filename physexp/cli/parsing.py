@@ -105,7 +105,7 @@ class _Command:
         except ValueError:
             if not set(arguments) & set(_HELP):
                 raise
-            self.domains, self.options = [], options_lib.NoOptions
+            self._words, self.domains, self.options = [], [], options_lib.NoOptions
 
     def kinds(self) -> tuple[Any, ...]:
         """Returns what tyro chooses from, a type for each command; `train` has the defaults of its task and agent."""

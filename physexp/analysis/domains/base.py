@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 import dataclasses
+import functools
 from typing import TYPE_CHECKING, Any
 
 from physexp.agents import config as agent_config
@@ -75,9 +76,8 @@ class Domain:
     Attributes:
       name: the domain's name, as `suite.load` takes it.
       skill: what it asks of an agent beyond others, in a few words.
-      discount: the agents' gamma.
-      presets: by task and algorithm, the configuration to train with where nothing else is asked for. A task or an
-        algorithm that is not there has the algorithm's defaults, with the domain's discount.
+      presets: by task and algorithm, the configuration to train with where nothing else is asked for, but for the
+        discount, which is the domain's. A task or an algorithm that is not there has the algorithm's defaults.
       labels: by task, the short name of a condition, in which `{option}` stands for an option's value.
       targets: by the names of the agents that come with the package, what each must reach: a figure of its evaluation
         and the least value.
@@ -90,7 +90,6 @@ class Domain:
 
     name: str
     skill: str = ""
-    discount: float = agent_config.AgentConfig.discount
     presets: Mapping[str, Mapping[str, agent_config.AgentConfig]] = dataclasses.field(default_factory=dict)
     labels: Mapping[str, str] = dataclasses.field(default_factory=dict)
     targets: Mapping[str, tuple[str, float]] = dataclasses.field(default_factory=dict)
@@ -98,6 +97,13 @@ class Domain:
     observer: Mapping[str, Mapping[str, Any]] = dataclasses.field(default_factory=dict)
     baselines: "Mapping[str, Mapping[str, Callable[[], core.Actor]]]" = dataclasses.field(default_factory=dict)
     hidden_columns: "Callable[[np.ndarray], Mapping[str, np.ndarray]]" = nothing
+
+    @functools.cached_property
+    def discount(self) -> float:
+        """Gamma of the returns that are scored, as the domain's tasks have it."""
+        from physexp import suite
+
+        return suite.load_task(self.name, suite.TASKS_BY_DOMAIN[self.name][0]).discount
 
     def ideal_with(self, task_kwargs: Mapping[str, Any]) -> Ideal | None:
         """Returns how to find the ideal experimenter of tasks with these options.
@@ -124,7 +130,6 @@ def ppo_like(preset: a3c.A3CConfig, **changes) -> ppo.PPOConfig:
 # Where readings are bits, rewards tell of the last of several only, so policies must stay broad until those are used:
 # much entropy at first, and many episodes to an update.
 A3C_OF_BITS = a3c.A3CConfig(
-    discount=0.95,
     frames=3_000_000,
     envs_per_worker=128,
     learning_rate=3e-3,

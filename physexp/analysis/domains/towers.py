@@ -13,12 +13,10 @@ if TYPE_CHECKING:
     from physexp.agents import core
 
 _NAME = "towers"
-_DISCOUNT = 0.98
 _NUM_LABELS = 5
 
 # Simulation is what a tower costs, not learning: small updates and many of them. Blocks move by their own size.
 _FEATURES = a3c.A3CConfig(
-    discount=_DISCOUNT,
     envs_per_worker=32,
     learning_rate=3e-3,
     trace=0.5,
@@ -166,7 +164,7 @@ def _num_interactions(task: str) -> int:
 @functools.cache
 def _seen(task: str):
     """Returns the ideal experimenter of a task without variation, to whom a millimetre is a difference."""
-    return _solve(task, {}, _DISCOUNT, resolution=_FINE)
+    return _solve(task, {}, DOMAIN.discount, resolution=_FINE)
 
 
 def _lookup(task: str) -> "core.Actor":
@@ -182,7 +180,6 @@ _BASELINES = {
 DOMAIN = base.Domain(
     name=_NAME,
     skill="look for motion",
-    discount=_DISCOUNT,
     presets={task: {"a3c": _A3C[task], "ppo": _PPO[task]} for task in _A3C},
     labels={"direct_features": "D-F", "direct_pixels": "D-P", "fist_features": "F-F", "fist_pixels": "F-P"},
     targets={

@@ -80,7 +80,7 @@ def question(domain: str, task: str) -> Question:
         label_names=tuple(played.label_names),
         action_names=tuple(played.action_names),
         step_limit=played.rules.step_limit,
-        discount=domains.find(domain).discount,
+        discount=played.discount,
     )
 
 

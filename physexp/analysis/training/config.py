@@ -29,10 +29,15 @@ _OF_FORMAT_1 = ("difficulty", "control_timestep")  # Fields that now are in `tas
 
 
 def preset(domain: str = "", task: str = "", *, algorithm: str = DEFAULT_ALGORITHM) -> agent_config.AgentConfig:
-    """Returns the configuration to train a task's agent with; without a preset, the algorithm's defaults."""
+    """Returns the configuration to train a task's agent with; without a preset, the algorithm's defaults.
+
+    Its discount is the domain's; without a domain, the algorithm's default.
+    """
+    if not domain:
+        return ALGORITHMS[algorithm]()
     known = domains.find(domain)
-    found = known.presets.get(task, {}).get(algorithm)
-    return found or ALGORITHMS[algorithm](discount=known.discount)
+    usual = known.presets.get(task, {}).get(algorithm) or ALGORITHMS[algorithm]()
+    return usual.replace(discount=known.discount)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

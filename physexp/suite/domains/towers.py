@@ -105,6 +105,7 @@ class Towers(task.QuestionTask):
 
     options: Options
     question = "How many rigid bodies is the tower made of?"
+    discount = 0.98
     num_structures = len(tower.PATTERNS)
 
     def __init__(self, options: Options, actuator, sense: senses.Sense):

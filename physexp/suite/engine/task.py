@@ -50,10 +50,12 @@ class QuestionTask(composer.Task):
       rules: how actions are read and judged.
       controls: what each interaction action sends to the actuators, float64 [num_interactions, nu].
       apparatus: the compiled model in use; the environment sets it.
+      measured: the sensors' values of which the last observation was made, float64 [1, nsensordata].
       num_divergences: episodes that ended because the simulation diverged.
     """
 
     apparatus: apparatus_lib.Apparatus
+    measured: np.ndarray
     options: options_lib.Options
 
     def __init__(self, arena: composer.Arena, options: options_lib.Options, sense: senses_lib.Sense):
@@ -94,6 +96,9 @@ class QuestionTask(composer.Task):
 
     question: str
     """What is asked, in words."""
+
+    discount = 0.95
+    """Gamma of the returns that are scored; the environment's own discount is 1 until an episode's last step."""
 
     num_structures = 1
     """How many compiled models the hidden property chooses from."""
@@ -367,6 +372,7 @@ class QuestionTask(composer.Task):
         self._diverged = True
 
     def _look(self, state) -> None:
+        self.measured = state["sensordata"].copy()
         self.look(self.apparatus, state, self._ledger.touched, self._starts, _ROW, self._seen)
         self.add_noise(self._ledger, _ROW, self._seen)
 
@@ -418,7 +424,7 @@ class QuestionTask(composer.Task):
         if not (self.answered or self._diverged):
             self._ledger.touched |= self.apparatus.moved(data.qpos[None], self._starts.qpos)
             self._look({field: getattr(data, field)[None] for field in self.sense.fields})
-            self.apparatus.indicate(data.geom_xpos[None], data.sensordata[None])  # For `render`.
+            self.apparatus.indicate(data.geom_xpos[None], data.sensordata[None])  # For `physics.render`.
         rewards, last = self._ledger.judge(_ROW, np.array([self._action]))
         self._reward, self._last = float(rewards[0]), bool(last[0])
         if self.options.visualize_reward and self._last:

@@ -69,12 +69,13 @@ def test_options_that_json_or_a_name_could_not_keep_are_refused(wrong):
 @pytest.mark.parametrize("names", suite.ALL_TASKS, ids=["/".join(names) for names in suite.ALL_TASKS])
 def test_a_preset_is_of_the_algorithm_and_has_its_domain_s_discount(names, algorithm):
     preset = config_lib.preset(*names, algorithm=algorithm)
-    assert preset.algorithm == algorithm and preset.discount == domains.find(names[0]).discount
+    assert preset.algorithm == algorithm and preset.discount == suite.load_task(*names).discount
 
 
 def test_a_task_with_a_preset_of_its_own_has_that_and_another_one_the_defaults():
     fist = config_lib.preset("towers", "fist_features", algorithm="ppo")
-    assert fist == domains.find("towers").presets["fist_features"]["ppo"] and fist.action_prior
+    preset = domains.find("towers").presets["fist_features"]["ppo"]
+    assert fist == preset.replace(discount=0.98) and fist.action_prior
     defaults = config_lib.preset("threshold", "features", algorithm="belief")
     assert "belief" not in domains.find("threshold").presets.get("features", {})
     assert defaults.replace(discount=0.9) == config_lib.ALGORITHMS["belief"](discount=0.9)
@@ -94,7 +95,7 @@ def test_no_preset_is_of_a_task_that_there_is_not():
 
 def test_without_a_preset_an_agent_has_its_defaults_at_the_domain_s_discount():
     assert config_lib.preset("towers", "feet") == a3c.A3CConfig(discount=0.98)
-    assert config_lib.preset("unheard of", "features") == a3c.A3CConfig()
+    assert config_lib.preset() == a3c.A3CConfig()
 
 
 def test_a_condition_has_the_paper_s_name_or_else_those_of_domain_and_task():
