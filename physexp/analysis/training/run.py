@@ -17,7 +17,7 @@ In it are::
 The folder may be a symbolic link; what is in it may not, since it is written to and removed.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 import contextlib
 import functools
 import itertools
@@ -31,9 +31,9 @@ import pyarrow
 
 from physexp import suite
 from physexp.agents import files
-from physexp.analysis.data import provenance, tables
+from physexp.analysis.data import lock, provenance, tables
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import lock, metrics
+from physexp.analysis.training import metrics
 from physexp.suite.engine import gl
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ class Run:
         """Names a folder, in which there need be nothing yet."""
         self.path = Path(path)
         self._metrics = metrics.MetricsFile(self.path / "metrics.csv")
-        self._lock = lock.FolderLock(self.path)
+        self._lock_is_in_place: Callable[[], bool] | None = None
 
     @property
     def config(self) -> config_lib.TrainConfig:
@@ -105,26 +105,33 @@ class Run:
 
     @contextlib.contextmanager
     def locked(self) -> Iterator[None]:
-        """Returns a context in which no other trainer works in the folder; see `FolderLock.held`.
+        """Returns a context in which no other trainer works in the folder; see `lock.locked`. It may be nested.
 
         Raises:
           OSError: if the folder cannot be made or written to.
           ValueError: if another trainer is at work in it, or if it or a folder in it is none.
         """
-        with self._lock.held():
-            for name in _FOLDERS:
-                files.refuse_link(self.path / name)
-            for litter in (self.path / "replays").glob(".replay-*"):  # Of a trainer that was killed.
-                shutil.rmtree(litter)
+        if self._lock_is_in_place is not None:
             yield
+            return
+        busy = f"another process is training in {self.path}; wait for it or choose another"
+        with lock.locked(self.path, busy) as self._lock_is_in_place:
+            try:
+                for name in _FOLDERS:
+                    files.refuse_link(self.path / name)
+                for litter in (self.path / "replays").glob(".replay-*"):  # Of a trainer that was killed.
+                    shutil.rmtree(litter)
+                yield
+            finally:
+                self._lock_is_in_place = None
 
     def check_lock(self) -> None:
-        """Makes sure, within `locked`, that nobody else can be writing here by now.
+        """Makes sure, within `locked`, that no other process can be writing here by now.
 
         Raises:
-          RuntimeError: if somebody has removed the lock file, or moved the folder.
+          RuntimeError: if the lock file was removed, or the folder was moved.
         """
-        if not self._lock.is_held:
+        if not self._is_locked():
             raise RuntimeError(
                 f"training stopped: the lock file {self.path / '.lock'} was removed, or the folder moved; its last "
                 "checkpoint is as it was: --resume it where it is now"
@@ -154,8 +161,11 @@ class Run:
 
     def discard(self) -> None:
         """Takes back, within `locked`, what `create` wrote, unless something has been recorded since."""
-        if not self._recorded() and self._lock.is_held:
+        if not self._recorded() and self._is_locked():
             (self.path / "config.json").unlink(missing_ok=True)
+
+    def _is_locked(self) -> bool:
+        return self._lock_is_in_place is not None and self._lock_is_in_place()
 
     def check_new(self) -> None:
         """Raises ValueError if the folder holds a run that has come to a checkpoint."""
