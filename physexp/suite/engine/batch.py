@@ -157,6 +157,11 @@ class BatchEnvironment:
         """Indices of the current episodes, int64 [B]; -1 before the first."""
         return self._ledger.next_episodes - 1
 
+    @property
+    def steps(self) -> np.ndarray:
+        """Control steps taken in the current episodes, int64 [B]."""
+        return self._ledger.steps.copy()
+
     def reset(
         self,
         environments: np.ndarray | None = None,

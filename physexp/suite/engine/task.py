@@ -249,6 +249,11 @@ class QuestionTask(composer.Task):
         return self.next_episode - 1
 
     @property
+    def steps(self) -> int:
+        """Control steps taken in the current episode."""
+        return int(self._ledger.steps[0])
+
+    @property
     def structure(self) -> int:
         """The compiled model that the current episode needs."""
         return int(self._ledger.structures[0])
