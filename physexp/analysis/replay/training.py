@@ -14,7 +14,7 @@ SEED = 4_000_003  # Of the environment, apart from those of training, of evaluat
 
 
 class Writer:
-    """Writes a replay into a run's folder with a checkpoint, once enough steps have passed since the replay before.
+    """Writes a replay into a run's folder after a checkpoint, once enough steps have passed since the replay before.
 
     It is a `recorder.OnCheckpoint`.
     """
@@ -45,6 +45,7 @@ class Writer:
         environment.close()
         network.load_state_dict(variables)
         title = f"{self._config.name} after {frames:,} steps"
+        self._folder.mkdir(exist_ok=True)
         path = self._folder / f"{frames:015d}.rrd"
         writing.write(path, [lambda: [recording.reenact(network, self._config, SEED, 0, None, title)]])
 
