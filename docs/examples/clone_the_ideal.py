@@ -66,7 +66,7 @@ def train(folder, task, updates=1_000, batch_size=256, learning_rate=3e-3):
     """Trains a clone of who played a task, DOMAIN/TASK, in an exported folder, and keeps it."""
     torch.manual_seed(0)
     torch.set_num_threads(1)
-    facts = json.loads((Path(folder) / "export.json").read_text())["tasks"][task]
+    facts = json.loads((Path(folder) / "export.json").read_text(encoding="utf-8"))["tasks"][task]
     num_actions = len(facts["action_names"])
     seen, actions = read(Path(folder) / task.replace("/", "-") / "steps.parquet")
     before = functional.pad(actions.clamp(min=0), (1, -1), value=num_actions)

@@ -26,7 +26,7 @@ This is what has happened:"""
     def policy(observation, story):
         story = [*(story or []), "You see " + "; ".join(f"{name} {value}" for name, value in observation.items()) + "."]
         prompt = "\n".join([task, *story, "Which action do you take? End with its number."])
-        reply = subprocess.run(program, input=prompt, stdout=subprocess.PIPE, text=True, check=True).stdout
+        reply = subprocess.run(program, input=prompt, stdout=subprocess.PIPE, encoding="utf-8", check=True).stdout
         action = int(re.findall(r"\d+", reply)[-1])
         return action, [*story, f"You do: {question.action_names[action]}."]
 

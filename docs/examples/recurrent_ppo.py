@@ -63,7 +63,7 @@ class Watch(callbacks.BaseCallback):
         self.model.save(self._path)
         curve = list(self._curve.values())
         facts = self._made_by | curve[-1] | {"curve": curve}
-        self._path.with_suffix(".json").write_text(json.dumps(facts, indent=1) + "\n")
+        self._path.with_suffix(".json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
 
 
 def make(asked: protocol.Question):

@@ -44,7 +44,7 @@ def train(task: tyro.conf.Positional[str], frames: int = 300_000, minutes: float
         **curve[-1],
         "curve": curve,
     }
-    path_of(asked).with_suffix(".json").write_text(json.dumps(facts, indent=1) + "\n")
+    path_of(asked).with_suffix(".json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
 
 
 def learn(learner, batch, frames, discount):

@@ -43,4 +43,4 @@ def _has_fast_bfloat16(device_type: str) -> bool:
     if device_type == "cuda":
         return torch.cuda.is_bf16_supported(including_emulation=False)
     cpuinfo = Path("/proc/cpuinfo")
-    return cpuinfo.exists() and " amx_bf16 " in cpuinfo.read_text()
+    return cpuinfo.exists() and " amx_bf16 " in cpuinfo.read_text(encoding="utf-8")

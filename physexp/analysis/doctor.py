@@ -150,7 +150,7 @@ def _available_memory() -> float:
     """Returns the memory that programs can have, GiB; on Linux with what caches would give back."""
     path = Path("/proc/meminfo")
     if path.exists():
-        kibibytes = dict(line.split()[:2] for line in path.read_text().splitlines())
+        kibibytes = dict(line.split()[:2] for line in path.read_text(encoding="utf-8").splitlines())
         if "MemAvailable:" in kibibytes:
             return int(kibibytes["MemAvailable:"]) / 2**20
     return os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") / 2**30

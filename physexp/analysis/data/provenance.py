@@ -31,7 +31,7 @@ def commit() -> str:
         )
         if ours.returncode:
             return "unknown"
-        found = subprocess.run([*git, "rev-parse", "HEAD"], capture_output=True, text=True, timeout=_GIT_SECONDS)
+        found = subprocess.run([*git, "rev-parse", "HEAD"], capture_output=True, encoding="utf-8", timeout=_GIT_SECONDS)
         if found.returncode:
             return "unknown"
         changed = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", "."], timeout=_GIT_SECONDS).returncode

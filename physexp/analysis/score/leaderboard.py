@@ -98,7 +98,7 @@ def write(results: Path) -> list[Path]:
     files.write_atomically(page, markdown(rows).encode())
     with figures.style():
         written = [page, *figures.save(draw(rows), results / "figures", NAME)]
-    text = readme.read_text() if readme.exists() else ""
+    text = readme.read_text(encoding="utf-8") if readme.exists() else ""
     if MARKS[0] in text:
         files.write_atomically(readme, with_part(text, short(rows)).encode())
         written.append(readme)
