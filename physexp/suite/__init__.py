@@ -5,7 +5,7 @@ import inspect
 
 from physexp.suite.engine import gl
 
-gl.choose_backend()
+gl.prepare()
 
 from physexp import checks
 from physexp.suite.domains import DOMAINS as _DOMAINS

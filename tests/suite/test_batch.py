@@ -2,7 +2,7 @@
 
 import dm_env
 from episodes import random_actions
-from every_task import FEATURES, NOISY, VARYING, every_feature_task, load, load_batch
+from every_task import FEATURES, NAMES, NOISY, VARYING, every_feature_task, load, load_batch
 import numpy as np
 import pytest
 
@@ -295,10 +295,12 @@ def test_a_view_is_of_an_environment_that_is_there():
         batch.view("qpos", 0)
 
 
-@pytest.mark.parametrize("name", [name for name in VARYING if name.endswith("features")])
-def test_a_batch_draws_for_people_what_its_single_environments_draw(seed, name):
+@pytest.mark.parametrize("name, variation", [*((name, 0.0) for name in NAMES), *((name, 1.0) for name in VARYING)])
+def test_a_batch_draws_for_people_what_its_single_environments_draw(seed, name, variation):
+    """After resets, steps, an answer, and a step back to where an episode was saved."""
     rng = np.random.default_rng(seed)
-    batch, singles = _load_both(name, seed, 2, variation=1.0)
+    batch, singles = _load_both(name, seed, 4, variation=variation)
+    num_interactions = batch.task.num_interactions
 
     def draw():
         images = batch.render()
@@ -308,16 +310,24 @@ def test_a_batch_draws_for_people_what_its_single_environments_draw(seed, name):
     batch.reset()
     for single in singles:
         single.reset()
-    at_rest = draw()
-    moment = batch.save()
-    for actions in rng.integers(batch.task.num_interactions, size=(2, 2)):
+    drawn = [draw()]
+    moments = [batch.save()]
+    for actions in np.arange(8).reshape(2, 4) % num_interactions:  # Each environment takes others.
         batch.step(actions)
         for single, action in zip(singles, actions, strict=True):
             single.step(action)
-    later = draw()
-    assert not np.array_equal(later, at_rest)
-    batch.restore(moment)
-    np.testing.assert_array_equal(batch.render(), at_rest)
+        drawn.append(draw())
+        moments.append(batch.save())
+    assert all((drawn[0] != images).any(axis=(1, 2, 3)).any() for images in drawn[1:])
+    actions = rng.integers(num_interactions, size=4)
+    actions[0] = num_interactions
+    batch.step(actions)
+    for single, action in zip(singles, actions, strict=True):
+        single.step(action)
+    draw()
+    for moment, images in zip(moments, drawn, strict=True):
+        batch.restore(moment)
+        np.testing.assert_array_equal(batch.render(), images)
     batch.close()
     for single in singles:
         single.close()

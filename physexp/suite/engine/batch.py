@@ -32,7 +32,8 @@ class Moment:
       steps: control steps taken, int64 [N].
       touched: whether each held entity has moved, bool [N, number of held entities].
       observed: what was observed last, arrays [N, ...].
-      states: of the simulations, those of each structure together, float64 [number of its environments, ...].
+      states: of the simulations and their sensors, those of each structure together, float64 [number of its
+        environments, ...].
       coordinates: of those, the positions and velocities (`qpos` and `qvel`) alone.
     """
 
@@ -417,15 +418,13 @@ class _Group:
         self._batch = Batch(apparatus.model, size, num_threads)
         self._batch.reset(stage=mujoco.mjtStage.mjSTAGE_NONE)
         self._rest = self._batch.state[0].copy()
-        self._is_at_rest = np.ones(size, bool)
         # Where all episodes start alike, one start is enough, and so is one look at it.
         self._are_alike = not task.options.variation
         nowhere = np.zeros(size, np.intp)
         self._starts = apparatus.start.repeated(size) if self._are_alike else apparatus.start.of(nowhere)
-        self._qpos, self._control, self._sensordata = (
-            self._batch.bind(name) for name in ("qpos", "ctrl", "sensordata")
-        )
+        self._qpos, self._control = (self._batch.bind(name) for name in ("qpos", "ctrl"))
         self._looked_at = {field: self._batch.bind(field) for field in task.sense.fields}
+        self._measured = np.zeros((size, apparatus.model.nsensordata))  # Of which the last observations were made.
 
     @functools.cached_property
     def _first_observation(self) -> dict[str, np.ndarray]:
@@ -436,6 +435,7 @@ class _Group:
 
     def look_first(self, rows, observations) -> None:
         """Writes what is observed at the start of episodes; as `look`."""
+        self._measured[rows] = self._starts.shown["sensordata"][rows]
         if self._are_alike:
             for name, value in self._first_observation.items():
                 observations[name][rows] = value
@@ -456,12 +456,12 @@ class _Group:
           observations: arrays with a leading axis that `rows` index; written to.
         """
         state = {field: values[rows] for field, values in self._looked_at.items()}
+        self._measured[rows] = state["sensordata"]
         self._task.look(self.apparatus, state, touched, self._starts, rows, observations)
 
     def reset(self, rows, hidden, nuisances) -> None:
         self._batch.state[rows] = self._rest
         self._control[rows] = 0
-        self._is_at_rest[rows] = True
         fields, starts = self._task.begin(self.apparatus, hidden, nuisances)
         for field, addresses, values in fields:
             self._batch.expand(field)[rows[:, None], addresses] = values
@@ -470,8 +470,8 @@ class _Group:
             self._starts.put(rows, starts)
 
     def save(self, rows) -> np.ndarray:
-        """Returns the states of rows, float64 [number of rows, ...]."""
-        return self._batch.state[rows]
+        """Returns the states of rows and what was measured there, float64 [number of rows, ...]."""
+        return np.concatenate([self._batch.state[rows], self._measured[rows]], axis=1)
 
     def coordinates(self, rows) -> np.ndarray:
         """Returns positions and velocities, float64 [number of rows, nq + nv]."""
@@ -479,12 +479,10 @@ class _Group:
 
     def restore(self, rows, states) -> None:
         """Takes up what `save` returned."""
-        self._batch.state[rows] = states
-        self._is_at_rest[rows] = False
+        self._batch.state[rows], self._measured[rows] = np.split(states, [len(self._rest)], axis=1)
 
     def step(self, rows, actions, substeps) -> np.ndarray:
         """Simulates a control step, which has so many physics steps in each row; returns the rows that diverged."""
-        self._is_at_rest[rows] = False
         controls = self._task.drive(actions, self._qpos[rows], self._control[rows])
         self._control[rows] = controls * self._starts.strength[rows]
         self._batch.warning[rows] = 0  # A row that diverges is reset by MuJoCo, its counters too.
@@ -499,14 +497,13 @@ class _Group:
     def poses(self, rows) -> tuple[np.ndarray, np.ndarray]:
         """Returns where the geoms are: positions, m, and rotations, [number of rows, ngeom, 3 and 9].
 
-        They are computed anew, since a row that has been reset or restored shows what it showed before.
+        They are computed anew, since a row that has been reset or restored shows what it showed before. What sensors of
+        other stages measure is not, and is remembered.
         """
         fields = [self._batch.bind(field) for field in ("geom_xpos", "geom_xmat")]  # Written to by what is called next.
         self._batch.forward(ids=rows, stage=mujoco.mjtStage.mjSTAGE_POS)
         positions, rotations = (values[rows].reshape(len(rows), self.apparatus.model.ngeom, -1) for values in fields)
-        at_rest = self._is_at_rest[rows, None]  # Where nothing is measured yet.
-        first = self._starts.shown["sensordata"][rows]
-        self.apparatus.indicate(positions, np.where(at_rest, first, self._sensordata[rows]))
+        self.apparatus.indicate(positions, self._measured[rows])
         return positions, rotations
 
     def view(self, field) -> np.ndarray:

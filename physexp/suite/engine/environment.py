@@ -35,6 +35,7 @@ class Environment(composer.Environment):
         self._guard = guard.Guard("environment")
         self._flat = checks.flag("flat_observation", flat_observation)
         raises = checks.flag("raise_exception_on_physics_error", raise_exception_on_physics_error)
+        self._renderer: rendering.Renderer | None = None  # Of images for people.
         self._compiled = {}  # Apparatus and physics of each structure used so far.
         self._current = None  # The structure in use, and the physics steps in a control step.
         super().__init__(
@@ -86,8 +87,15 @@ class Environment(composer.Environment):
         """
         with self._guard:
             self._check_open()
-            size = rendering.SIZE_FOR_PEOPLE
-            return self.physics.render(size, size, camera_id="observer")
+            size, apparatus, physics = rendering.SIZE_FOR_PEOPLE, self._task.apparatus, self._physics
+            if self._renderer is None:  # All structures of a task have the same geoms: one renderer draws them all.
+                self._renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms, size=size)
+            positions = physics.data.geom_xpos[None].copy()
+            apparatus.indicate(positions, self._task.measured)
+            image = np.zeros((size, size, 3), np.uint8)
+            poses = positions, physics.data.geom_xmat[None]
+            self._renderer.render(*poses, np.zeros(1, np.intp), image[None], colors=physics.model.geom_rgba)
+            return image
 
     def close(self) -> None:
         """Frees the simulations. Closing twice does nothing.
@@ -100,6 +108,8 @@ class Environment(composer.Environment):
                 physics.free()
             self._compiled = {}
             self._task.close()
+            if self._renderer is not None:
+                self._renderer.close()
             self._physics = self._physics_proxy = None
 
     def _flattened(self, timestep: dm_env.TimeStep) -> dm_env.TimeStep:

@@ -1,5 +1,11 @@
-"""Chooses the GL backend, makes its off-screen contexts, and names the renderer that draws."""
+"""Chooses the GL backend, and has one thread make, use and free its off-screen contexts.
 
+A GL context is current to a thread. All contexts of this package belong to a thread of their own, so that no drawing of
+ours changes which context is current to the caller, and no context of the caller's, of whatever library, changes ours.
+"""
+
+from collections.abc import Callable
+from concurrent import futures
 import contextlib
 import ctypes
 import ctypes.util
@@ -8,32 +14,61 @@ import glob
 import importlib
 import importlib.util
 import os
+import queue
+import sys
+import threading
+from typing import Any
 import warnings
 
 DEBIAN_PACKAGES = "Debian's libegl1 and libgl1-mesa-dri, or libosmesa6"
 
-
 _PLATFORM_DEVICE = 0x313F  # EGL_PLATFORM_DEVICE_EXT
-_OFF = ("disable", "disabled", "off", "false", "0")  # What MuJoCo understands as no GL.
+_OFF = ("disable", "disabled", "off", "false", "0")  # Words that MuJoCo takes for no GL.
+_WINDOWS = ("glfw", "enable", "enabled", "on", "true", "1")  # Words that MuJoCo takes for the window system's GL.
 _SAID = "PHYSEXP_SOFTWARE_RENDERING_SAID"  # Workers inherit it: one of all processes says it.
 _SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software rasterizer")
+
+
+def prepare() -> None:
+    """Chooses the backend, and imports mujoco and dm_control with it, or without GL where it does not work.
+
+    They look at the environment variables of GL once, when they are imported. A variable that they cannot follow is a
+    fault of what draws alone: `make_context` names it.
+    """
+    backend = choose_backend()
+    try:
+        _import_simulators()
+    except Exception:  # Of whatever kind the driver, PyOpenGL or MuJoCo raises.
+        os.environ["MUJOCO_GL"] = "disable"
+        try:
+            _import_simulators()
+        finally:
+            os.environ["MUJOCO_GL"] = backend
+
+
+def _import_simulators() -> None:
+    for module in ("mujoco", "dm_control._render"):
+        importlib.import_module(module)
 
 
 def choose_backend() -> str:
     """Sets MUJOCO_GL, unless the user has: EGL if it works, else OSMesa if it is installed, else `disable`; returns it.
 
-    To be called before mujoco and dm_control are imported, which look at it once. Feature tasks need no backend.
+    Of two that work, PYOPENGL_PLATFORM, where it is set, decides.
     """
     # Mesa's software renderer hands small images to threads at a greater cost than drawing them.
     os.environ.setdefault("LP_NUM_THREADS", "0")
     _load_triton()
-    if not os.environ.get("MUJOCO_GL"):
+    backend = os.environ.get("MUJOCO_GL", "").lower().strip()  # As MuJoCo reads it.
+    if not backend:
         egl, osmesa = (ctypes.util.find_library(name) for name in ("EGL", "OSMesa"))
-        if egl and _egl_works(egl):
-            os.environ["MUJOCO_GL"] = "egl"
+        platform = os.environ.get("PYOPENGL_PLATFORM")
+        if egl and platform in (None, "egl") and _egl_works(egl):
+            backend = "egl"
         else:
-            os.environ["MUJOCO_GL"] = "osmesa" if osmesa else "disable"
-    return os.environ["MUJOCO_GL"].lower().strip()  # As MuJoCo reads it.
+            backend = "osmesa" if osmesa and platform in (None, "osmesa") else "disable"
+    os.environ["MUJOCO_GL"] = backend
+    return backend
 
 
 @functools.cache
@@ -71,55 +106,90 @@ def _egl_works(library: str) -> bool:
     return any(initialize(display(_PLATFORM_DEVICE, device, None), None, None) for device in devices[: count.value])
 
 
+@functools.cache
+def _jobs(process: int) -> queue.SimpleQueue:
+    """Starts the drawing thread of a process, and returns the queue of its jobs: futures, and functions to call."""
+    jobs: queue.SimpleQueue = queue.SimpleQueue()
+
+    def work() -> None:
+        while True:
+            _do(*jobs.get())
+
+    threading.Thread(target=work, name="physexp drawing", daemon=True).start()  # It outlives the hooks of `atexit`.
+    return jobs
+
+
+def _do(future: futures.Future, function: Callable[[], Any]) -> None:
+    try:
+        future.set_result(function())
+    except BaseException as error:  # It is raised in the thread that waits.
+        future.set_exception(error)
+
+
+def later(function: Callable[[], Any]) -> futures.Future:
+    """Has the drawing thread of this process call a function after all that it was given before."""
+    future: futures.Future = futures.Future()
+    _jobs(os.getpid()).put((future, function))
+    return future
+
+
+def draw(function: Callable[[], Any]) -> Any:
+    """Returns or raises what a function does in the drawing thread: the only one that may touch a GL context."""
+    return later(function).result()
+
+
 def make_context(size: int):
-    """Makes an off-screen GL context for images of `size` by `size` pixels.
+    """Makes an off-screen GL context for images of `size` by `size` pixels; for the drawing thread.
 
     Raises:
-      RuntimeError: if no GL backend works; it says what to install.
+      RuntimeError: if no GL backend works; it names the environment variables, and says what to do.
     """
     backend = choose_backend()
-    if backend in _OFF:
-        raise RuntimeError(f"no GL library is here to draw pixels with; install {DEBIAN_PACKAGES} (features need none)")
     try:
-        if backend not in ("egl", "osmesa") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
-            raise RuntimeError("there is no display")  # glfw itself says so by ending the process.
         # Not mujoco.GLContext, which is what MUJOCO_GL said when mujoco was imported, perhaps before this package.
-        module = backend if backend in ("egl", "osmesa") else "glfw"
-        return importlib.import_module(f"mujoco.{module}").GLContext(size, size)
+        return importlib.import_module(f"mujoco.{_module(backend)}").GLContext(size, size)
     except Exception as error:  # Whatever the driver raises is what the user wants to read.
+        platform = os.environ.get("PYOPENGL_PLATFORM", backend)
+        variables = {"MUJOCO_GL": backend} | ({"PYOPENGL_PLATFORM": platform} if platform != backend else {})
+        if device := os.environ.get("MUJOCO_EGL_DEVICE_ID"):
+            variables["MUJOCO_EGL_DEVICE_ID"] = device
+        settings = " and ".join(f"{name}={value}" for name, value in variables.items())
         why = " ".join(str(error).split())  # In one line.
         raise RuntimeError(
-            f"the GL backend {backend} (MUJOCO_GL) does not work here: {why}; install {DEBIAN_PACKAGES}, "
-            "or set MUJOCO_GL to egl, osmesa or glfw"
+            f"no pixels can be drawn with {settings}: {why}; unset {' and '.join(variables)}, "
+            f"and install {DEBIAN_PACKAGES} (features need none)"
         ) from error
+
+
+def _module(backend: str) -> str:
+    """Returns the module of mujoco that makes a backend's contexts; raises RuntimeError where there is none."""
+    if backend in _OFF:
+        raise RuntimeError("no GL library is here, or none is wanted")
+    if backend in ("egl", "osmesa"):
+        if os.environ.get("PYOPENGL_PLATFORM", backend) != backend:
+            raise RuntimeError("the two differ")
+        return backend
+    if backend not in _WINDOWS:
+        raise RuntimeError("MUJOCO_GL may be egl, osmesa or glfw")
+    if sys.platform == "darwin":
+        return "cgl"  # GLFW draws in the main thread alone there.
+    if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        raise RuntimeError("there is no display")  # glfw itself says so by ending the process.
+    return "glfw"
 
 
 @contextlib.contextmanager
 def current(context):
-    """Makes a GL context current in this thread, and afterwards what was current before, where the backend can tell.
-
-    So any thread may draw, and whoever else draws here (dm_control for one, which remembers what it made current) finds
-    its own context as it was.
-    """
-    backend = choose_backend()
-    if backend == "egl":
-        from mujoco import egl
-
-        before = egl.EGL.eglGetCurrentContext() or egl.EGL.EGL_NO_CONTEXT
-        put_back = functools.partial(egl.EGL.eglMakeCurrent, egl.EGL_DISPLAY, *[egl.EGL.EGL_NO_SURFACE] * 2, before)
-    elif backend == "osmesa":
-        from OpenGL import GL, osmesa
-
-        put_back = functools.partial(osmesa.OSMesaMakeCurrent, None, None, GL.GL_FLOAT, 0, 0)
-    else:
-        import glfw
-
-        put_back = functools.partial(glfw.make_context_current, glfw.get_current_context())
+    """Makes a GL context current, and afterwards none: EGL lends no thread, as of a fork, a context of another's."""
     context.make_current()
     try:
         yield
     finally:
-        put_back()
+        if choose_backend() == "egl":
+            from mujoco import egl
+
+            nothing = egl.EGL.EGL_NO_SURFACE
+            egl.EGL.eglMakeCurrent(egl.EGL_DISPLAY, nothing, nothing, egl.EGL.EGL_NO_CONTEXT)
 
 
 def gl_renderer_name() -> str:
@@ -133,18 +203,22 @@ def check() -> None:
     """Makes sure that images can be drawn here.
 
     Raises:
-      RuntimeError: if no GL backend works; it says what to install.
+      RuntimeError: if no GL backend works; it names the environment variables, and says what to do.
     """
-    make_context(8).free()
+    draw(_name)
 
 
 @functools.cache
 def renderer_name() -> str:
     """Returns the name of the GL renderer that draws images in this process, or why there is none."""
     try:
-        context = make_context(8)
+        return draw(_name)
     except RuntimeError as error:
         return f"none: {error}"
+
+
+def _name() -> str:
+    context = make_context(8)
     with current(context):
         name = gl_renderer_name()
     context.free()

@@ -19,13 +19,13 @@ UNDRAWN_GROUP = 4  # Of geoms that are in no image.
 class Renderer:
     """Draws images of one scene, whatever the poses of its geoms, in a GL context of its own.
 
-    The context is current only while it is used: any thread may draw, one at a time.
+    Any thread may call it, one at a time: what draws is the process's drawing thread.
 
     Attributes:
       size: edge of an image, pixels.
       context: its GL context; None once it is closed.
       scene: the `MjvScene` that is drawn.
-      buffers: the `MjrContext` that it is drawn with.
+      buffers: the `MjrContext` that it is drawn with; None once it is closed.
     """
 
     def __init__(self, model, moving_geoms: np.ndarray, camera: str = "observer", size: int = SIZE):
@@ -41,26 +41,27 @@ class Renderer:
           RuntimeError: if no GL backend works; it says what to install.
         """
         self.size = size
-        self.context = gl.make_context(size)
         drawn = _with_buffer(model, size)
-        with gl.current(self.context):
-            self.buffers = mujoco.MjrContext(drawn, mujoco.mjtFontScale.mjFONTSCALE_50)
-            mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, self.buffers)
-            gl.warn_if_software(gl.gl_renderer_name())
-        self._exit_hook = functools.partial(_close, weakref.ref(self))
-        atexit.register(self._exit_hook)  # A context that outlives the backend's own exit hook cannot be freed.
+        self.context, self.buffers, drawn_by = gl.draw(functools.partial(_upload, drawn, size))
+        # Freed in the drawing thread, also when the renderer is dropped.
+        self._free = weakref.finalize(self, gl.later, functools.partial(_free, self.context, self.buffers))
+        _close_at_exit()
+        _OPEN.add(self)
+        gl.warn_if_software(drawn_by)
         self.scene = _make_scene(drawn, camera)
         self._eyes = [eye.pos.astype(float) for eye in self.scene.camera]
         upside_down = np.zeros((size, size, 3), np.uint8)  # As GL reads it: the lowest row first.
         self._image = upside_down[::-1]
         rectangle = mujoco.MjrRect(0, 0, size, size)
-        self._draw = functools.partial(mujoco.mjr_render, rectangle, self.scene, self.buffers)
-        self._read = functools.partial(mujoco.mjr_readPixels, upside_down, None, rectangle, self.buffers)
+        self._draw = functools.partial(mujoco.mjr_render, rectangle, self.scene)
+        self._read = functools.partial(mujoco.mjr_readPixels, upside_down, None, rectangle)
         drawn_geoms = [geom.objid for geom in self.scene.geoms[: self.scene.ngeom]]
         self._moving = [geom for geom in drawn_geoms if geom in moving_geoms]
         first = drawn_geoms.index(self._moving[0])
         assert drawn_geoms[first:] == self._moving  # What stands still is the arena, which comes first.
-        self._positions, self._rotations = (poses[first:] for poses in _poses(self.scene))
+        self._drawn_geoms = drawn_geoms
+        self._colors, positions, rotations = (_views(self.scene, field) for field in ("rgba", "pos", "mat"))
+        self._positions, self._rotations = positions[first:], rotations[first:]
 
     def render(
         self,
@@ -69,6 +70,7 @@ class Renderer:
         rows: np.ndarray,
         images: np.ndarray,
         camera: np.ndarray | None = None,
+        colors: np.ndarray | None = None,
     ) -> None:
         """Draws one image for each pose of the scene.
 
@@ -77,6 +79,7 @@ class Renderer:
           rows: where each image goes, int [N].
           images: uint8 [B, size, size, 3]; written to, straight from the frame buffer.
           camera: how far the camera is displaced, m [N, 3]; by default not at all.
+          colors: of the model's geoms, red, green, blue and opacity in [0, 1], [number of geoms, 4]; from now on.
 
         Raises:
           RuntimeError: if the renderer is closed.
@@ -85,15 +88,20 @@ class Renderer:
             raise RuntimeError("the renderer is closed")
         positions = geom_xpos[:, self._moving].astype(np.float32)
         rotations = geom_xmat[:, self._moving].astype(np.float32)
+        if colors is not None:
+            self._colors[:] = colors[self._drawn_geoms]
         displaced = camera if camera is not None and camera.any() else None
+        gl.draw(functools.partial(self._draw_all, positions, rotations, rows, images, displaced))
+
+    def _draw_all(self, positions, rotations, rows, images, displaced) -> None:
         with gl.current(self.context):
             for number, (row, position, rotation) in enumerate(zip(rows, positions, rotations, strict=True)):
                 if displaced is not None:
                     self._displace(displaced[number])
                 self._positions[:] = position
                 self._rotations[:] = rotation
-                self._draw()
-                self._read()
+                self._draw(self.buffers)
+                self._read(self.buffers)
                 images[row] = self._image
         if displaced is not None:
             self._displace(np.zeros(3))
@@ -104,18 +112,41 @@ class Renderer:
 
     def close(self) -> None:
         """Frees the context. Closing twice does nothing."""
-        if self.context is not None:
-            with gl.current(self.context):
-                self.buffers.free()
-            self.context.free()
-            self.context = None
-            atexit.unregister(self._exit_hook)
+        self.context = self.buffers = None
+        self._free()
 
 
-def _close(reference) -> None:
-    renderer = reference()
-    if renderer is not None:
+_OPEN: weakref.WeakSet[Renderer] = weakref.WeakSet()
+
+
+@functools.cache
+def _close_at_exit() -> None:
+    """Has all renderers closed before the backend's own exit hook, after which no context can be freed.
+
+    It is called when the first context has been made, and the backend with it: hooks run in the opposite order.
+    """
+    atexit.register(_close_all)
+
+
+def _close_all() -> None:
+    for renderer in list(_OPEN):
         renderer.close()
+    gl.draw(lambda: None)  # After what was to be freed.
+
+
+def _upload(model, size: int):
+    """Returns a new context, the buffers that a model is drawn with there, and the name of what draws."""
+    context = gl.make_context(size)
+    with gl.current(context):
+        buffers = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_50)
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, buffers)
+        return context, buffers, gl.gl_renderer_name()
+
+
+def _free(context, buffers) -> None:
+    with gl.current(context):
+        buffers.free()
+    context.free()
 
 
 def _with_buffer(model, size: int):
@@ -142,16 +173,12 @@ def _make_scene(model, camera: str):
     return scene
 
 
-def _poses(scene) -> tuple[np.ndarray, np.ndarray]:
-    """Positions [number of geoms, 3] and rotations [.., 9] of a scene's geoms, as views: written all at once.
+def _views(scene, field: str) -> np.ndarray:
+    """A field of a scene's geoms, [number of geoms, ...], as a view: written all at once.
 
     A scene's geoms are one array of structs. MuJoCo's bindings give access to one geom at a time, which would take a
     good part of the time of drawing so small an image.
     """
-    first, second = scene.geoms[0], scene.geoms[1]
-    stride = second.pos.__array_interface__["data"][0] - first.pos.__array_interface__["data"][0]
-    shown = []
-    for field in (first.pos, first.mat):
-        shape, strides = (scene.ngeom, field.size), (stride, field.itemsize)
-        shown.append(np.lib.stride_tricks.as_strided(field, shape, strides))
-    return shown[0], shown[1]
+    first, second = (getattr(geom, field).ravel() for geom in scene.geoms[:2])
+    stride = second.__array_interface__["data"][0] - first.__array_interface__["data"][0]
+    return np.lib.stride_tricks.as_strided(first, (scene.ngeom, first.size), (stride, first.itemsize))
