@@ -1,6 +1,5 @@
 """Commands that train an agent."""
 
-from collections.abc import Callable
 import contextlib
 import dataclasses
 from pathlib import Path
@@ -11,6 +10,7 @@ from tyro.conf import OmitArgPrefixes
 
 from physexp import extras
 from physexp.agents import config as agent_config
+from physexp.analysis import callbacks
 from physexp.analysis.training import config as config_lib
 from physexp.cli import options as options_lib
 from physexp.cli import printing
@@ -50,8 +50,8 @@ class Train(Generic[Config, options_lib.Options]):
     def run(self) -> None:
         needed = {"ray": self.cluster is not None, "tensorboard": self.tensorboard}
         extras.require(*(module for module, is_needed in needed.items() if is_needed))
-        from physexp.analysis.training import progress, trainer, verdict
         from physexp.analysis.training import run as run_lib
+        from physexp.analysis.training import trainer, verdict
 
         config = config_lib.TrainConfig(
             domain=self.domain,
@@ -76,16 +76,7 @@ class Train(Generic[Config, options_lib.Options]):
                     from physexp.analysis.reproduction import cluster
 
                     stack.enter_context(cluster.joined(self.cluster))
-                logs: list[Callable[[dict], None]] = [stack.enter_context(progress.Progress(config))]
-                if self.tensorboard:
-                    from physexp.analysis.training import tensorboard
-
-                    logs.append(stack.enter_context(tensorboard.TensorBoard(run)))
-
-                def report(row: dict) -> None:
-                    for log in logs:
-                        log(row)
-
+                report = self._reports(stack, run, config)
                 on_checkpoint = None
                 if config.replay_every:
                     from physexp.analysis.replay import training
@@ -100,8 +91,26 @@ class Train(Generic[Config, options_lib.Options]):
             self._tell_how_to_go_on(run)
             raise
         if problem := verdict.of_run(run):
-            printing.warn(f"{problem}\n{verdict.advice(config)}")
-        print(run.path)
+            printing.warn(problem, verdict.advice(config))
+        printing.tell(str(run.path))
+
+    def _reports(self, stack: contextlib.ExitStack, run, config: config_lib.TrainConfig) -> callbacks.Report:
+        """Returns a call that passes rows of metrics on to all that show them; a failure of one leaves the others."""
+        from physexp.analysis.training import progress
+
+        logs = [callbacks.expendable(stack.enter_context(progress.Progress(config)), printing.warn, "the progress")]
+        if self.tensorboard:
+            from physexp.analysis.training import tensorboard
+
+            board = tensorboard.TensorBoard(run)
+            logs.append(callbacks.expendable(board, printing.warn, "TensorBoard"))
+            stack.callback(callbacks.expendable(board.close, printing.warn, "TensorBoard"))
+
+        def report(row: dict) -> None:
+            for log in logs:
+                log(row)
+
+        return report
 
     def _refuse_others(self, wanted: config_lib.TrainConfig, config: config_lib.TrainConfig, path: Path) -> None:
         """Refuses options that are chosen and differ from those that a run goes on with: raises ValueError."""
@@ -129,7 +138,7 @@ class Train(Generic[Config, options_lib.Options]):
         words += ["--cluster", self.cluster] if self.cluster is not None else []
         words += ["--tensorboard"] if self.tensorboard else []
         printing.warn(
-            f"the checkpoint after {int(paths[-1].stem):,} frames: {paths[-1]}\nto go on: {shlex.join(words)}"
+            f"the checkpoint after {int(paths[-1].stem):,} frames: {paths[-1]}", f"to go on: {shlex.join(words)}"
         )
 
 

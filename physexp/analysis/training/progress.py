@@ -42,11 +42,7 @@ class Progress:
             self._live.stop()
 
     def __call__(self, row: dict) -> None:
-        """Shows a row of metrics; where the terminal is gone, training is not."""
-        with contextlib.suppress(OSError):
-            self._show(row)
-
-    def _show(self, row: dict) -> None:
+        """Shows a row of metrics."""
         self._rates = [*self._rates[-11:], row["frames_per_second"]]
         left = (self._config.agent.frames - row["frames"]) / max(1.0, sum(self._rates) / len(self._rates))
         cells = {name: form.format(row[name]) for name, form in _COLUMNS if name in row}

@@ -21,14 +21,15 @@ from physexp.analysis.training import run as run_lib
 ROW_SECONDS = 5.0  # Between rows of metrics.csv.
 
 OnCheckpoint = Callable[[int, Mapping[str, torch.Tensor]], None]
-"""Called before a checkpoint is written, with the frames trained on and the network's variables."""
+"""Called after a checkpoint is written, with the frames trained on and the network's variables."""
 
 
 class Recorder:
     """Writes a run's rows, episodes and checkpoints.
 
     A checkpoint is written when all updates in it, and none after it, have been recorded: so the records of a run that
-    was killed and resumed have no gap, and nothing twice.
+    was killed and resumed have no gap, and nothing twice. Watchers are called after it is written; one that fails is
+    told of and left out.
     """
 
     def __init__(
@@ -48,8 +49,11 @@ class Recorder:
           tell: called with a line for each checkpoint that is damaged.
           on_checkpoint: watches the network as it becomes.
         """
-        self._run, self._config, self._report, self._tell = run, config, report, tell
-        self._on_checkpoint = on_checkpoint
+        self._run, self._config, self._tell = run, config, tell
+        self._report = callbacks.expendable(report, tell, "the report of training")
+        self._on_checkpoint = on_checkpoint and callbacks.expendable(
+            on_checkpoint, tell, "the watcher of checkpoints (replays)"
+        )
         self._num_interactions = suite.load_task(config.domain, config.task, config.task_kwargs).num_interactions
         self._start_over()
 
@@ -97,7 +101,7 @@ class Recorder:
         self._frames += update.episodes.num_frames
         self._num_episodes += len(update.episodes.lengths)
         if time.monotonic() - self._row_started > ROW_SECONDS:
-            self._write_row()
+            self._report(self._write_row())
         self._write_checkpoint_when_complete()
 
     def checkpoint_is_due(self) -> bool:
@@ -141,29 +145,29 @@ class Recorder:
         if self._snapshot is None or self._updates < int(self._snapshot["updates"]):
             return
         tensors, self._snapshot = self._snapshot, None
-        if self._window:
-            self._write_row()
+        row = self._write_row() if self._window else None
         self._run.check_lock()
         if self._rows:
             self._run.append_episodes(self._frames, pyarrow.concat_tables(self._rows).combine_chunks())
             self._rows = []
-        if self._on_checkpoint is not None:
-            self._on_checkpoint(self._frames, learning.network_variables(tensors))
         facts = {
             "task": self._config.task_name,
             "episodes": self._num_episodes,
             "seconds": self._seconds + time.monotonic() - self._started,
             "versions": provenance.versions(),
         }
-        self._run.check_lock()  # Once more: who watches may take seconds.
         self._run.checkpointer.save(tensors, facts)
+        if row is not None:
+            self._report(row)
+        if self._on_checkpoint is not None:
+            self._on_checkpoint(self._frames, learning.network_variables(tensors))
         self._checkpointed = time.monotonic()
         later, self._later = self._later, []
         for update in later:
             self.add(update)
 
-    def _write_row(self) -> None:
-        """Writes a row of metrics about the updates since the row before, and keeps the episodes of the last one."""
+    def _write_row(self) -> dict[str, float]:
+        """Writes and returns the metrics of the updates since the row before; keeps the episodes of the last one."""
         self._run.check_lock()
         now = time.monotonic()
         parts = [self._episodes_of(update) for update in self._window]
@@ -177,8 +181,8 @@ class Recorder:
         }
         self._run.append_metrics(row)
         self._rows.append(parts[-1].table(run_lib.EPISODES, frames=self._frames))
-        self._report(row)
         self._window, self._row_started, self._frames_at_row = [], now, self._frames
+        return row
 
     def _summary(self, episodes: episodes_lib.Episodes) -> dict[str, float]:
         """Returns means over the episodes and the updates since the row before."""

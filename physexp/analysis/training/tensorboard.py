@@ -6,7 +6,7 @@ from physexp.analysis.training import run as run_lib
 
 
 class TensorBoard:
-    """Writes rows of metrics into `tensorboard/` in a run's folder; use it as a context manager.
+    """Writes rows of metrics into `tensorboard/` in a run's folder.
 
     The first row makes the log: a start that fails leaves none.
     """
@@ -14,13 +14,6 @@ class TensorBoard:
     def __init__(self, run: run_lib.Run):
         self._run = run
         self._writer: Any = None
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        if self._writer is not None:
-            self._writer.close()
 
     def __call__(self, row: dict[str, float]) -> None:
         """Logs a row of metrics, the last of the run's, at its environment steps."""
@@ -30,6 +23,11 @@ class TensorBoard:
             if name != "frames":
                 self._writer.add_scalar(name, value, int(row["frames"]))
         self._writer.flush()
+
+    def close(self) -> None:
+        """Closes the log, in which all rows are already."""
+        if self._writer is not None:
+            self._writer.close()
 
     def _open(self):
         """Opens the log; of a run that is resumed, it hides what was logged after the checkpoint it goes on from."""

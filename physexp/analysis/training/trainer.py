@@ -86,10 +86,10 @@ def train(
       run: a run that has been created, unless it is started here.
       report: called with each row of metrics.
       on_cluster: train on the cluster that this process has joined.
-      tell: called with a line when something has gone wrong that training survives.
+      tell: called with a line when something has gone wrong that training survives: a watcher that fails is such.
       start: what to train from the start; None to go on with the run in the folder, from its last checkpoint if there
         is one.
-      on_checkpoint: called before each checkpoint is written; `replay.training.Writer` is such an observer.
+      on_checkpoint: called after each checkpoint is written; `replay.training.Writer` is such a watcher.
 
     Raises:
       stopping.Interrupted: after one of these signals, when the checkpoint has been written.
@@ -98,6 +98,7 @@ def train(
       ValueError: if another process is training in the run's folder, if there is too little room in it, if it holds a
         run that would be started anew, or records without a checkpoint that would be resumed, or as `check`.
     """
+    tell = callbacks.expendable(tell, callbacks.ignore, "the printing of lines")
     with run.locked():
         config = start or run.config
         check(config, on_cluster)

@@ -1,5 +1,7 @@
 """Metrics for TensorBoard are those of the CSV."""
 
+import contextlib
+
 import commands
 from tensorboard.backend.event_processing import event_accumulator
 
@@ -37,7 +39,7 @@ def test_a_resumed_run_hides_what_was_logged_after_the_checkpoint_that_it_goes_o
     run = run_lib.Run(tmp_path)
 
     def train(*frames):
-        with tensorboard.TensorBoard(run) as log:
+        with contextlib.closing(tensorboard.TensorBoard(run)) as log:
             for number in frames:
                 row = {**dict.fromkeys(metrics_lib.METRICS, 0.5), "frames": number}
                 run.append_metrics(row)

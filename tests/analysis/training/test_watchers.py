@@ -1,0 +1,60 @@
+"""Watchers of training, which print, log and write replays, cost it nothing when they fail."""
+
+import os
+import subprocess
+
+import commands
+import pytest
+import trainers
+
+from physexp.analysis.training import run as run_lib
+from physexp.analysis.training import trainer
+
+FRAMES = 2000
+COMMAND = ["train", "which_is_heavier", "features", "--agent", "ppo", "--num-threads", 1, "--num-environments", 32]
+COMMAND += ["--replay-every", 100]
+
+
+def fail(*_):
+    raise RuntimeError("no more room\nfor this")
+
+
+@pytest.mark.parametrize("kind", ["report", "on_checkpoint"])
+def test_a_watcher_that_fails_is_told_of_once_and_training_ends_well(kind, tmp_path):
+    run, lines = trainers.create(tmp_path / "run", "ppo", frames=FRAMES, checkpoint_seconds=0.01), []
+    trainer.train(run, tell=lines.append, **{kind: fail})
+    assert len(lines) == 1 and lines[0].endswith("failed and is left out from now on: no more room for this")
+    assert run.is_finished and len(run.metrics()) > 1, "there were several checkpoints"
+
+
+def test_lines_that_cannot_be_printed_do_not_end_training(tmp_path):
+    run = trainers.create(tmp_path / "run", "ppo", frames=FRAMES)
+    trainer.train(run, report=fail, tell=fail)
+    assert run.is_finished
+
+
+@pytest.mark.parametrize("kind", ["report", "on_checkpoint"])
+def test_a_checkpoint_is_written_before_its_watchers_are_called(kind, tmp_path):
+    run, found = trainers.create(tmp_path / "run", "ppo", frames=FRAMES, checkpoint_seconds=0.01), []
+    trainer.train(run, **{kind: lambda *_: found.append(int(run.checkpointer.paths()[-1].stem))})
+    assert [*dict.fromkeys(found)] == [row["frames"] for row in run.metrics()], "each row ends with its checkpoint"
+
+
+def test_replays_and_tensorboard_that_cannot_be_written_are_a_line_each(tmp_path):
+    run = run_lib.Run(tmp_path / "run")
+    commands.run(*COMMAND, "--frames", 500, "--run-dir", run.path, check=True)
+    trainers.set_frames(run, FRAMES)
+    (run.path / "tensorboard").touch()
+    before = set(run.path.rglob("*.rrd"))
+    done = subprocess.run(  # A process of its own: rerun reads the variable when it is imported.
+        [trainers.PHYSEXP, *trainers.resumed(run), "--tensorboard"],
+        env=os.environ | {"RERUN": "off"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    failures = [line for line in done.stderr.splitlines() if "failed and is left out from now on" in line]
+    assert len(failures) == 2 and run.is_finished and set(run.path.rglob("*.rrd")) == before
+    trainers.set_frames(run, 2 * FRAMES)
+    commands.run(*trainers.resumed(run), check=True)
+    assert run.is_finished and set(run.path.rglob("*.rrd")) > before
