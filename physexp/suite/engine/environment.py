@@ -87,7 +87,7 @@ class Environment(composer.Environment):
         """
         with self._guard:
             self._check_open()
-            size, apparatus, physics = rendering.SIZE_FOR_PEOPLE, self._task.apparatus, self._physics
+            size, apparatus, physics = rendering.SIZE_FOR_PEOPLE, self._task.apparatus, self.physics
             if self._renderer is None:  # All structures of a task have the same geoms: one renderer draws them all.
                 self._renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms, size=size)
             positions = physics.data.geom_xpos[None].copy()

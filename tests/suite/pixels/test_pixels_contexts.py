@@ -1,12 +1,15 @@
 """Environments that draw by turns, in any thread, and end in any order do not disturb one another."""
 
 from concurrent import futures
+import ctypes.util
 import gc
 
 from episodes import SEED
 from images import FIST, HEAVIER, MARKS, PIXEL_TASKS, every_pixel_task, image_of, load_single, play_episode
+import interpreters
 import numpy as np
 import pytest
+import screens
 
 from physexp import suite
 
@@ -95,6 +98,85 @@ def test_an_environment_and_dm_controls_own_rendering_take_turns(load):
     assert [(frame == other).all() for frame, other in zip(frames, expected, strict=True)] == [True] * len(frames)
 
 
+DISTURB = """
+import gc
+import glfw, mujoco
+from physexp import suite
+from physexp.suite import gymnasium
+from physexp.suite.engine import gl
+
+def play(load, *task, **more):
+    environment = load(*task, **more)
+    environment.reset()
+    environment.step(1 if load is suite.load else [0, 1])
+    return environment
+
+features = play(suite.load, "balance", "features", task_kwargs={"random": 0})
+batch = play(suite.load_batch, "strike", "features", 2, task_kwargs={"random": 0})
+pixels = suite.load("towers", "fist_pixels", {"random": 0})
+wrapped = gymnasium.Environment("threshold", "features", render_mode="rgb_array", random=0)
+wrapped.reset()
+theirs = play(suite.load, "strings", "features", task_kwargs={"random": 0})
+raw = mujoco.Renderer(theirs.physics.model.ptr, 60, 80)
+raw.update_scene(theirs.physics.data.ptr, "observer")
+ours = {
+    "environment": features.render,
+    "batch": batch.render,
+    "Gymnasium": wrapped.render,
+    "pixels": lambda: pixels.reset().observation["pixels"],
+}
+guests = {"dm_control": lambda: theirs.physics.render(60, 80, camera_id="observer"), "mujoco": raw.render}
+everything = ours | guests
+expected = {name: draw().copy() for name, draw in everything.items()}
+found["drawn"] = {name: float(image.std()) for name, image in expected.items()}
+found["changed"] = []
+
+def compare(after, painters):
+    for name, draw in painters.items():
+        if (draw() != expected[name]).any():
+            found["changed"].append((after, name))
+
+compare("all have drawn by turns", everything)
+other = play(suite.load, "strike", "pixels", task_kwargs={"random": 0})
+compare("an environment has drawn its first pixels", everything)
+other.close()
+compare("it is closed", everything)
+other = play(suite.load_batch, "strike", "pixels", 2, task_kwargs={"random": 0})
+compare("a batch has drawn its first pixels", everything)
+del other
+gc.collect()
+compare("it is dropped", everything)
+gl.check()
+compare("drawing is checked", everything)
+gl.renderer_name()
+compare("the renderer is named", everything)
+second = mujoco.Renderer(theirs.physics.model.ptr, 30, 40)
+compare("another makes a context", ours)
+second.close(), raw.close()
+compare("another frees its contexts", ours)
+theirs.physics.render(30, 40)
+theirs.close()
+compare("dm_control has freed its context", ours)
+assert glfw.init()
+glfw.window_hint(glfw.VISIBLE, False)
+window = glfw.create_window(64, 64, "theirs", None, None)
+glfw.make_context_current(window)
+compare("a window is current", ours)
+"""
+
+
+@screens.needs_screen
+@pytest.mark.parametrize("backend", ["egl", "osmesa"])
+def test_no_context_of_anybodys_changes_the_pictures_of_another(backend):
+    if not ctypes.util.find_library({"egl": "EGL", "osmesa": "OSMesa"}[backend]):
+        pytest.skip("needs a library of GL: apt-get install libegl1 libgl1-mesa-dri libosmesa6")
+    with screens.screen() as display:
+        found, errors = interpreters.run(DISTURB, MUJOCO_GL=backend, DISPLAY=display)
+    assert found["changed"] == []
+    assert all(spread > 5 for spread in found["drawn"].values()), "an image is of one colour"
+    assert errors == "", "a process that closes nothing ends in silence"
+
+
 # Threads and the end.
 
 
@@ -110,12 +192,12 @@ def test_any_thread_may_draw(load, size):
 
     def play():
         if size is None:
-            return play_episode(env, [action])
-        return np.stack([image_of(env.reset(episode=0)), image_of(env.step(action))])
+            return play_episode(env, [action]), env.render()
+        return np.stack([image_of(env.reset(episode=0)), image_of(env.step(action))]), env.render()
 
-    expected = play()
-    np.testing.assert_array_equal(_in_another_thread(play), expected)
-    np.testing.assert_array_equal(play(), expected)
+    for expected, *images in zip(play(), _in_another_thread(play), play(), strict=True):
+        np.testing.assert_array_equal(images, [expected, expected])
+    _in_another_thread(env.close)
 
 
 @every_pixel_task
