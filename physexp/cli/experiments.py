@@ -2,7 +2,6 @@
 
 import contextlib
 import dataclasses
-import json
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -80,7 +79,7 @@ class Report:
         from physexp.analysis.experiments import base
         from physexp.analysis.reproduction import report
 
-        print(report.write(base.Results(self.results_dir), printing.tell))
+        printing.tell(str(report.write(base.Results(self.results_dir), printing.tell)))
 
 
 @dataclasses.dataclass
@@ -108,6 +107,6 @@ class Bench:
         for row in bench.run(self.sections, self.results_dir):
             rows.append(row)
             if not self.json:
-                print(measuring.line(row), flush=True)
+                printing.tell(measuring.line(row))
         if self.json:
-            print(json.dumps(rows, indent=1))
+            printing.show_rows(rows, as_json=True)

@@ -15,7 +15,7 @@ from physexp import __version__, extras
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import stopping
 from physexp.cli import options as options_lib
-from physexp.cli import train
+from physexp.cli import printing, train
 from physexp.cli.commands import COMMANDS
 
 _DESCRIPTION = "Environments in which an agent must experiment, and agents that learn to. --version prints the version."
@@ -27,6 +27,7 @@ def main() -> None:
 
     An error of the user's is one line and exit status 2; Ctrl-C, SIGTERM and SIGHUP are 128 and the signal's number.
     """
+    printing.prepare()
     try:
         try:
             with stopping.raised():
@@ -34,7 +35,7 @@ def main() -> None:
         finally:
             sys.stdout.flush()
     except KeyboardInterrupt as error:
-        print("physexp: interrupted", file=sys.stderr)
+        printing.warn("physexp: interrupted")
         sys.exit(stopping.exit_status(error))
     except BrokenPipeError:  # Who read the output, `head` for one, has seen enough.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -43,17 +44,17 @@ def main() -> None:
 
 def _run(arguments: list[str]) -> None:
     if arguments == ["--version"]:
-        print("physexp", __version__)
+        printing.tell(f"physexp {__version__}")
         return
     try:
         parse(arguments).run()
     except BrokenPipeError:
         raise
     except (ValueError, OSError, extras.MissingExtraError) as error:
-        print(f"physexp: {error}", file=sys.stderr)
+        printing.warn(f"physexp: {error}")
         sys.exit(2)
     except RuntimeError as error:
-        print(f"physexp: {error}", file=sys.stderr)
+        printing.warn(f"physexp: {error}")
         sys.exit(1)
 
 

@@ -92,7 +92,7 @@ class Replay(Generic[options_lib.Options]):
         path = replay.replay(
             targets, self.episodes, self.output, self.interaction, self.select, seed, printing.tell, chosen
         )
-        print(path)
+        printing.tell(str(path))
         if self.view or self.web:
             replay.view(path, self.web, printing.tell)
 
@@ -143,4 +143,4 @@ class Publish:
         from physexp.analysis.training import run as run_lib
 
         folder = self.output_dir or pretrained.FOLDER
-        print(publishing.publish(run_lib.Run(self.run_dir), folder, self.episodes, self.replace))
+        printing.tell(str(publishing.publish(run_lib.Run(self.run_dir), folder, self.episodes, self.replace)))

@@ -1,4 +1,8 @@
-"""Prints the output of commands: figures, tables and lines, for people or as JSON."""
+"""Prints the output of commands: figures, tables and lines, for people or as JSON.
+
+All text of a command passes through here, since any may come from the files of others: no control character and no
+escape sequence of theirs reaches a terminal.
+"""
 
 from collections.abc import Iterator
 import contextlib
@@ -7,12 +11,20 @@ import json
 import sys
 import threading
 
+from physexp.analysis.data import text
+
 _PATIENCE = 2.0  # Seconds that people wait before they wonder.
 
 
-def warn(line: str) -> None:
-    """Prints a line to standard error."""
-    print(line, file=sys.stderr, flush=True)
+def prepare() -> None:
+    """Has letters that standard output cannot encode replaced, as in a Latin-1 terminal, instead of refused."""
+    if isinstance(sys.stdout, io.TextIOWrapper):  # Other streams, of a caller from Python, take any letter.
+        sys.stdout.reconfigure(errors="replace")
+
+
+def warn(*lines: str) -> None:
+    """Prints lines to standard error."""
+    print(*map(text.plain, lines), sep="\n", file=sys.stderr, flush=True)
 
 
 @contextlib.contextmanager
@@ -26,9 +38,9 @@ def warned_if_slow(line: str) -> Iterator[None]:
         timer.cancel()
 
 
-def tell(line: str) -> None:
-    """Prints a line to standard output at once."""
-    print(line, flush=True)
+def tell(*lines: str) -> None:
+    """Prints lines to standard output at once."""
+    print(*map(text.plain, lines), sep="\n", flush=True)
 
 
 def show(figures: dict, as_json: bool) -> None:
@@ -53,7 +65,7 @@ def _print_table(rows: list[dict], show_header: bool) -> None:
 
     grid = table.Table(box=None, show_header=show_header, header_style="bold", pad_edge=False, padding=(0, 2, 0, 0))
     for name in rows[0]:
-        grid.add_column(name, overflow="fold")
+        grid.add_column(text.plain(name), overflow="fold")
     for row in rows:
         grid.add_row(*map(_text, row.values()))
     terminal = console.Console(markup=False, highlight=False)
@@ -70,7 +82,7 @@ def _text(value) -> str:
     if isinstance(value, float):
         return f"{value:.4f}"
     if isinstance(value, dict):
-        return "  ".join(f"{key}: {_text(item)}" for key, item in value.items())
+        return "  ".join(f"{text.plain(str(key))}: {_text(item)}" for key, item in value.items())
     if isinstance(value, (list, tuple)):
         return " to ".join(_text(item) for item in value)
-    return str(value)
+    return text.plain(str(value))

@@ -43,7 +43,7 @@ class Tasks:
             return
         for domain in suite.TASKS_BY_DOMAIN:
             of_domain = [row for row in rows if row["domain"] == domain]
-            print(f"{domain}: {of_domain[0]['question']}")
+            printing.tell(f"{domain}: {of_domain[0]['question']}")
             shown = ("task", "interactions", "labels", "step_limit")
             printing.show_rows(
                 [
@@ -57,7 +57,7 @@ class Tasks:
                 ],
                 as_json=False,
             )
-            print()
+            printing.tell("")
 
 
 @dataclasses.dataclass

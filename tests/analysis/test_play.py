@@ -183,3 +183,10 @@ def test_the_command_plays_without_any_gl_from_what_is_typed():
     )
     assert "poke block 0" in done.stdout and "The answer: block" in done.stdout
     assert "you " in done.stdout and "ideal experimenter" in done.stdout
+
+
+def test_a_terminal_without_half_blocks_shows_other_letters():
+    environment = {**os.environ, "PYTHONIOENCODING": "latin-1"}
+    words = [PHYSEXP, "play", "which_is_heavier", "pixels", "--seed", "3"]
+    done = subprocess.run(words, input="0\nq\n", capture_output=True, encoding="latin-1", env=environment)
+    assert (done.returncode, done.stderr) == (0, "") and "m?\x1b[" in done.stdout
