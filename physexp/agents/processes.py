@@ -6,7 +6,9 @@ from multiprocessing import resource_tracker
 import os
 from pathlib import Path
 import signal
+import sys
 import threading
+import types
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 """Requests to end, from Ctrl-C, from schedulers and containers, and from a terminal that is gone."""
@@ -20,7 +22,7 @@ def num_cores() -> int:
     """Returns how many cores this process may use: those that it may run on, or fewer by a container's quota."""
     cores = len(os.sched_getaffinity(0))
     if _QUOTA.exists():
-        quota, period = _QUOTA.read_text().split()
+        quota, period = _QUOTA.read_text(encoding="utf-8").split()
         if quota != "max":
             cores = min(cores, max(1, int(quota) // int(period)))
     return cores
@@ -29,7 +31,7 @@ def num_cores() -> int:
 def memory() -> int:
     """Returns how much memory this process may use, bytes: the machine's, or less by a container's limit."""
     installed = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    most = _MOST_MEMORY.read_text().strip() if _MOST_MEMORY.exists() else "max"
+    most = _MOST_MEMORY.read_text(encoding="utf-8").strip() if _MOST_MEMORY.exists() else "max"
     return installed if most == "max" else min(installed, int(most))
 
 
@@ -40,12 +42,23 @@ def unheard_by_children():
     Terminals and schedulers send those signals to every process, but it is the parent that asks its children to stop.
     A signal that comes meanwhile is delivered afterwards.
     """
-    resource_tracker.ensure_running()  # Starting it would make them heard again.
     before = signal.pthread_sigmask(signal.SIG_BLOCK, STOP_SIGNALS)
     try:
+        resource_tracker.ensure_running()  # It makes some of them heard again, and ignores these alone by itself.
+        signal.pthread_sigmask(signal.SIG_BLOCK, STOP_SIGNALS)
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextlib.contextmanager
+def without_script():
+    """Returns a context in which processes are spawned that do not run this program's script: it needs no guard."""
+    script, sys.modules["__main__"] = sys.modules["__main__"], types.ModuleType("__main__")
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = script
 
 
 @contextlib.contextmanager

@@ -9,6 +9,7 @@ from tyro.conf import Positional
 
 from physexp.cli import printing
 from physexp.cli.arguments import OptionalInt, OptionalPath, Switch
+from physexp.cli.score import playing_in
 
 
 @dataclasses.dataclass
@@ -23,13 +24,14 @@ class Export:
       seed: of the environments; by default one whose episodes nobody is scored on.
       greedy: a trained agent takes its likeliest actions instead of drawing them.
       timeout: for each call of an agent of your own, s.
-      output: the folder for all files; by default one named after the target, under exports/.
+      output: the folder for all files; by default a new one named after the target, under exports/. An interrupted
+        export goes on in its folder.
       json: print JSON.
     """
 
     target: Annotated[
         Positional[str],
-        tyro.conf.arg(metavar="TARGET", help="who plays: as for `physexp score`."),
+        tyro.conf.arg(metavar="TARGET", help="the player: as for `physexp score`."),
     ]
     episodes: int
     tasks: Annotated[tuple[str, ...], tyro.conf.arg(metavar="DOMAIN/TASK ...", help_behavior_hint="")] = ()
@@ -44,30 +46,25 @@ class Export:
     def run(self) -> None:
         from physexp import extras
         from physexp.analysis.export import exporting
-        from physexp.analysis.score import targets
+        from physexp.analysis.score import playing, targets
         from physexp.analysis.training import progress
 
         if self.minari:
             extras.require("minari")
-        chosen = targets.chosen(self.target, self.tasks, self.observations)
-        folder = self.output or Path("exports") / targets.file_name(self.target)
-        try:
-            with progress.bar("episodes", self.episodes * len(chosen)) as show:
-                found = exporting.export(
-                    self.target,
-                    chosen,
-                    self.episodes,
-                    folder,
-                    seed=exporting.SEED if self.seed is None else self.seed,
-                    greedy=self.greedy,
-                    timeout=self.timeout,
-                    as_minari=self.minari,
-                    show=show,
-                )
-        except KeyboardInterrupt:
-            if (folder / exporting.FILE).exists():
-                printing.warn(f"the episodes that were played are in {folder}")
-            raise
+        chosen = targets.find(self.target).choose(self.tasks, self.observations)
+        folder = self.output or playing.unfinished(Path("exports") / targets.file_name(self.target))
+        with playing_in(folder), progress.bar("episodes", self.episodes * len(chosen)) as show:
+            found = exporting.export(
+                self.target,
+                chosen,
+                self.episodes,
+                folder,
+                seed=exporting.SEED if self.seed is None else self.seed,
+                greedy=self.greedy,
+                timeout=self.timeout,
+                as_minari=self.minari,
+                show=show,
+            )
         for name, facts in found["tasks"].items():
             if not facts["judged"]:
                 printing.warn(
@@ -85,4 +82,4 @@ class Export:
             ],
             as_json=False,
         )
-        print(folder)
+        printing.tell(str(folder))

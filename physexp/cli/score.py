@@ -1,5 +1,7 @@
 """Commands that put a number on anything that experiments."""
 
+from collections.abc import Iterator
+import contextlib
 import dataclasses
 from pathlib import Path
 import shlex
@@ -29,7 +31,8 @@ class Score:
       algorithm: how an agent of your own was trained, as it is to stand in the report and in the leaderboard.
       frames: environment steps of its training.
       minutes: of its training.
-      output: the folder for the log, the figures and the report; by default one named after the target, under scores/.
+      output: the folder for the log, the figures and the report; by default a new one named after the target, under
+        scores/. An interrupted score goes on in its folder.
       json: print JSON.
     """
 
@@ -56,44 +59,45 @@ class Score:
 
     def run(self) -> None:
         extras.require("matplotlib")
-        from physexp.analysis.score import protocol, scoring, targets
+        from physexp.analysis.score import playing, protocol, scoring, targets
         from physexp.analysis.training import progress
 
-        chosen = targets.chosen(self.target, self.tasks, self.observations)
+        chosen = targets.find(self.target).choose(self.tasks, self.observations)
         usual = protocol.QUICK_EPISODES if self.quick else protocol.EPISODES
         count = usual if self.episodes is None else self.episodes
-        folder = self.output or Path("scores") / targets.file_name(self.target)
+        folder = self.output or playing.unfinished(Path("scores") / targets.file_name(self.target))
         made = self._made()
-        try:
-            with progress.bar("episodes", count * len(chosen)) as show:
-                found = scoring.score(
-                    self.target,
-                    chosen,
-                    count,
-                    folder,
-                    greedy=self.greedy,
-                    timeout=self.timeout,
-                    made=made,
-                    show=show,
-                )
-            _write_report(folder)
-        except KeyboardInterrupt:
-            if (folder / scoring.FILE).exists():
-                printing.warn(f"the episodes that were played are in {folder}")
-            raise
+        with playing_in(folder), progress.bar("episodes", count * len(chosen)) as show:
+            found = scoring.score(
+                self.target, chosen, count, folder, greedy=self.greedy, timeout=self.timeout, made=made, show=show
+            )
+        _write_report(folder)
         if self.json:
             printing.show(found, as_json=True)
             return
         printing.show_rows(_rows(found), as_json=False)
-        print(folder)
+        printing.tell(str(folder))
 
     def _made(self) -> dict:
-        """Returns what was said of how the agent was made; raises ValueError for numbers that make no sense."""
+        """Returns the given facts of how the agent was made; raises ValueError for numbers that make no sense."""
         if self.frames is not None:
             checks.integer("frames", self.frames, 0)
-        seconds = None if self.minutes is None else 60 * checks.number("minutes", self.minutes, 0, "min")
+        seconds = None if self.minutes is None else 60 * checks.between("minutes", self.minutes, 0, 1e9, "min")
         said = {"algorithm": self.algorithm, "frames": self.frames, "seconds": seconds}
         return {name: value for name, value in said.items() if value is not None}
+
+
+@contextlib.contextmanager
+def playing_in(folder: Path) -> Iterator[None]:
+    """Returns a context that tells where the episodes are if the user ends it."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        from physexp.analysis.score import playing
+
+        if (folder / playing.FILE).exists():
+            printing.warn(f"the episodes that were played are in {folder}; the same command goes on after them")
+        raise
 
 
 def _write_report(folder: Path) -> None:
@@ -167,7 +171,7 @@ class Verify:
             printing.show({**found, "complete": stored["complete"]}, as_json=True)
             return
         part = "" if stored["complete"] else f"; it is a part, of {count:,} episodes"
-        print(
+        printing.tell(
             f"OK: {found['episodes']:,} episodes were played so, by {found['target']}; score {found['score']:.4f}{part}"
         )
 
@@ -185,6 +189,13 @@ class Leaderboard:
     def run(self) -> None:
         extras.require("matplotlib")
         from physexp.analysis.score import leaderboard
+        from physexp.analysis.training import progress
 
-        for path in leaderboard.write(self.results_dir):
-            print(path)
+        slowly = "playing the actions of rows again; that takes a minute a row, and once for each row that changes"
+        count = len(leaderboard.folders(self.results_dir))
+        with printing.warned_if_slow(slowly), progress.bar("rows", count) as show:
+            paths, refused = leaderboard.write(self.results_dir, show)
+        printing.tell(*map(str, paths))
+        if refused:
+            printing.warn(*refused)
+            raise RuntimeError(f"these {len(refused)} folders are no rows of the leaderboard; mend or remove them")

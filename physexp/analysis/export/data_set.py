@@ -19,9 +19,6 @@ from minari.dataset.minari_storage import MinariStorage  # noqa: E402
 
 from physexp.suite import gymnasium as environments  # noqa: E402
 
-ROOT = "minari"
-"""The folder, among what is exported, that is to be `MINARI_DATASETS_PATH`."""
-
 _OF_EPISODE = ("answer", "hidden", "seed", "episode")
 
 
@@ -32,7 +29,7 @@ class DataSet:
         """Makes an empty one.
 
         Args:
-          folder: of what is exported.
+          folder: of all data sets.
           of: the steps of a task.
           target: who plays, as a word.
         """
@@ -41,7 +38,7 @@ class DataSet:
         self._observed = asked.observation_spec
         name = f"{asked.domain}-{asked.task}"
         identity = f"physexp/{name}/{target}-v0"
-        path = folder.resolve() / ROOT / identity / "data"  # Of a relative path, Minari finds no sizes.
+        path = folder.resolve() / identity / "data"  # Of a relative path, Minari finds no sizes.
         path.mkdir(parents=True)
         self._storage = MinariStorage.new(
             path,

@@ -1,25 +1,26 @@
 """Plays a target and writes whole trajectories, as tables of steps and as data sets of Minari."""
 
-from collections.abc import Callable, Iterator, Sequence
-import contextlib
-import dataclasses
-import functools
+from collections.abc import Callable, Sequence
 import json
 from pathlib import Path
+import shutil
 import time
 from typing import Any
 
 import numpy as np
 
-from physexp import suite
+from physexp import extras, suite
 from physexp.agents import files
 from physexp.analysis.data import provenance, tables
 from physexp.analysis.export import steps
-from physexp.analysis.score import episodes, player, protocol, scoring, targets
+from physexp.analysis.score import episodes, player, playing, protocol, scoring, targets
 
 FILE = "export.json"
 TABLE = "steps.parquet"
 """The folder of a task's tables."""
+
+MINARI = "minari"
+"""The folder, among the exported files, that is to be `MINARI_DATASETS_PATH`."""
 
 SEED = 3_000_003  # Of the environments, apart from those of training, of evaluation and of the score.
 _ROWS = 2**12  # Of a part, at least, if it is not the last: so much is held in memory.
@@ -37,17 +38,18 @@ def export(
     as_minari: bool = False,
     show: Callable[[int], None] = lambda done: None,
 ) -> dict[str, Any]:
-    """Plays episodes of some tasks and writes them; returns what `export.json` holds.
+    """Plays episodes of some tasks and writes them; returns the content of `export.json`.
 
-    Whole episodes that were played are kept, also where the actor fails or the user ends it.
+    Episodes are kept as they end. After an interruption the same call goes on with the others; if the actor fails, the
+    episodes until then are written, too.
 
     Args:
-      target, greedy: as for `targets.maker`.
+      target, greedy: as for `targets.find`.
       questions: the tasks.
       num_episodes: of each of them.
-      folder: where everything goes; it is made, or is empty.
+      folder: where everything goes; it is made, is empty, or holds some of these very episodes.
       seed: of the environments; not the score's.
-      timeout: for each call of an actor of anybody's, s.
+      timeout: for each call of a user's function, s.
       as_minari: write a data set of Minari for each task, too.
       show: called with how many episodes have been played.
 
@@ -55,71 +57,52 @@ def export(
       MissingExtraError: if Minari is wanted and not installed.
       OSError: if it cannot be written.
       player.PlayerError: if the actor fails.
-      ValueError: if there is something in the folder, or a number makes no sense.
+      ValueError: if the folder holds something else, or a number makes no sense.
     """
-    scoring.check(num_episodes, timeout, folder)
+    if as_minari:
+        extras.require("minari")
+    scoring.check(num_episodes, timeout)
     if seed == protocol.SEED:
         raise ValueError(f"seed is {seed}, whose episodes are scored; give another one")
     minari_name = targets.file_name(target) if as_minari else None
     writers = [_Writer(folder, asked, seed, minari_name) for asked in questions]
-    agent = targets.facts(target, [asked.name for asked in questions])
-    folder.mkdir(parents=True, exist_ok=True)
-    begun, done, problem = time.monotonic(), 0, "it was ended early"
-    try:
-        with _player(target, greedy, timeout) as play:
-            for writer in writers:
-                with writer:
-                    for episode in play(writer.asked, num_episodes, seed):
-                        writer.add(episode)
-                        done += 1
-                        show(done)
-        problem = ""
-    except player.PlayerError as error:
-        problem = str(error)
-        count = sum(writer.num_episodes for writer in writers)
-        kept = f"; the {count:,} episodes before are in {folder}" if count else ""
-        raise player.PlayerError(f"{problem}{kept}") from None
-    finally:
-        if any(writer.num_episodes for writer in writers):
+    found, names = targets.find(target, greedy), [asked.name for asked in questions]
+    facts = {"seed": seed, "episodes": num_episodes, "agent": found.facts(names)}
+    begun = time.monotonic()
+    of_all = {"target": target, "greedy": greedy, **facts, "tasks": names, "versions": provenance.versions()}
+    with playing.session(folder, found, timeout, of_all) as session:
+        shutil.rmtree(folder / MINARI, ignore_errors=True)  # Of a session that was ended.
+        problem = _play(session, writers, num_episodes, seed, lambda: show(session.num_played))
+        if session.num_played:
+            ended = {"complete": not problem, "problem": problem}
             written = {
-                "target": target,
-                "greedy": greedy,
-                "complete": not problem,
-                "problem": problem,
-                "seed": seed,
-                "episodes": num_episodes,
-                "agent": agent,
-                **provenance.made_since(begun),
+                **{"target": target, "greedy": greedy, **ended, **facts, **provenance.made_since(begun)},
                 "tasks": {writer.asked.name: writer.facts() for writer in writers if writer.num_episodes},
             }
             files.write_atomically(folder / FILE, (json.dumps(written, indent=1) + "\n").encode())
-        else:
-            with contextlib.suppress(OSError):  # Somebody else has put something there.
-                folder.rmdir()
+        if problem:
+            raise player.PlayerError(f"{problem}{session.kept_in(folder)}")
     return written
 
 
-@contextlib.contextmanager
-def _player(target: str, greedy: bool, timeout: float) -> Iterator[Callable[..., Iterator[episodes.Episode]]]:
-    """Returns a context with what plays, as `Player.play`: ours in this process, faster, others in their own."""
-    if targets.is_function(target):
-        with player.Player(target, greedy, timeout) as elsewhere:
-            yield elsewhere.play
-    else:
-        yield functools.partial(_play, targets.maker(target, greedy))
-
-
 def _play(
-    make: targets.MakeActor, asked: protocol.Question, num_episodes: int, seed: int
-) -> Iterator[episodes.Episode]:
-    act, environment = episodes.chosen_by(make(asked)), protocol.load(asked, seed)
-    for number in range(num_episodes):
-        yield episodes.play(environment, act, number)
-    environment.close()
+    session: playing.Session, writers: "Sequence[_Writer]", num_episodes: int, seed: int, show: Callable[[], None]
+) -> str:
+    """Plays the tasks of writers, which write them; returns the problem of an actor that fails."""
+    for writer in writers:
+        try:
+            for episode in session.play(writer.asked, num_episodes, seed):
+                writer.add(episode)
+                show()
+        except player.PlayerError as error:
+            writer.write()
+            return str(error)
+        writer.write()
+    return ""
 
 
 class _Writer:
-    """Writes the episodes of a task, part by part; a context that writes the last part."""
+    """Writes the episodes of a task, part by part."""
 
     def __init__(self, folder: Path, asked: protocol.Question, seed: int, minari_name: str | None):
         """Prepares to write.
@@ -133,48 +116,42 @@ class _Writer:
         self.asked, self.num_episodes = asked, 0
         self._steps = steps.Steps(asked, suite.environment_seed(seed, 0))
         self._folder = folder / f"{asked.domain}-{asked.task}" / TABLE
-        self._pending: list[tuple[dict[str, np.ndarray], episodes.Episode]] = []
+        self._pending: list[dict[str, np.ndarray]] = []
         self._num_parts = 0
         self._num_right, self._num_steps, self._returned = 0, 0, 0.0
-        self._open_data_set: Callable[[], Any] | None = None
-        if minari_name is not None:
-            from physexp.analysis.export import data_set
-
-            self._open_data_set = functools.cache(functools.partial(data_set.DataSet, folder, self._steps, minari_name))
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self._write()
+        self._minari_folder, self._minari_name = folder / MINARI, minari_name
+        self._data_set: Any = None
 
     def add(self, episode: episodes.Episode) -> None:
         """Adds the next episode."""
-        rows = self._steps.rows(self.num_episodes + len(self._pending), episode)
-        self._pending.append((rows, dataclasses.replace(episode, timesteps=[])))  # Images of many would be large.
-        if sum(len(rows["step"]) for rows, _ in self._pending) >= _ROWS:
-            self._write()
+        count = len(episode.actions)
+        self._pending.append(self._steps.rows(self.num_episodes, episode))
+        self.num_episodes += 1
+        self._num_steps += count
+        self._num_right += bool(episode.rewards[-1] > 0)
+        self._returned += float(self.asked.discount ** np.arange(count) @ episode.rewards)
+        if sum(len(rows["step"]) for rows in self._pending) >= _ROWS:
+            self.write()
 
-    def _write(self) -> None:
-        """Writes what was added since as a part, and counts it; where that fails, it is still to be written."""
+    def write(self) -> None:
+        """Writes the episodes that were added since as a part."""
         if not self._pending:
             return
-        table = self._steps.table([rows for rows, _ in self._pending])
-        self._folder.mkdir(parents=True, exist_ok=True)
+        table = self._steps.table(self._pending)
+        if not self._num_parts:
+            shutil.rmtree(self._folder, ignore_errors=True)  # Of a session that was ended.
+            self._folder.mkdir(parents=True)
         tables.write(self._folder / f"part-{self._num_parts:05d}.parquet", table, compression="zstd")
-        written, self._pending = self._pending, []
+        self._pending = []
         self._num_parts += 1
-        self.num_episodes += len(written)
-        for _, episode in written:
-            count = len(episode.actions)
-            self._num_steps += count
-            self._num_right += bool(episode.rewards[-1] > 0)
-            self._returned += float(self.asked.discount ** np.arange(count) @ episode.rewards)
-        if self._open_data_set is not None:
-            self._open_data_set().add(table)
+        if self._minari_name is not None:
+            from physexp.analysis.export import data_set
+
+            self._data_set = self._data_set or data_set.DataSet(self._minari_folder, self._steps, self._minari_name)
+            self._data_set.add(table)
 
     def facts(self) -> dict[str, Any]:
-        """Returns what the task asks, what its columns mean, and what was earned."""
+        """Returns the task's question, the meanings of its columns, and means of its episodes."""
         asked = self.asked
         return {
             "episodes": self.num_episodes,

@@ -1,4 +1,4 @@
-"""Actors that are scored: baselines who look at nothing, the ideal, trained networks, and anybody's policies."""
+"""Actors that are scored: baselines that look at nothing, the ideal, trained networks, and users' policies."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -30,10 +30,10 @@ class Policy(core.Actor):
 
 
 class _Baseline(core.Actor):
-    """An experimenter who looks at nothing."""
+    """An experimenter that looks at nothing."""
 
-    def __init__(self, asked: protocol.Question):
-        self._asked, self._number = asked, -1
+    def __init__(self, asked: protocol.Question, first: int = 0):
+        self._asked, self._number = asked, first - 1
 
     def observe_first(self, timestep):
         self._number += 1
@@ -43,7 +43,7 @@ class _Baseline(core.Actor):
 
 
 class Random(_Baseline):
-    """Draws every action, interactions and answers alike; in an episode of some number always the same."""
+    """Draws every action, interactions and answers alike; the index of an episode is the seed."""
 
     def observe_first(self, timestep):
         super().observe_first(timestep)
@@ -56,8 +56,8 @@ class Random(_Baseline):
 class AtOnce(_Baseline):
     """Gives the likeliest answer at once."""
 
-    def __init__(self, asked):
-        super().__init__(asked)
+    def __init__(self, asked, first=0):
+        super().__init__(asked, first)
         hidden = protocol.drawn(asked, 1)[0]
         nothing = episodes.Episode(hidden, np.zeros(0, np.int64), np.zeros(0), [])
         self._label = int(protocol.ideal(asked).beliefs(nothing)[0].argmax())
@@ -73,16 +73,16 @@ class Silent(_Baseline):
         return 0
 
 
-def ideal(asked: protocol.Question) -> core.Actor:
-    """Returns the ideal experimenter of a task."""
+def ideal(asked: protocol.Question, first: int = 0) -> core.Actor:
+    """Returns the ideal experimenter of a task, which plays each episode as if it were the first."""
     return protocol.ideal(asked).actor()
 
 
 class Network(core.Actor):
-    """Plays a trained network; what it draws in an episode of some number is always the same."""
+    """Plays a trained network; the index of an episode is the seed of what is drawn in it."""
 
-    def __init__(self, network, greedy: bool):
-        self._network, self._greedy, self._number = network, greedy, -1
+    def __init__(self, network, greedy: bool, first: int = 0):
+        self._network, self._greedy, self._number = network, greedy, first - 1
 
     def observe_first(self, timestep):
         from physexp.agents import acting
@@ -98,10 +98,10 @@ class Network(core.Actor):
         self._actor.observe(action, next_timestep)
 
 
-BASELINES: Mapping[str, Callable[[protocol.Question], core.Actor]] = {
+BASELINES: Mapping[str, Callable[..., core.Actor]] = {
     "random": Random,
     "at_once": AtOnce,
     "silent": Silent,
     "ideal": ideal,
 }
-"""Experimenters that every task has."""
+"""Experimenters that every task has, each made from a task and the index of the first episode that it plays."""

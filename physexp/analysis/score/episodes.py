@@ -1,6 +1,6 @@
-"""Plays single episodes of a task and keeps all of them, whoever chooses the actions."""
+"""Plays single episodes of a task and keeps all of them, with any choice of actions."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 import dataclasses
 
 import dm_env
@@ -18,7 +18,7 @@ class Episode:
     """An episode of T actions.
 
     Attributes:
-      hidden: the hidden property, which no actor is told, [...].
+      hidden: the hidden property, which is told to no actor, [...].
       actions: int64 [T].
       rewards: float64 [T].
       timesteps: before each action and at the end, T + 1 of them.
@@ -52,8 +52,32 @@ def play(
     return Episode(environment.hidden[0], np.array(actions, np.int64), rewards, timesteps)
 
 
+def again(environment: suite.BatchEnvironment, number: int, actions: Sequence[int]) -> Episode:
+    """Plays the actions of an episode again.
+
+    Args:
+      environment: a batch of one.
+      number: the episode's index.
+      actions: all of them.
+
+    Raises:
+      ValueError: if the episode does not end with the last of them.
+    """
+    left = iter([*actions, None])
+
+    def act(step: int, timestep: dm_env.TimeStep) -> int:
+        if (action := next(left)) is None:
+            raise ValueError(f"episode {number} goes on after its {len(actions)} actions")
+        return action
+
+    played = play(environment, act, number)
+    if len(played.actions) < len(actions):
+        raise ValueError(f"episode {number} ends after {len(played.actions)} of its {len(actions)} actions")
+    return played
+
+
 def chosen_by(actor: core.Actor) -> Act:
-    """Returns what chooses actions as an actor does, who sees all but the last time step of an episode."""
+    """Returns an actor's choice of actions; it sees all but the last time step of an episode."""
     action: int | None = None
 
     def act(step: int, timestep: dm_env.TimeStep) -> int:

@@ -1,13 +1,14 @@
-"""What an ideal experimenter says of the actions of episodes, each that comes again asked once.
+"""Judges episodes: the ideal experimenter's values of their actions, each episode that comes again asked for once.
 
-Several tasks are judged in processes of their own, while others are played: to find out what actions were worth can
-take longer than to take them. A single one is judged in a thread, which is there at once.
+Several tasks are judged side by side, in processes of their own: to find out the worth of actions can take longer than
+to take them.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent import futures
 import dataclasses
 import functools
+import itertools
 import multiprocessing
 from typing import Any
 
@@ -20,11 +21,11 @@ from physexp.analysis.score import episodes, protocol, reference
 
 _KEPT = 8192  # Judgements; of a finite question, the same episode comes often.
 _WAIT_SECONDS = 0.2  # Between two looks at how far the judges are.
-_counter: Any = None  # In a worker's process, of the episodes that all workers have judged.
+_counter: Any = None  # In a worker's process: counts the episodes that all workers have judged.
 
 
 class Judge:
-    """Judges episodes by what is hidden and what was done, from which a judgement follows."""
+    """Judges episodes by their hidden properties and actions, from which a judgement follows."""
 
     def __init__(self, solution: ideal_base.Solution):
         """Takes the ideal experimenter."""
@@ -32,7 +33,7 @@ class Judge:
         self._judged = functools.lru_cache(_KEPT)(self._judge)
 
     def __call__(self, episode: episodes.Episode) -> mistakes.Actions:
-        """Returns what is said of the actions of an episode.
+        """Returns the judgement of each action of an episode.
 
         Raises:
           ValueError: if it cannot be known.
@@ -40,7 +41,7 @@ class Judge:
         return mistakes.actions(self.judgement(episode), episode.actions)
 
     def judgement(self, episode: episodes.Episode) -> ideal_base.Judgement:
-        """Returns what could be known in an episode, and what its actions were worth.
+        """Returns the beliefs that were possible in an episode, and the values of all actions.
 
         Raises:
           ValueError: if it cannot be known.
@@ -56,82 +57,52 @@ class Judge:
 
 @dataclasses.dataclass(frozen=True)
 class Judged:
-    """What is said of all episodes of a task.
+    """The judgement of all episodes of a task.
 
     Attributes:
-      actions: of each episode.
-      ideal: how the ideal experimenter fares in as many; None where it cannot play.
+      actions: the judgements of the actions of each episode.
+      ideal: means of the ideal experimenter over as many episodes; None if it cannot play.
     """
 
     actions: list[mistakes.Actions]
     ideal: reference.Reference | None
 
 
-class Judges:
-    """Judge tasks, one on each processor core; a context that leaves no process and no thread behind."""
+def judge(
+    played: Mapping[protocol.Question, Sequence[episodes.Episode]], show: Callable[[int], None] = lambda done: None
+) -> dict[str, Judged]:
+    """Judges the episodes of tasks, by what is hidden in them and their actions; leaves no process behind.
 
-    def __init__(self, num_tasks: int, show: Callable[[], None] = lambda: None):
-        """Prepares to judge.
+    Args:
+      played: the episodes of each task.
+      show: called with how many of them have been judged.
 
-        Args:
-          num_tasks: how many tasks.
-          show: called again and again while episodes are judged that others wait for.
-        """
-        self._show, self._are_needed = show, True
-        self._workers: set[multiprocessing.process.BaseProcess] = set()
-        context = multiprocessing.get_context("spawn")
-        self._counter = context.Value("q", 0)
-        self._pool: futures.Executor = futures.ThreadPoolExecutor(1)
-        if num_tasks > 1:
-            self._pool = futures.ProcessPoolExecutor(
-                min(processes.num_cores(), num_tasks), context, initializer=_begin, initargs=(self._counter,)
-            )
+    Returns:
+      The judgements by the tasks' names.
 
-    def __enter__(self):
-        return self
-
-    def __exit__(self, kind, *_):
-        if kind is not None:  # Nobody waits any more for what is being judged.
-            self._are_needed = False
-            for worker in self._workers:
-                processes.kill(worker)
-        self._pool.shutdown(cancel_futures=True)
-
-    @property
-    def count(self) -> int:
-        """How many episodes have been judged so far."""
-        return self._counter.get_obj().value  # Without its lock, which a worker that was killed may hold.
-
-    def wait(self, judged: "Sequence[futures.Future[Judged]]") -> None:
-        """Waits until tasks are judged."""
-        while futures.wait(judged, _WAIT_SECONDS).not_done:
-            self._show()
-        self._show()
-
-    def begin(self, asked: protocol.Question, played: Sequence[episodes.Episode]) -> "futures.Future[Judged]":
-        """Begins to judge the episodes of a task, by what is hidden and was done; returns what will be said."""
-        if isinstance(self._pool, futures.ThreadPoolExecutor):
-            return self._pool.submit(_judged, asked, played, self._count_if_needed)
-        others = set(multiprocessing.active_children())
-        with processes.inherited_by_workers():
-            judged = self._pool.submit(_judged_by_worker, asked.name, played)
-        self._workers |= set(multiprocessing.active_children()) - others
-        return judged
-
-    def judged(
-        self, asked: protocol.Question, played: Sequence[episodes.Episode], begun: "futures.Future[Judged]"
-    ) -> Judged:
-        """Returns what is said of a task that `begin` was given; judges it anew where a process was killed over it."""
-        try:
-            return begun.result()
-        except futures.BrokenExecutor:
-            return _judged(asked, played, self._show)
-
-    def _count_if_needed(self) -> None:
-        """Counts an episode; ends the thread that judges where nobody waits for it any more."""
-        if not self._are_needed:
-            raise futures.CancelledError
-        _count(self._counter)
+    Raises:
+      BrokenExecutor: if a process was killed.
+    """
+    if len(played) == 1:
+        ((asked, its),) = played.items()
+        done = itertools.count(1)
+        return {asked.name: _judged(asked, its, lambda: show(next(done)))}
+    context, others = multiprocessing.get_context("spawn"), set(multiprocessing.active_children())
+    counter = context.Value("q", 0)
+    num_workers = min(processes.num_cores(), len(played))
+    pool = futures.ProcessPoolExecutor(num_workers, context, initializer=_begin, initargs=(counter,))
+    try:
+        with processes.without_script(), processes.inherited_by_workers():
+            begun = {asked.name: pool.submit(_judged_by_worker, asked.name, its) for asked, its in played.items()}
+        while futures.wait(begun.values(), _WAIT_SECONDS).not_done:
+            show(counter.get_obj().value)  # Without its lock, which a worker that was killed may hold.
+        return {name: judged.result() for name, judged in begun.items()}
+    except BaseException:
+        for worker in set(multiprocessing.active_children()) - others:
+            processes.kill(worker)
+        raise
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 def _judged(asked: protocol.Question, played: Sequence[episodes.Episode], count: Callable[[], None]) -> Judged:

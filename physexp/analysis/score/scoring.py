@@ -1,8 +1,7 @@
-"""Scores a target: plays the protocol, judges what was played, and keeps both in a folder."""
+"""Scores a target: plays the protocol, judges the episodes, and writes both into a folder."""
 
+from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
-from concurrent import futures
-import contextlib
 import dataclasses
 import json
 from pathlib import Path
@@ -12,11 +11,28 @@ from typing import Any
 
 import pyarrow
 
+from physexp import checks
 from physexp.agents import files
 from physexp.analysis.data import provenance
-from physexp.analysis.score import episodes, judging, log, player, protocol, reference, scores, targets
+from physexp.analysis.score import episodes, judging, log, player, playing, protocol, reference, scores, targets
 
 FILE = "score.json"
+_KINDS = {
+    "target": str,
+    "greedy": bool,
+    "complete": bool,
+    "problem": str,
+    "seconds": int | float,
+    "commit": str,
+    **dict.fromkeys(("versions", "agent", "protocol", "tasks", "domains", "whole"), dict),
+}
+_KINDS_OF_AGENT = {
+    **dict.fromkeys(("algorithm", "command", "commit"), str | None),
+    **dict.fromkeys(("frames", "seed"), int | None),
+    "seconds": int | float | None,
+    "agents": dict | None,
+}
+_MOST_SECONDS = 1e6  # Of a call; the system's own limit is little larger.
 
 
 def score(
@@ -30,118 +46,80 @@ def score(
     made: Mapping[str, Any] | None = None,
     show: Callable[[int], None] = lambda done: None,
 ) -> dict[str, Any]:
-    """Plays the protocol with a target; returns what `score.json` holds.
+    """Plays the protocol with a target, judges its actions and writes both; returns the content of `score.json`.
 
-    Whole episodes that were played are kept, also where the actor fails or the user ends it, once they have been
-    judged; where the user does not wait for that and ends it again, it leaves nothing.
+    Episodes are kept as they end. After an interruption the same call goes on with the others; if the actor fails, the
+    episodes until then are judged and written, too.
 
     Args:
-      target, greedy: as for `targets.maker`.
+      target, greedy: as for `targets.find`.
       questions: the tasks.
       num_episodes: of each of them.
-      folder: where everything goes; it is made, or is empty.
-      timeout: for each call of the actor, s.
-      made: what else is to be said of how it was made: `algorithm`, `frames`, `seconds`.
+      folder: where everything goes; it is made, is empty, or holds some of these very episodes.
+      timeout: for each call of a user's function, s.
+      made: further facts of how the target was made: `algorithm`, `frames`, `seconds`.
       show: called with how many episodes are done; one that has been played, but not been judged, counts half.
 
     Raises:
       OSError: if it cannot be written.
       player.PlayerError: if the actor fails.
-      ValueError: if there is something in the folder, no ideal experimenter is known, or a number makes no sense.
+      ValueError: if the folder holds something else, no ideal experimenter is known, or a number makes no sense.
     """
-    check(num_episodes, timeout, folder)
+    check(num_episodes, timeout)
     for asked in questions:
-        protocol.ideal(asked)  # Where none is known, that is told before anything is played.
-    agent = {**targets.facts(target, [asked.name for asked in questions]), **(made or {})}
-    folder.mkdir(parents=True, exist_ok=True)
-    facts = {
-        "version": protocol.VERSION,
-        "target": target,
-        "greedy": greedy,
-        "protocol": {
-            "seed": protocol.SEED,
-            "episodes": num_episodes,
-            "tasks": [asked.name for asked in questions],
-        },
-        "agent": agent,
-    }
-    begun, problem = time.monotonic(), "it was ended early"
-    parts: list[_Part] = []
-    num_played = 0
-
-    def show_done(new: int = 0) -> None:
-        nonlocal num_played
-        num_played += new
-        show((num_played + judges.count) // 2)
-
-    with judging.Judges(len(questions), show_done) as judges:
-        try:
-            with player.Player(target, greedy, timeout) as actor:
-                for asked in questions:
-                    _play(actor, asked, num_episodes, judges, parts, lambda: show_done(1))
-            problem = ""
-            judges.wait([part.judged for part in parts])  # Ended here, it goes on to wait below: a second time ends it.
-        except player.PlayerError as error:
-            problem = str(error)
-            count = sum(len(part.rows) for part in parts)
-            kept = f"; the {count:,} episodes before are in {folder}" if parts else ""
-            raise player.PlayerError(f"{problem}{kept}") from None
-        finally:
-            if parts:
-                judges.wait([part.judged for part in parts])
-                ended = {"complete": not problem, "problem": problem}
-                said = {part.asked.name: judges.judged(part.asked, part.played, part.judged) for part in parts}
-                written = _write(folder, parts, said, begun, {**facts, **ended})
-            else:
-                with contextlib.suppress(OSError):  # Somebody else has put something there.
-                    folder.rmdir()
+        protocol.ideal(asked)  # Refuses a task without one before anything is played.
+    found = targets.find(target, greedy)
+    names = [asked.name for asked in questions]
+    asked_for = {"seed": protocol.SEED, "episodes": num_episodes, "tasks": names}
+    facts = {"version": protocol.VERSION, "target": target, "greedy": greedy, "protocol": asked_for}
+    agent, begun = found.facts(names), time.monotonic()
+    of_all = {**facts, "agent": agent, "versions": provenance.versions()}
+    with playing.session(folder, found, timeout, of_all) as session:
+        rows, played, problem = _play(session, questions, num_episodes, lambda: show(session.num_played // 2))
+        if played:
+            judged = judging.judge(played, lambda done: show((session.num_played + done) // 2))
+            facts |= {"agent": {**agent, **(made or {})}, "complete": not problem, "problem": problem}
+            written = _write(folder, rows, judged, begun, facts)
+        if problem:
+            raise player.PlayerError(f"{problem}{session.kept_in(folder)}")
     return written
 
 
-@dataclasses.dataclass(frozen=True)
-class _Part:
-    """What was played of a task, a dictionary of columns for each episode, and what is going to be said of it."""
-
-    asked: protocol.Question
-    played: list[episodes.Episode]
-    rows: list[dict[str, Any]]
-    judged: "futures.Future[judging.Judged]"
-
-
 def _play(
-    actor: player.Player,
-    asked: protocol.Question,
+    session: playing.Session,
+    questions: Sequence[protocol.Question],
     num_episodes: int,
-    judges: judging.Judges,
-    parts: list[_Part],
     show: Callable[[], None],
-) -> None:
-    """Plays a task and has it judged; adds whole episodes to the parts, also where it is ended early."""
-    rows: list[dict[str, Any]] = []
-    played: list[episodes.Episode] = []
+) -> tuple[dict[protocol.Question, list[dict[str, Any]]], dict[protocol.Question, list[episodes.Episode]], str]:
+    """Plays tasks; returns the log's columns and the episodes by task, and the problem if the actor fails."""
+    rows, played = defaultdict(list), defaultdict(list)
     try:
-        for number, episode in enumerate(actor.play(asked, num_episodes)):
-            rows.append(log.played(asked, protocol.ENVIRONMENT_SEED, number, episode))
-            played.append(dataclasses.replace(episode, timesteps=[]))  # Images of many episodes are large.
-            show()
-    finally:
-        if played:
-            parts.append(_Part(asked, played, rows[: len(played)], judges.begin(asked, played)))
+        for asked in questions:
+            for number, episode in enumerate(session.play(asked, num_episodes, protocol.SEED)):
+                rows[asked].append(log.played(asked, protocol.ENVIRONMENT_SEED, number, episode))
+                played[asked].append(dataclasses.replace(episode, timesteps=[]))  # Images of many episodes are large.
+                show()
+    except player.PlayerError as error:
+        return rows, played, str(error)
+    return rows, played, ""
 
 
 def _write(
-    folder: Path, parts: Sequence[_Part], said: Mapping[str, judging.Judged], begun: float, facts: dict[str, Any]
+    folder: Path,
+    rows: Mapping[protocol.Question, Sequence[Mapping[str, Any]]],
+    judged: Mapping[str, judging.Judged],
+    begun: float,
+    facts: Mapping[str, Any],
 ) -> dict[str, Any]:
     """Writes the log, first, and its figures beside facts; returns the latter two."""
-    rows = [
-        {**row, **log.said(part.asked, row["action"], judged)}
-        for part in parts
-        for row, judged in zip(part.rows, said[part.asked.name].actions, strict=True)
-    ]
-    found, questions = log.table(rows), [part.asked for part in parts]
+    found = log.table(
+        {**row, **log.said(asked, row["action"], actions)}
+        for asked, its in rows.items()
+        for row, actions in zip(its, judged[asked.name].actions, strict=True)
+    )
     log.write(folder, found)
-    ideals = {name: one.ideal for name, one in said.items()}
-    written = {**facts, **provenance.made_since(begun), **figures(found, questions, ideals)}
+    ideals = {name: one.ideal for name, one in judged.items()}
+    written = {**facts, **provenance.made_since(begun), **figures(found, list(rows), ideals)}
     files.write_atomically(folder / FILE, (json.dumps(written, indent=1) + "\n").encode())
     return written
 
@@ -183,30 +161,26 @@ def read(folder: Path) -> dict[str, Any]:
     version = found.get("version") if isinstance(found, dict) else None
     if version != protocol.VERSION:
         raise ValueError(f"{path} is of protocol {version!r}; this version of physexp plays {protocol.VERSION}")
-    kinds: dict[str, Any] = {
-        "target": str,
-        "greedy": bool,
-        "complete": bool,
-        "problem": str,
-        "seconds": (int, float),
-        "commit": str,
-        **dict.fromkeys(("versions", "agent", "protocol", "tasks", "domains", "whole"), dict),
-    }
-    asked = {"seed": int, "episodes": int, "tasks": list}
-    for fields, wanted in ((found, kinds), (found.get("protocol"), asked)):
-        for name, kind in wanted.items():
-            if not isinstance(fields.get(name), kind):
-                raise ValueError(f"{path} is not what was written: {name} is {fields.get(name)!r}; score again")
+    _check_kinds(path, found, _KINDS)
+    _check_kinds(path, found["protocol"], {"seed": int, "episodes": int, "tasks": list})
     if not all(isinstance(name, str) for name in found["protocol"]["tasks"]):
         raise ValueError(f"{path} is not what was written: tasks is {found['protocol']['tasks']!r}; score again")
+    _check_kinds(path, found["agent"], _KINDS_OF_AGENT)
+    for name, agent in (found["agent"].get("agents") or {}).items():
+        _check_kinds(path, {name: agent}, {name: dict})
+        _check_kinds(path, agent, _KINDS_OF_AGENT)
     return found
 
 
-def check(num_episodes: int, timeout: float, folder: Path) -> None:
-    """Refuses numbers that make no sense, and a folder with something in it: raises ValueError."""
+def _check_kinds(path: Path, fields: Mapping[str, Any], kinds: Mapping[str, Any]) -> None:
+    """Refuses a field of another type: raises ValueError."""
+    for name, kind in kinds.items():
+        if not isinstance(fields.get(name), kind):
+            raise ValueError(f"{path} is not what was written: {name} is {fields.get(name)!r}; score again")
+
+
+def check(num_episodes: int, timeout: float) -> None:
+    """Refuses numbers that make no sense: raises ValueError."""
     if not 1 <= num_episodes <= protocol.MOST_EPISODES:
         raise ValueError(f"episodes is {num_episodes}; give a number from 1 to {protocol.MOST_EPISODES:,}")
-    if not 0 < timeout < float("inf"):
-        raise ValueError(f"timeout is {timeout:g}; give seconds > 0")
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise ValueError(f"{folder} exists and is not empty; give another --output")
+    checks.between("timeout", timeout, 0, _MOST_SECONDS, "s", without=0)

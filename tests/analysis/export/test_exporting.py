@@ -33,7 +33,8 @@ def policy(observation, state):
     episodes += state is None
     if episodes == 3:
         Path("hanging").touch()
-        time.sleep(10_000)
+        while not Path("go").exists():
+            time.sleep(0.01)
     return halving.policy(observation, state)
 """
 THRESHOLD = protocol.named(["threshold/features"])
@@ -214,22 +215,27 @@ def test_an_agent_that_hangs_loses_nothing_that_was_played():
     assert len(list(log.split(columns_of(*THRESHOLD)))) == 2
 
 
-def test_ctrl_c_keeps_what_was_played(here):
-    words = ["export", "hanging_agent:policy", "--tasks", "threshold/features", "--episodes", "9", "--output", "kept"]
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
+def test_an_export_that_is_ended_goes_on_to_the_same_files(here, number):
+    words = ["export", "hanging_agent:policy", "--tasks", "threshold/features", "--episodes", "5", "--minari"]
     with commands.start(*words, cwd=here) as process:
         waiting.wait_until((here / "hanging").exists, "the third episode", pid=process.pid)
-        process.send_signal(signal.SIGINT)
-        _, errors = process.communicate()
-    assert process.returncode == 130
-    assert errors == "the episodes that were played are in kept\nphysexp: interrupted\n"
-    assert len(list(log.split(columns_of(*THRESHOLD, folder="kept")))) == 2
+        process.send_signal(number)
+        process.communicate()
+    folder = "exports/hanging_agent_policy"
+    assert sorted(path.name for path in (here / folder).iterdir()) == ["played.jsonl"]
+    (here / "go").touch()
+    commands.run(*words, cwd=here, check=True)
+    export("halving:policy", count=5, folder="whole")
+    assert table_of(*THRESHOLD, folder).equals(table_of(*THRESHOLD, "whole"))
+    data_set = minari.MinariDataset(here / folder / "minari/physexp/threshold-features/hanging_agent_policy-v0/data")
+    assert len(data_set) == 5
 
 
-@pytest.mark.parametrize("is_lasting", [True, False])
-def test_what_is_counted_is_what_was_written(is_lasting, monkeypatch):
-    """A disk that is full when the second part is written, for good or for a moment."""
+def test_an_export_writes_anew_all_that_a_failed_one_has_written(monkeypatch):
+    """A disk that is full when the second part is written."""
     monkeypatch.setattr(exporting, "_ROWS", 8)  # Episodes of four steps: two make a part.
-    write, fails = tables.write, [False, True, is_lasting]
+    write, fails = tables.write, [False, True]
 
     def write_or_fail(*args, **kwargs):
         if fails and fails.pop(0):
@@ -238,11 +244,11 @@ def test_what_is_counted_is_what_was_written(is_lasting, monkeypatch):
 
     monkeypatch.setattr(tables, "write", write_or_fail)
     with pytest.raises(OSError, match="no space left"):
-        export("halving:policy", count=9)
-    written = json.loads(Path("exported/export.json").read_text())
-    facts, columns = written["tasks"]["threshold/features"], columns_of(*THRESHOLD)
-    assert not written["complete"] and facts["steps"] == len(columns["step"])
-    assert facts["episodes"] == len(list(log.split(columns))) == (2 if is_lasting else 4)
+        export("halving:policy", count=9, as_minari=True)
+    assert export("halving:policy", count=9, as_minari=True)["complete"]
+    export("halving:policy", count=9, folder="whole")
+    assert table_of(*THRESHOLD).equals(table_of(*THRESHOLD, "whole"))
+    assert len(minari.MinariDataset("exported/minari/physexp/threshold-features/halving_policy-v0/data")) == 9
 
 
 def test_the_command_exports(here):
@@ -254,9 +260,6 @@ def test_the_command_exports(here):
     assert head.split() == ["task", "episodes", "steps", "right", "return"]
     assert line.split() == ["threshold/features", "3", "12", "1.0000", f"{0.95**3:.4f}"]
     assert folder == "exports/halving_policy" and (here / folder / "minari").is_dir()
-    done = commands.run(*words, cwd=here)
-    assert done.returncode == 2
-    assert done.stderr == "physexp: exports/halving_policy exists and is not empty; give another --output\n"
 
 
 @pytest.mark.parametrize(

@@ -109,6 +109,16 @@ _MODULE = textwrap.dedent(
         return 7
 
 
+    def waits(observation, state):
+        """Halves; notes each episode that begins, and waits for a file in the third."""
+        if state is None:
+            with open("begun", "a") as file:
+                file.write("x")
+            while os.path.getsize("begun") == 3 and not os.path.exists("go"):
+                time.sleep(0.01)
+        return halving.policy(observation, state)
+
+
     def of_three(observation, state, third):
         return 0, state
 

@@ -7,7 +7,6 @@ from pathlib import Path
 import re
 import signal
 import sys
-import threading
 
 import commands
 import made_agents
@@ -17,7 +16,7 @@ import waiting
 
 from physexp import suite
 from physexp.agents import pretrained
-from physexp.analysis.score import episodes, judging, log, player, protocol, scoring, targets, verifying
+from physexp.analysis.score import episodes, judging, log, player, playing, protocol, scoring, targets, verifying
 
 THRESHOLD = protocol.named(["threshold/features"])
 BOTH = protocol.named(["threshold/features", "strings/features"])
@@ -39,7 +38,7 @@ def failure_of(target, **options):
     """What is said of an agent that fails in its third episode; checks that two were kept."""
     with pytest.raises(player.PlayerError) as error:
         score(target, **options)
-    assert str(error.value).endswith("; the 2 episodes before are in scored")
+    assert str(error.value).endswith("; the 2 episodes before are in scored, and the same command goes on after them")
     kept = scoring.read(Path("scored"))
     assert not kept["complete"] and kept["problem"] in str(error.value)
     assert kept["tasks"]["threshold/features"]["episodes"] == 2
@@ -112,7 +111,7 @@ def test_an_agent_whose_process_is_killed_is_told():
         ("nowhere:policy", "No module named 'nowhere'; start where it is, or install it"),
         ("made:nothing", "made has no nothing; name a function that it has"),
         ("made:number", "number is no function; give a function of a question"),
-        ("made:of_three", "of_three has 3 parameters; give a function of a question"),
+        ("made:of_three", "of_three has 3 parameters without a default; give a function of a question"),
         ("made:makes_nothing", "it returned int; return an actor, with select_action, observe_first, observe, update"),
     ],
 )
@@ -127,26 +126,33 @@ def test_what_is_no_target_is_refused_with_what_there_is():
     with pytest.raises(
         ValueError, match="fly holds no run.*threshold/features.*random, at_once, silent, ideal, .*rule"
     ):
-        targets.suitable("fly")
-    with pytest.raises(ValueError, match="difficulty3 was trained with {'difficulty': 3.0}"):
-        targets.suitable("which_is_heavier-features-difficulty3")
+        targets.find("fly")
+    with pytest.raises(
+        ValueError, match=r"difficulty3 was trained with difficulty 3, and the score plays tasks without options: train"
+    ):
+        targets.find("which_is_heavier-features-difficulty3")
+
+
+def facts(name):
+    target = targets.find(name)
+    return target.facts([asked.name for asked in target.questions])
 
 
 def test_targets_play_the_tasks_that_they_can():
     def names(target):
-        return [asked.name for asked in targets.suitable(target)]
+        return [asked.name for asked in targets.find(target).questions]
 
-    assert targets.suitable("random") is targets.suitable("made:raises") is None
+    assert targets.find("random").questions is targets.find("made:raises").questions is None
     card = str(pretrained.FOLDER / "threshold-features.json")
     assert names("threshold/features") == names("threshold-features") == names(card) == ["threshold/features"]
-    assert targets.facts(card) == targets.facts("threshold-features") == targets.facts("threshold/features")
+    assert facts(card) == facts("threshold-features") == facts("threshold/features")
     assert names("which_is_heavier-features-difficulty5") == ["which_is_heavier/features"]
     assert names("rule") == names("lookup") == ["towers/direct_features", "towers/fist_features"]
 
 
 def test_agents_that_come_with_the_package_are_a_team_of_which_each_plays_its_own_task():
     def names(target, observations="features"):
-        return [asked.name for asked in targets.chosen(target, [], observations)]
+        return [asked.name for asked in targets.find(target).choose([], observations)]
 
     assert names("a3c") == ["towers/direct_features", "towers/fist_features", "which_is_heavier/features"]
     assert {"threshold/features", "strike/features"} < set(names("shipped"))
@@ -165,7 +171,7 @@ def test_agents_that_come_with_the_package_are_a_team_of_which_each_plays_its_ow
 )
 def test_a_team_whose_tasks_nobody_or_two_play_is_refused(target, said):
     with pytest.raises(ValueError, match=said):
-        targets.suitable(target)
+        targets.find(target)
 
 
 @pytest.mark.parametrize(
@@ -204,12 +210,8 @@ def test_a_trained_agent_is_scored_with_what_it_was_trained_with():
 
 
 def test_a_run_is_scored_as_the_agent_it_has_trained(untrained):
-    with pytest.raises(ValueError, match="does not say in its last row how long the agent was trained"):
-        targets.facts(str(untrained.path))
-    untrained.append_metrics({"frames": 0, "seconds": 0.0})
-    assert targets.facts(str(untrained.path))["command"].startswith("physexp train which_is_heavier features")
-    with pytest.raises(ValueError, match="was trained with {'difficulty': 10.0}"):
-        targets.suitable(str(untrained.path))
+    with pytest.raises(ValueError, match="was trained with difficulty 10, and the score plays tasks without options"):
+        targets.find(str(untrained.path))
 
 
 def test_the_log_has_a_row_for_each_action_and_rebuilds_each_instance():
@@ -249,10 +251,10 @@ def test_the_command_scores_and_verifies(here):
 
 
 def test_of_a_team_in_a_team_each_agent_counts_once():
-    outer, inner = targets.facts("a3c,threshold/features"), targets.facts("a3c")
+    outer, inner = facts("a3c,threshold/features"), facts("a3c")
     assert len(inner["agents"]) > 1
-    assert outer["agents"] == inner["agents"] | {"threshold/features": targets.facts("threshold/features")}
-    assert outer["frames"] == inner["frames"] + targets.facts("threshold/features")["frames"]
+    assert outer["agents"] == inner["agents"] | {"threshold/features": facts("threshold/features")}
+    assert outer["frames"] == inner["frames"] + facts("threshold/features")["frames"]
 
 
 @pytest.mark.parametrize(
@@ -261,7 +263,9 @@ def test_of_a_team_in_a_team_each_agent_counts_once():
         (["halving:policy", "--tasks", "threshold/fast"], "task is 'threshold/fast'; choose from which_is_heavier/"),
         (["threshold/features", "--tasks", "strings/features"], "threshold/features does not play strings/features; "),
         (["halving:policy", "--episodes", "0"], "episodes is 0; give a number from 1 to 100,000"),
-        (["halving:policy", "--timeout", "0"], "timeout is 0; give seconds > 0"),
+        (["halving:policy", "--timeout", "0"], "timeout is 0.0; give a number from 0 to 1e+06 s but not 0"),
+        (["halving:policy", "--timeout", "5e6"], "timeout is 5000000.0; give a number from 0 to 1e+06 s"),
+        (["halving:policy", "--minutes", "1e308"], "minutes is 1e+308; give a number from 0 to 1e+09 min"),
         (["halving:policy", "--minutes", "nan"], "minutes is nan; give "),
         (["halving:policy", "--minutes", "-1"], "minutes is -1"),
         (["halving:policy", "--frames", "-3"], "frames is -3; give an integer >= 0"),
@@ -274,79 +278,114 @@ def test_the_command_refuses_before_anything_is_played(here, words, said):
     assert not (here / "scores").exists()
 
 
-def test_ctrl_c_keeps_what_was_played(here):
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_a_score_that_is_ended_goes_on_and_plays_nothing_twice(here, number):
+    words = ["score", "made:waits", "--tasks", "threshold/features", "--episodes", "5"]
+    begun = here / "begun"
+    with commands.start(*words, cwd=here) as process:
+        waiting.wait_until(lambda: begun.exists() and begun.stat().st_size == 3, "an episode", pid=process.pid)
+        process.send_signal(number)
+        _, errors = process.communicate()
+    assert process.returncode == (-9 if number == signal.SIGKILL else 128 + number)
+    if number != signal.SIGKILL:
+        assert errors == (
+            "the episodes that were played are in scores/made_waits; the same command goes on after them\n"
+            "physexp: interrupted\n"
+        )
+    (here / "go").touch()
+    commands.run(*words, cwd=here, check=True)
+    assert begun.stat().st_size == 3 + 3, "two episodes were over, and the third is played anew"
+    score("halving:policy", count=5, folder="whole")
+    found, whole = (log.read(here / folder) for folder in ("scores/made_waits", "whole"))
+    assert found.equals(whole)
+    assert sorted(path.name for path in (here / "whole").iterdir()) == ["actions.parquet", "score.json"]
+
+
+def test_a_score_goes_on_with_the_episodes_that_were_written_whole():
+    class Ended(Exception):
+        """As a kill would: nothing catches it."""
+
+    def end(done):
+        if done == 5:  # Ten of twelve are played, and none is judged.
+            raise Ended
+
+    score("random", BOTH, count=6, folder="whole")
+    with pytest.raises(Ended):
+        score("random", BOTH, count=6, show=end)
+    played = Path("scored") / playing.FILE
+    with played.open("ab") as file:
+        file.write(b'["strings/features", [1, 2')  # As when the power fails.
+    score("random", BOTH, count=6)
+    assert log.read(Path("scored")).equals(log.read(Path("whole")))
+    assert not played.exists()
+
+
+@pytest.mark.parametrize(
+    ("target", "options", "said"),
+    [
+        ("at_once", {}, 'begun with target "random" instead of "at_once"; give the same, or another --output'),
+        ("random", {"count": 5}, "begun with protocol episodes 4 instead of 5; give the same, or"),
+        ("random", {"greedy": True}, "begun with greedy false instead of true"),
+    ],
+)
+def test_a_folder_with_episodes_of_another_score_is_refused(target, options, said):
+    def end(done):
+        raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        score("random", show=end)
+    with pytest.raises(ValueError, match=said):
+        score(target, **options)
+
+
+def test_a_second_score_of_a_target_has_a_folder_of_its_own(here):
+    words = ["score", "random", "--tasks", "threshold/features", "--episodes", "2"]
+    assert [commands.run(*words, cwd=here).stdout.splitlines()[-1] for _ in range(2)] == [
+        "scores/random",
+        "scores/random-2",
+    ]
+    refused = commands.run(*words, "--output", "scores/random", cwd=here)
+    assert refused.stderr == "physexp: scores/random exists and is not empty; give another --output\n"
+
+
+def test_a_second_process_on_a_folder_is_refused(here):
     words = ["score", "made:hangs", "--tasks", "threshold/features", "--output", "kept"]
     with commands.start(*words, cwd=here) as process:
         waiting.wait_until((here / "hanging").exists, "the third episode", pid=process.pid)
-        process.send_signal(signal.SIGINT)
-        _, errors = process.communicate()
-    assert process.returncode == 130
-    assert errors == "the episodes that were played are in kept\nphysexp: interrupted\n"
-    kept = scoring.read(here / "kept")
-    assert not kept["complete"] and kept["tasks"]["threshold/features"]["episodes"] == 2
-    done = commands.run("verify", "kept", cwd=here)
-    assert (
-        done.stdout.startswith("OK: 2 episodes were played so") and "; it is a part, of 1,000 episodes" in done.stdout
-    )
-
-
-def test_judges_that_nobody_waits_for_are_ended():
-    asked, played = wanderers(100)
-    with pytest.raises(KeyboardInterrupt), judging.Judges(num_tasks=2) as judges:
-        judged = judges.begin(asked, played)
-        waiting.wait_until(judged.running, "a judge")
-        raise KeyboardInterrupt
-    assert isinstance(judged.exception(), futures.BrokenExecutor)
-    assert not multiprocessing.active_children()
+        refused = commands.run(*words, cwd=here)
+    assert refused.returncode == 2
+    assert refused.stderr == "physexp: kept is in use by another process; give another --output\n"
 
 
 def wanderers(count):
-    """Sealed Box, and episodes of it in which somebody wanders about: a hundred take half a minute to judge."""
+    """Sealed Box, and episodes of it in which an agent wanders about: a hundred take half a minute to judge."""
     (asked,) = protocol.named(["sealed_box/features"])
     ways = np.random.default_rng(0).integers(asked.num_interactions, size=(count, 20))
     hidden = protocol.drawn(asked, count)
     return asked, [episodes.Episode(one, way, np.zeros(20), []) for one, way in zip(hidden, ways, strict=True)]
 
 
-def test_a_judge_of_one_task_that_nobody_waits_for_ends_after_an_episode():
-    asked, played = wanderers(100)
-    before = threading.enumerate()
-    with pytest.raises(KeyboardInterrupt), judging.Judges(num_tasks=1) as judges:
-        judged = judges.begin(asked, played)
-        waiting.wait_until(lambda: judges.count, "a judgement")
-        raise KeyboardInterrupt
-    assert isinstance(judged.exception(), futures.CancelledError) and judges.count < 100
-    assert set(threading.enumerate()) <= set(before)
-
-
-def test_ctrl_c_while_one_task_is_judged_keeps_what_was_played():
-    interrupted = []
-
-    def show(done):  # What was played counts half: beyond that, it is being judged.
-        if done > 30 and not interrupted:
-            interrupted.append(done)
+def test_judges_that_are_interrupted_end_at_once():
+    def interrupt(done):
+        if done:
             raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt):
-        score("random", protocol.named(["sealed_box/features"]), count=60, folder="kept", show=show)
-    kept = scoring.read(Path("kept"))
-    assert interrupted and kept["tasks"]["sealed_box/features"]["episodes"] == 60
-    assert verifying.verify(Path("kept"))["episodes"] == 60
+    asked, played = wanderers(100)
+    (other,) = THRESHOLD
+    for tasks in ({asked: played}, {asked: played, other: []}):
+        with pytest.raises(KeyboardInterrupt):
+            judging.judge(tasks, interrupt)
+        assert not multiprocessing.active_children()
 
 
-def test_what_a_killed_judge_was_to_judge_is_judged_again():
-    asked, played = wanderers(10)
-    with judging.Judges(num_tasks=2) as judges:
-        begun = judges.begin(asked, played)
-        waiting.wait_until(begun.running, "a judge")
+def test_a_judge_that_is_killed_is_an_error():
+    def kill(done):
         for worker in multiprocessing.active_children():
             worker.kill()
-        judges.wait([begun])
-        assert isinstance(begun.exception(), futures.BrokenExecutor)
-        judged = judges.judged(asked, played, begun)
-    with judging.Judges(num_tasks=1) as judges:
-        expected = judges.begin(asked, played).result()
-    assert [repr(one) for one in judged.actions] == [repr(one) for one in expected.actions]
+
+    asked, played = wanderers(100)
+    with pytest.raises(futures.BrokenExecutor):
+        judging.judge({asked: played, THRESHOLD[0]: []}, kill)
 
 
 def test_an_episode_is_done_once_it_is_judged():

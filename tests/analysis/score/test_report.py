@@ -104,7 +104,7 @@ def test_bits_of_each_interaction_are_drawn_beside_the_ideals(found):
 @pytest.mark.parametrize("name", ["threshold/features", "which_is_heavier/features", "strings/features"])
 def test_what_random_actions_are_expected_to_return_is_what_they_return(name):
     (asked,) = protocol.named([name])
-    actor, environment = targets.maker("random")(asked), protocol.load(asked)
+    actor, environment = targets.find("random").make(asked, 0), protocol.load(asked)
     returns = []
     for number in range(1000):
         rewards = episodes.play(environment, episodes.chosen_by(actor), number).rewards

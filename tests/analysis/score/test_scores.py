@@ -12,7 +12,7 @@ COUNT = 6
 
 def play(target, asked, count=COUNT):
     """The score of a target on a task, played in this process."""
-    actor, environment = targets.maker(target)(asked), protocol.load(asked)
+    actor, environment = targets.find(target).make(asked, 0), protocol.load(asked)
     judge = judging.Judge(protocol.ideal(asked))
     act, played = episodes.chosen_by(actor), []
     for number in range(count):
