@@ -16,7 +16,7 @@ from pyarrow import parquet
 from physexp.agents import files
 
 _MARK = b"physexp sha256 "
-_MOST_BYTES = 2**28  # Of a file; the largest of ours has less than a million.
+MOST_BYTES = 2**28  # Of a file; the largest of ours has less than a million.
 _MOST_ROWS = 2**24
 _MOST_UNPACKED = 2**30  # Bytes of all pages.
 _LONGEST = 2**20  # Bytes of a text, or entries of a list, in a file's description of itself.
@@ -51,9 +51,9 @@ def read(path: Path, schema: pyarrow.Schema, columns: Sequence[str] | None = Non
 
     Raises:
       OSError: if there is no such file or it cannot be opened.
-      ValueError: if it is damaged, has other columns, or is larger than any table of ours.
+      ValueError: if it is damaged, has other columns, or is larger than any table of ours. Integers may be narrower.
     """
-    content = files.read_plain(path, _MOST_BYTES)
+    content = files.read_plain(path, MOST_BYTES)
     try:
         _check_sum(content)
         with parquet.ParquetFile(
@@ -65,7 +65,8 @@ def read(path: Path, schema: pyarrow.Schema, columns: Sequence[str] | None = Non
         ) as file:
             _check_size(file.metadata)
             _check_schema(file.schema_arrow, schema)
-            return file.read(None if columns is None else list(columns), use_threads=False)
+            wanted = schema if columns is None else pyarrow.schema([schema.field(name) for name in columns])
+            return file.read(wanted.names, use_threads=False).cast(wanted)
     except (ValueError, OSError, KeyError, pyarrow.ArrowException) as error:
         raise ValueError(
             f"{path} is damaged ({files.reason(error)}); put back what was written, or remove it"
@@ -95,5 +96,13 @@ def _check_schema(found: pyarrow.Schema, schema: pyarrow.Schema) -> None:
     if found.names != schema.names:
         raise ValueError(f"its columns are {', '.join(found.names)[:80]} instead of {', '.join(schema.names)}")
     for name in schema.names:
-        if found.field(name).type != schema.field(name).type:
+        if not _fits(found.field(name).type, schema.field(name).type):
             raise ValueError(f"{name} is {found.field(name).type} instead of {schema.field(name).type}")
+
+
+def _fits(found: pyarrow.DataType, wanted: pyarrow.DataType) -> bool:
+    """Returns whether a type is the wanted one, or the same with narrower integers, as earlier versions wrote them."""
+    if pyarrow.types.is_list(found) and pyarrow.types.is_list(wanted):
+        return _fits(found.value_type, wanted.value_type)
+    are_signed = pyarrow.types.is_signed_integer(found) and pyarrow.types.is_signed_integer(wanted)
+    return found == wanted or (are_signed and found.bit_width < wanted.bit_width)

@@ -23,18 +23,18 @@ SCHEMA = pyarrow.schema(
         ("control_timestep", pyarrow.float32()),  # s
         ("seed", pyarrow.int64()),  # Of the environment: with `episode`, it rebuilds the episode.
         ("episode", pyarrow.int64()),
-        ("actions", pyarrow.list_(pyarrow.int8())),
-        ("answer", pyarrow.int8()),  # The right label.
-        ("label", pyarrow.int8()),  # The label given, -1 when time ran out.
+        ("actions", pyarrow.list_(pyarrow.int32())),
+        ("answer", pyarrow.int32()),  # The right label.
+        ("label", pyarrow.int32()),  # The label given, -1 when time ran out.
         ("reward", pyarrow.float32()),
-        ("length", pyarrow.int16()),  # Actions, the label among them.
+        ("length", pyarrow.int32()),  # Actions, the label among them.
     ]
 )
 """The columns of every file. What was hidden is drawn again when it is asked for."""
 
 RECKONED = pyarrow.schema(
     [
-        ("interactions", pyarrow.int16()),
+        ("interactions", pyarrow.int32()),
         ("time", pyarrow.float32()),  # Of interaction before the label, s.
     ]
 )
@@ -133,5 +133,5 @@ def _load_task(domain: str, task: str, difficulty: float | None):
 
 
 def discounted_return(frame) -> np.ndarray:
-    """Returns discounted returns of the episodes in a frame, as `Episodes.returns` does."""
-    return (frame.reward * frame.discount ** (frame.length - 1)).to_numpy()
+    """Returns discounted returns of the episodes in a frame, as `Episodes.returns` does, in single precision."""
+    return (frame.reward * frame.discount ** (frame.length - 1).astype(np.float32)).to_numpy()

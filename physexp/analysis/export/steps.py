@@ -14,12 +14,12 @@ _KEYS = pyarrow.schema(
         ("task", pyarrow.string()),
         ("seed", pyarrow.int64()),  # Of the environment: with `episode`, it rebuilds the episode.
         ("episode", pyarrow.int64()),
-        ("step", pyarrow.int16()),
+        ("step", pyarrow.int32()),
     ]
 )
 _TAKEN = pyarrow.schema(
     [
-        ("action", pyarrow.int16()),
+        ("action", pyarrow.int32()),
         ("reward", pyarrow.float64()),
         ("terminated", pyarrow.bool_()),
         ("truncated", pyarrow.bool_()),  # The simulation has diverged: the episode has no outcome.
@@ -48,7 +48,7 @@ class Steps:
         hidden = protocol.drawn(asked, 1)[0]
         self.schema = pyarrow.schema([*_KEYS, *self._observed(""), *_TAKEN, *self._observed(NEXT)])
         self.schema = self.schema.append(pyarrow.field("hidden", _type(hidden.dtype, hidden.shape)))
-        self.schema = self.schema.append(pyarrow.field("answer", pyarrow.int16()))  # The right label.
+        self.schema = self.schema.append(pyarrow.field("answer", pyarrow.int32()))  # The right label.
         if self.judged_by is not None:
             for name, length in (
                 ("belief", len(asked.label_names)),

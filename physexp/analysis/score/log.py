@@ -21,8 +21,8 @@ PLAYED = pyarrow.schema(
         ("task", pyarrow.string()),
         ("seed", pyarrow.int64()),  # Of the environment: with `episode`, it rebuilds the episode.
         ("episode", pyarrow.int64()),
-        ("step", pyarrow.int16()),
-        ("action", pyarrow.int16()),
+        ("step", pyarrow.int32()),
+        ("action", pyarrow.int32()),
         ("reward", pyarrow.float64()),
         ("observation", pyarrow.uint64()),  # A digest of what was observed before the action.
     ]

@@ -52,11 +52,11 @@ EPISODES = pyarrow.schema(
         ("frames", pyarrow.int64()),  # Of training, when the episode was learned from.
         ("seed", pyarrow.int64()),  # Seed of the environment: with `episode`, it rebuilds the episode.
         ("episode", pyarrow.int64()),
-        ("answer", pyarrow.int8()),  # The right label.
-        ("label", pyarrow.int8()),  # The label given, -1 when time ran out.
+        ("answer", pyarrow.int32()),  # The right label.
+        ("label", pyarrow.int32()),  # The label given, -1 when time ran out.
         ("reward", pyarrow.float32()),
-        ("length", pyarrow.int16()),
-        ("actions", pyarrow.list_(pyarrow.int8())),
+        ("length", pyarrow.int32()),
+        ("actions", pyarrow.list_(pyarrow.int32())),
     ]
 )
 

@@ -11,6 +11,7 @@ from physexp.agents import rounds
 from physexp.agents.a3c import config as a3c
 from physexp.analysis.data import episodes
 from physexp.analysis.evaluation import records
+from physexp.analysis.score import log
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 
@@ -76,6 +77,20 @@ def test_stored_rows_are_a_selection_with_the_condition():
     first = rows.to_pylist()[0]
     assert (first["difficulty"], first["discount"], first["training_seed"]) == (5.0, 0.5, 2)
     assert first["control_timestep"] == 0.25 and first["actions"] == [0, 3, 5]
+
+
+def test_records_hold_long_episodes_and_many_actions():
+    """Control steps of 65 us give 40,000 actions in 2.6 s; a domain of one's own may have 200 interactions."""
+    actions = np.full((40_000, 1), 199)
+    actions[-1] = 399
+    long = rounds.Round(actions, np.ones((40_000, 1), np.float32), np.array([40_000]), np.array([199]))
+    table = episodes.Episodes.of_round(long, 200, np.array([1]), 0)
+    config = config_lib.TrainConfig(domain="towers", task="fist_features", agent=a3c.A3CConfig())
+    for rows in (table.table(run_lib.EPISODES, frames=1), records.table(table, config, "learned", 65e-6)):
+        (found,) = rows.to_pylist()
+        assert (found["answer"], found["label"], found["length"]) == (199, 199, 40_000)
+        assert found["actions"] == actions[:, 0].tolist()
+    assert {log.PLAYED.field(name).type for name in ("step", "action")} == {pyarrow.int32()}
 
 
 def test_a_column_that_the_table_lacks_has_to_be_given():

@@ -50,6 +50,16 @@ def test_a_table_comes_back_and_other_readers_read_it_too(tmp_path):
     pd.testing.assert_frame_equal(pd.read_parquet(path), TABLE.to_pandas())
 
 
+def test_a_file_with_narrower_integers_is_read(tmp_path):
+    narrow = {"answer": pyarrow.int8(), "length": pyarrow.int16(), "actions": pyarrow.list_(pyarrow.int8())}
+    fields = [field.with_type(narrow.get(field.name, field.type)) for field in SCHEMA]
+    tables.write(tmp_path / "old", TABLE.cast(pyarrow.schema(fields)))
+    assert tables.read(tmp_path / "old", SCHEMA).equals(TABLE)
+    tables.write(tmp_path / "other", TABLE.set_column(3, "answer", [[1.0, 2.0, 3.0]]))
+    with pytest.raises(ValueError, match="answer is double instead of int32"):
+        tables.read(tmp_path / "other", SCHEMA)
+
+
 def test_a_file_without_a_checksum_is_read(tmp_path):
     (tmp_path / "old").write_bytes(as_before())
     assert tables.read(tmp_path / "old", SCHEMA).equals(TABLE)
