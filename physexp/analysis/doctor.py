@@ -16,7 +16,8 @@ from physexp.agents import processes
 OK, MISSING, BROKEN = "ok", "missing", "broken"
 """Verdicts, which mean fine; some commands or some speed need it; the environments themselves do not work."""
 
-_CORE = ("numpy", "scipy", "mujoco", "dm_control", "torch", "pyarrow", "rerun")
+# The suite imports mujoco and dm_control, whatever the environment variables of GL say.
+_CORE = ("numpy", "scipy", "physexp.suite", "torch", "pyarrow", "rerun")
 _PYTHON = ((3, 11), (3, 12))  # The first and the last that are tested.
 _MEMORY = 2.0  # GiB: two workers that train the towers from pixels take 1.2.
 _DISK = 1.0  # GiB: a run from pixels takes some hundredths of it, its replays more.
@@ -68,8 +69,6 @@ def _core() -> Iterator[dict]:
             importlib.import_module(module)
         except Exception as error:  # Whatever a library that is broken raises is what the user wants to read.
             advice = "install physexp anew, into an environment of its own"
-            if "MUJOCO_GL" in str(error):
-                advice = "unset MUJOCO_GL, or set it to egl, osmesa or glfw"
             yield _check(f"import {module}", _in_a_line(error), BROKEN, advice)
             return
     try:
@@ -115,7 +114,8 @@ def _hardware(facts: dict) -> Iterator[dict]:
 
     backend, renderer = facts["gl_backend"], facts["gl_renderer"]
     if renderer.startswith("none"):
-        yield _check("OpenGL", renderer, MISSING, f"features need none; for pixels, install {gl.DEBIAN_PACKAGES}")
+        found, _, advice = renderer.rpartition("; ")
+        yield _check("OpenGL", found, MISSING, advice)
     elif gl.is_software(renderer) and gl.gpu_is_present():
         yield _check(
             "OpenGL",

@@ -183,6 +183,60 @@ def test_a_backend_that_does_not_work_here_is_refused_by_its_name_and_leaves_not
     assert "Traceback" not in stderr, stderr
 
 
+@pytest.mark.parametrize(
+    "variables",
+    [
+        {"MUJOCO_GL": "osmesa"},
+        {"MUJOCO_GL": "nonsense"},
+        {"MUJOCO_GL": "egl", "PYOPENGL_PLATFORM": "osmesa"},
+        {"MUJOCO_GL": "egl", "MUJOCO_EGL_DEVICE_ID": "99"},
+    ],
+    ids=str,
+)
+def test_a_variable_that_keeps_pixels_from_being_drawn_is_named(variables):
+    """By what draws, and by the doctor, in whose eyes nothing else is wrong; features play."""
+    found, stderr = interpreters.run(
+        f"""
+{HIDE_GL}
+{PLAY}
+from physexp.analysis import doctor
+found["played"] = play_features()
+found["drawn"] = draw()
+found["core"] = [check["verdict"] for check in doctor._core()]
+found["check"] = next(check for check in doctor.examine()["checks"] if check["check"] == "OpenGL")
+""",
+        **variables,
+    )
+    assert found["played"] and stderr == ""
+    settings = [f"{name}={value}" for name, value in variables.items()]
+    _assert_refused(found["drawn"], *settings, f"unset {' and '.join(variables)}")
+    assert set(found["core"]) == {doctor.OK}
+    assert all(setting in found["check"]["found"] for setting in settings)
+    assert found["check"]["advice"].startswith(f"unset {' and '.join(variables)}")
+
+
+@needs_gl
+@pytest.mark.parametrize(
+    "first, choice",
+    [
+        *((first, None) for first in ("import mujoco", "from dm_control import suite")),
+        *((first, gl.choose_backend().upper()) for first in ("", "import mujoco")),  # dm_control takes no capitals.
+    ],
+)
+def test_pixels_are_drawn_whatever_was_imported_first_or_spelled_how(first, choice):
+    found, _ = interpreters.run(f"{first}\n{PLAY}\nfound['drawn'] = draw()", MUJOCO_GL=choice, **NO_DISPLAY)
+    _assert_drawn(found["drawn"])
+
+
+@pytest.mark.parametrize("backend", ["egl", "osmesa"])
+def test_without_a_choice_of_mujocos_the_backend_is_the_platform_of_pyopengl(backend):
+    _needs_library({"egl": "EGL", "osmesa": "OSMesa"}[backend])
+    code = f"{PLAY}\nimport os\nfound['drawn'], found['backend'] = draw(), os.environ['MUJOCO_GL']"
+    found, _ = interpreters.run(code, MUJOCO_GL=None, PYOPENGL_PLATFORM=backend)
+    _assert_drawn(found["drawn"])
+    assert found["backend"] == backend
+
+
 # Contexts.
 
 

@@ -157,7 +157,7 @@ def make_context(size: int):
         why = " ".join(str(error).split())  # In one line.
         raise RuntimeError(
             f"no pixels can be drawn with {settings}: {why}; unset {' and '.join(variables)}, "
-            f"and install {DEBIAN_PACKAGES} (features need none)"
+            f"and if that is not enough, install {DEBIAN_PACKAGES} (features need none)"
         ) from error
 
 
