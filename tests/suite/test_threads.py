@@ -91,7 +91,7 @@ def test_two_threads_that_step_one_environment_at_once_end_no_process():
 
 
 @pytest.mark.parametrize("which", [0, 1], ids=["environment", "batch"])
-@pytest.mark.parametrize("duplicate", [copy.deepcopy, pickle.dumps])
+@pytest.mark.parametrize("duplicate", [copy.copy, copy.deepcopy, pickle.dumps])
 def test_a_copy_is_refused_with_what_to_do_instead(which, duplicate):
     environment, _ = _environments()[which]
     with pytest.raises(TypeError, match="neither copied nor pickled; load another"):

@@ -331,6 +331,9 @@ class BatchEnvironment:
             self._task.close()
             self._closed = True
 
+    def __reduce__(self):  # Of copies and of pickles.
+        return self._guard.__reduce__()
+
     def _close_renderer(self) -> None:
         if self._renderer is not None:
             self._renderer.close()

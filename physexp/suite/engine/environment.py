@@ -112,6 +112,9 @@ class Environment(composer.Environment):
                 self._renderer.close()
             self._physics = self._physics_proxy = None
 
+    def __reduce__(self):  # Of copies and of pickles.
+        return self._guard.__reduce__()
+
     def _flattened(self, timestep: dm_env.TimeStep) -> dm_env.TimeStep:
         if not self._flat:
             return timestep
