@@ -7,8 +7,8 @@ import threading
 class Guard:
     """A context manager for every use of a simulation; within one thread it may be nested.
 
-    While another thread is inside, it raises RuntimeError instead of waiting. A guard can be neither copied nor pickled,
-    and no object can that has one and reduces itself to it, since no simulation can.
+    While another thread is inside, it raises RuntimeError instead of waiting. A guard can be neither copied nor
+    pickled, and no object can that has one and reduces itself to it, since no simulation can.
     """
 
     def __init__(self, name: str, num_threads: int = 1):
