@@ -88,7 +88,14 @@ def _core() -> Iterator[dict]:
 
 def _versions(extra: str) -> Iterator[dict]:
     """Whether the libraries that are installed, of the core or of an extra, are of versions that fit."""
-    for line in importlib.metadata.requires("physexp") or ():
+    try:
+        lines = importlib.metadata.requires("physexp") or ()
+    except importlib.metadata.PackageNotFoundError:
+        if not extra:
+            tree = Path(__file__).parents[2]
+            yield _check("versions", "unknown: physexp is not installed", MISSING, f"pip install -e {tree}")
+        return
+    for line in lines:
         wanted = requirements.Requirement(line)
         belongs = (
             wanted.marker is None

@@ -10,7 +10,7 @@ from typing import Any
 
 import physexp
 
-_DISTRIBUTIONS = ("physexp", "mujoco", "dm-control", "torch", "numpy")
+_DISTRIBUTIONS = ("mujoco", "dm-control", "torch", "numpy")
 _GIT_SECONDS = 60.0
 _DIGITS = 40  # Of a commit.
 
@@ -52,6 +52,13 @@ def made_since(begun: float) -> dict[str, Any]:
 
 
 def versions() -> dict[str, str]:
-    """Returns the versions of what determines a run's results."""
-    found = {name: importlib.metadata.version(name) for name in _DISTRIBUTIONS}
-    return {"python": platform.python_version(), **found}
+    """Returns the versions of all that determines a run's results; a source tree on the path is `not installed`."""
+    found = {name: _version(name) for name in _DISTRIBUTIONS}
+    return {"python": platform.python_version(), "physexp": physexp.__version__, **found}
+
+
+def _version(distribution: str) -> str:
+    try:
+        return importlib.metadata.version(distribution)
+    except importlib.metadata.PackageNotFoundError:
+        return "not installed"

@@ -1,10 +1,14 @@
-"""The commit of the source that runs is named, and told in few digits."""
+"""The commit and the versions of the source that runs are named."""
 
+import json
 from pathlib import Path
+import site
 import subprocess
+import sys
 
 import pytest
 
+import physexp
 from physexp.analysis.data import provenance
 
 
@@ -44,3 +48,24 @@ def test_a_commit_is_of_a_checkout_of_this_source_and_not_of_a_project_that_it_i
 )
 def test_a_commit_is_shortened_and_a_word_that_stands_for_one_is_not(commit, expected):
     assert provenance.shortened(commit) == expected
+
+
+def test_a_source_tree_that_is_not_installed_trains_and_doctor_says_so(tmp_path):
+    libraries, source = tmp_path / "libraries", Path(physexp.__file__).parents[1]
+    libraries.mkdir()
+    for entry in Path(site.getsitepackages()[0]).iterdir():
+        if "physexp" not in entry.name:
+            (libraries / entry.name).symlink_to(entry)
+
+    def run(*words):
+        code = f"import sys; sys.path[:0] = {[str(source), str(libraries)]}; from physexp.cli import main; main()"
+        return subprocess.run([sys.executable, "-S", "-c", code, *words], cwd=tmp_path, capture_output=True, text=True)
+
+    words = ["--agent", "ppo", "--num-environments", "32", "--frames", "300", "--run-dir", "run", "--replay-every", "0"]
+    done = run("train", "which_is_heavier", "features", *words)
+    assert done.returncode == 0, done.stderr
+    assert json.loads((tmp_path / "run" / "config.json").read_text())["versions"] == provenance.versions()
+    checks = {check["check"]: check for check in json.loads(run("doctor", "--json").stdout)["checks"]}
+    assert checks["versions"]["found"] == "unknown: physexp is not installed"
+    assert checks["versions"]["advice"] == f"pip install -e {source}"
+    assert provenance.versions()["physexp"] == physexp.__version__
