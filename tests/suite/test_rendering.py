@@ -343,6 +343,16 @@ print({{}}, flush=True)
     assert interpreters.run(code) == ({}, "")
 
 
+def test_a_process_in_which_dm_control_drew_first_ends_in_silence():
+    _needs_library("EGL")
+    code = """
+from physexp import suite
+env = suite.load("which_is_heavier", "features", {"random": 0})
+env.reset(), env.physics.render(30, 40), env.render()
+"""
+    assert interpreters.run(code, MUJOCO_GL="egl") == ({}, "")
+
+
 @needs_gl
 @pytest.mark.parametrize("thread_ends", [True, False])
 def test_a_process_whose_thread_forgot_to_close_its_renderer_ends_in_silence(thread_ends):

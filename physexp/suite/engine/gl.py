@@ -38,6 +38,11 @@ def prepare() -> None:
     backend = choose_backend()
     try:
         _import_simulators()
+        if theirs := sys.modules.get("dm_control._render.pyopengl.egl_renderer"):
+            from mujoco import egl
+
+            # One display of both, which is terminated after all that was drawn on it: hooks run in the opposite order.
+            egl.EGL_DISPLAY = egl.EGL_DISPLAY or theirs.EGL_DISPLAY
     except Exception:  # Of whatever kind the driver, PyOpenGL or MuJoCo raises.
         os.environ["MUJOCO_GL"] = "disable"
         try:
