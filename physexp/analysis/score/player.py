@@ -37,9 +37,9 @@ class PlayerError(ValueError):
 
 
 def check_place() -> None:
-    """Refuses to play while an actor's module is imported, as that of a script without a guard would: ValueError."""
+    """Raises TargetError in an actor's process: the import of a script without a guard comes to play there again."""
     if _is_actor:
-        raise ValueError(
+        raise targets.TargetError(
             'the module plays episodes when it is imported; put its own calls below `if __name__ == "__main__":`'
         )
 

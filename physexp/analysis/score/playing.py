@@ -71,7 +71,7 @@ class Session:
         """Returns the end of an error's message: where the episodes until then are."""
         if not self.num_played:
             return ""
-        return f"; the {self.num_played:,} episodes before are in {folder}, and the same command goes on after them"
+        return f"; the episodes before it are in {folder}, and the same command goes on after them"
 
     def _keep(self, line: Any) -> None:
         self._file.write(json.dumps(line).encode() + b"\n")

@@ -27,7 +27,9 @@ _MODULE = textwrap.dedent(
 
     import os
     import signal
+    import subprocess
     import sys
+    import textwrap
     import time
     from pathlib import Path
 
@@ -87,6 +89,45 @@ _MODULE = textwrap.dedent(
 
     def hangs(question):
         return _after_two_episodes(_hang)
+
+
+    def _answer(text):
+        frame = sys._getframe()
+        while "connection" not in frame.f_locals:
+            frame = frame.f_back
+        frame.f_locals["connection"].sendall(text)
+        _hang()
+
+
+    def answers_half(question):
+        return _after_two_episodes(lambda: _answer(b'{"action"'))
+
+
+    def answers_ahead(question):
+        return _after_two_episodes(lambda: _answer(2 * b'{"action": 0}\\n'))
+
+
+    _PROGRAM = """
+    import json, os, signal, time
+    from pathlib import Path
+    handlers = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)]
+    blocked = [*map(int, signal.pthread_sigmask(signal.SIG_BLOCK, []))]
+    Path("written").write_text(json.dumps([os.getpid(), blocked, *(getattr(one, "__name__", one) for one in handlers)]))
+    Path("written").rename("program")
+    time.sleep(10_000)
+    """
+
+
+    def starts_a_program(question):
+        subprocess.Popen([sys.executable, "-c", textwrap.dedent(_PROGRAM)])
+        while not Path("program").exists():
+            time.sleep(0.01)
+        ends = {"hang": _hang, "die": lambda: os._exit(3), "return": lambda: 8}
+        return _after_two_episodes(ends[os.environ["END"]])
+
+
+    def makes_with_a_default(question, policy=halving.policy):
+        return policy
 
 
     def chooses_text(question):

@@ -1,16 +1,19 @@
 """Anything that acts is scored; what fails is told in one line, and what was played before is kept."""
 
 from concurrent import futures
+import contextlib
 import json
 import multiprocessing
 from pathlib import Path
 import re
 import signal
+import subprocess
 import sys
 
 import commands
 import made_agents
 import numpy as np
+import psutil
 import pytest
 import waiting
 
@@ -38,7 +41,7 @@ def failure_of(target, **options):
     """What is said of an agent that fails in its third episode; checks that two were kept."""
     with pytest.raises(player.PlayerError) as error:
         score(target, **options)
-    assert str(error.value).endswith("; the 2 episodes before are in scored, and the same command goes on after them")
+    assert str(error.value).endswith("; the episodes before it are in scored, and the same command goes on after them")
     kept = scoring.read(Path("scored"))
     assert not kept["complete"] and kept["problem"] in str(error.value)
     assert kept["tasks"]["threshold/features"]["episodes"] == 2
@@ -94,6 +97,60 @@ def test_an_agent_that_hangs_is_ended():
     said = failure_of("made:hangs", timeout=2.0)
     assert said.startswith("made:hangs did nothing within 2 s (threshold/features, episode 2, step 0)")
     assert not [child for child in multiprocessing.active_children() if child.name.startswith("actor")]
+
+
+@pytest.mark.parametrize(
+    ("target", "said"),
+    [
+        ("made:answers_half", r"did nothing within 2 s \(threshold/features, episode 2, step 0\)"),
+        ("made:answers_ahead", r"failed: it wrote to the connection of its process \(.* step 0\)"),
+    ],
+)
+def test_an_agent_that_writes_to_the_connection_is_ended(target, said):
+    assert re.search(said, failure_of(target, timeout=2.0))
+
+
+@pytest.mark.parametrize("end", ["hang", "die", "return"])
+def test_programs_of_an_agent_are_as_usual_and_end_with_it(end, monkeypatch):
+    monkeypatch.setenv("END", end)
+    with contextlib.nullcontext() if end == "return" else pytest.raises(player.PlayerError):
+        score("made:starts_a_program", timeout=5.0)
+    number, blocked, *handlers = json.loads(Path("program").read_text())
+    assert not blocked and handlers == ["default_int_handler", 0, 0]  # Python's own, and the system's.
+    waiting.wait_until(lambda: not psutil.pid_exists(number), "the end of the program")
+
+
+def test_programs_of_an_agent_end_when_the_score_is_killed(here, monkeypatch):
+    monkeypatch.setenv("END", "hang")
+    words = ["score", "made:starts_a_program", "--tasks", "threshold/features"]
+    with commands.start(*words, cwd=here) as process:
+        waiting.wait_until((here / "hanging").exists, "the third episode", pid=process.pid)
+        process.kill()
+        process.wait()
+    number, *_ = json.loads(Path("program").read_text())
+    waiting.wait_until(lambda: not psutil.pid_exists(number), "the end of the program")
+
+
+def test_a_script_needs_no_guard_unless_it_plays_itself(here):
+    lines = [
+        "from pathlib import Path",
+        "from physexp.analysis.score import protocol, scoring",
+        "from halving import policy",
+        'tasks = protocol.named(["threshold/features", "strings/features"])',
+        'print(scoring.score("random", tasks, 2, Path("random"))["complete"])',
+        'scoring.score("script:policy", tasks[:1], 2, Path("itself"))',
+    ]
+    (here / "script.py").write_text("\n".join(lines))
+    done = subprocess.run([sys.executable, "script.py"], capture_output=True, text=True)
+    assert done.stdout == "True\n"
+    assert done.stderr.splitlines()[-1].endswith(
+        "PlayerError: script:policy failed: the module plays episodes when it is imported; "
+        'put its own calls below `if __name__ == "__main__":` (threshold/features, before the first episode)'
+    )
+
+
+def test_a_function_with_a_default_makes_actors():
+    assert score("made:makes_with_a_default", count=1)["tasks"]["threshold/features"]["score"] == 1
 
 
 def test_an_agent_whose_process_is_killed_is_told():
