@@ -7,9 +7,11 @@ import threading
 import interpreters
 import numpy as np
 import pytest
+import torch
 
 from physexp import suite
 from physexp.analysis import doctor
+from physexp.suite import gymnasium
 from physexp.suite.engine import gl, rendering
 
 import mujoco  # isort: skip  # The suite chooses the GL backend, which mujoco looks at once.
@@ -373,6 +375,26 @@ if {thread_ends}:
     thread.join()
 """
     assert interpreters.run(code) == ({}, "")
+
+
+@needs_gl
+@pytest.mark.filterwarnings("error:The given NumPy array")
+def test_torch_takes_every_image_as_it_is():
+    """It takes no array of negative strides, and warns of one that cannot be written to."""
+    single, batch = suite.load(*HEAVIER, {"random": 0}), suite.load_batch(*HEAVIER, 2, {"random": 0})
+    wrapped = gymnasium.Environment(*HEAVIER, render_mode="rgb_array", random=0)
+    vector = gymnasium.VectorEnvironment(*HEAVIER, 2, render_mode="rgb_array", random=0)
+    images = [single.reset().observation["pixels"], single.step(0).observation["pixels"], single.render()]
+    images += [batch.reset().observation["pixels"], batch.step([0, 1]).observation["pixels"], batch.render()]
+    images += [wrapped.reset()[0]["pixels"], wrapped.step(0)[0]["pixels"], wrapped.render()]
+    images += [vector.reset()[0]["pixels"], vector.step([0, 1])[0]["pixels"], *vector.render()]
+    for image in images:
+        assert image.flags.c_contiguous
+        torch.from_numpy(image)[:] = 77  # They are the caller's own.
+    for environment, again in ((single, single.render), (batch, batch.render)):
+        assert (again() != 77).any()
+        environment.close()
+    wrapped.close(), vector.close()
 
 
 # What draws.

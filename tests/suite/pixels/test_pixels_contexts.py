@@ -242,3 +242,33 @@ def test_a_closed_environment_says_so_and_may_be_closed_again(load, domain_name,
         for use in (env.reset, lambda env=env, action=action: env.step(action)):
             with pytest.raises(RuntimeError, match="closed; load another"):
                 use()
+
+
+POOL = """
+import multiprocessing
+import numpy as np
+from physexp import suite
+
+drawn = [suite.load("strike", "features", {"random": 0}), suite.load_batch("strike", "features", 2, {"random": 0})]
+
+def draw():
+    made = suite.load("strike", "pixels", {"random": 0})
+    images = [made.reset().observation["pixels"]]
+    made.close()
+    for environment in drawn:
+        environment.reset()
+        images.append(environment.render())
+    return images
+
+here = draw()
+with multiprocessing.get_context("fork").Pool(2) as pool:
+    there = pool.apply_async(draw), pool.apply_async(draw)
+    found["same"] = [bool((a == b).all()) for result in there for a, b in zip(here, result.get(60), strict=True)]
+"""
+
+
+@pytest.mark.parametrize("backend", ["egl", "osmesa"])
+def test_forked_workers_of_a_pool_draw_with_environments_of_their_parent(backend):
+    if not ctypes.util.find_library({"egl": "EGL", "osmesa": "OSMesa"}[backend]):
+        pytest.skip("needs a library of GL: apt-get install libegl1 libgl1-mesa-dri libosmesa6")
+    assert interpreters.run(POOL, MUJOCO_GL=backend) == ({"same": [True] * 6}, "")
