@@ -1,4 +1,4 @@
-"""The layout of a recording: the scene at the left, observations and beliefs at the right, time paused."""
+"""The layout of a recording: the scene at the left, observations and beliefs at the right, slowly playing."""
 
 from collections.abc import Sequence
 import functools
@@ -13,9 +13,11 @@ from physexp.analysis.replay import recording, words
 
 TIMELINE = "time"
 
-_LONGER = 1.08  # Plots than the episode, so that its end is seen.
+_SPEED = 0.1  # Of playing: an episode of three actions lasts 0.3 s.
+_LONGER = 1.5  # Plots than the episode, so that there is room for names at their right.
 _MARGIN = 0.05  # Of a plot, below and above what the reading can be.
 _FIELD_OF_VIEW = 55.0  # degrees, of the viewer's own eye
+_INVISIBLE = rrb.EntityBehavior(visible=False)
 _NEARER = 0.7  # Than where the same is seen as through the agent's camera, since a window is wider than its images.
 
 
@@ -25,7 +27,7 @@ def blueprint(episodes: Sequence[recording.Episode], roots: Sequence[str]) -> rr
     body = columns[0] if len(columns) == 1 else rrb.Horizontal(*columns)
     return rrb.Blueprint(
         body,
-        rrb.TimePanel(timeline=TIMELINE, play_state="paused", state="collapsed"),
+        rrb.TimePanel(timeline=TIMELINE, playback_speed=_SPEED, play_state="playing", state="collapsed"),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
     )
@@ -37,45 +39,61 @@ def titled(root: str, title: str) -> str:
 
 
 def _column(episode: recording.Episode, root: str) -> rrb.Container:
-    scene, about, seen = _scene(episode, root), _about(root), _seen(episode, root)
+    scene, about, seen = _scene(episode, root), _about(root), _readings(episode, root)
     now, curves = _thoughts(episode, root)
     if root:
         plots = [rrb.Tabs(*(view for views in curves for view in views), active_tab=0)] if curves else []
         return rrb.Vertical(
             scene,
             about,
-            rrb.Horizontal(*now, seen, column_shares=[5, 4][-1 - len(now) :]),
+            rrb.Horizontal(*now, *seen, column_shares=[5, 4][: len(now) + len(seen)]),
             *plots,
             row_shares=[5, 4, 4, 4][: 3 + len(plots)],
         )
-    right = [seen, *now, *(rrb.Tabs(*views, active_tab=0) for views in curves)]
+    right = [*seen, *now, *(rrb.Tabs(*views, active_tab=0) for views in curves)]
     left = rrb.Vertical(scene, about, row_shares=[3, 2])
     return rrb.Horizontal(left, rrb.Vertical(*right, row_shares=[5, 4, 4, 4][: len(right)]), column_shares=[3, 2])
 
 
 def _scene(episode: recording.Episode, root: str) -> rrb.Tabs:
-    """Returns the scene without what is hidden, and, behind it, with it, where covers are seen through."""
-    eye, origin = _eye(episode), f"{root}/world"
-    without: Any = {f"{root}/world/hidden": rrb.EntityBehavior(visible=False)}
+    """Returns the scene as it is observed, and, behind it, as it is, where covers are seen through."""
     edges = rr.Boxes3D.from_fields(fill_mode="majorwireframe")
-    through: Any = {f"{root}/world/things/{name}": edges for name in _covers(episode)}
+    hidden = {f"{root}/world/{entity}": edges for entity in _covers(episode)}
     return rrb.Tabs(
-        rrb.Spatial3DView(
-            origin=origin, name=titled(root, episode.agent or "scene"), eye_controls=eye, overrides=without
-        ),
-        rrb.Spatial3DView(origin=origin, name=titled(root, words.HIDDEN_TAB), eye_controls=eye, overrides=through),
+        _observed(episode, root),
+        _world(episode, root, words.HIDDEN_TAB, {f"{root}/world/things": _INVISIBLE, **hidden}),
         active_tab=0,
     )
 
 
+def _observed(episode: recording.Episode, root: str) -> rrb.View:
+    """Returns the scene as readings place it, or the image, which places nothing."""
+    title, images = episode.agent or "scene", _images(episode)
+    if images:
+        return rrb.Spatial2DView(origin=f"{root}/seen/{images[0]}", name=titled(root, f"{title}: the image"))
+    return _world(episode, root, title, {f"{root}/world/hidden": _INVISIBLE})
+
+
+def _world(episode: recording.Episode, root: str, title: str, overrides: Any) -> rrb.View:
+    return rrb.Spatial3DView(
+        origin=f"{root}/world", name=titled(root, title), eye_controls=_eye(episode), overrides=overrides
+    )
+
+
+def _images(episode: recording.Episode) -> list[str]:
+    """Returns the names of the observations that are images."""
+    return [name for name in episode.observations if name not in episode.declared.all_readings]
+
+
 def _covers(episode: recording.Episode) -> list[str]:
-    """Returns the names of the boxes that have something in them, at the start, that is not drawn."""
+    """Returns the entities of the boxes that have something in them, at the start, that observations do not place."""
     shapes, positions = episode.shapes, episode.positions[0]
     covers = []
     for k in np.flatnonzero(shapes.are_drawn).tolist():
-        inside = np.abs((positions[~shapes.are_drawn] - positions[k]) @ episode.rotations[0, k]) < shapes.sizes[k]
-        if shapes.kinds[k] == "box" and inside.all(axis=1).any():
-            covers.append(shapes.names[k])
+        within = np.abs((positions - positions[k]) @ episode.rotations[0, k]) < shapes.sizes[k]
+        is_inside = within.all(axis=1) & ~shapes.are_placed & (np.arange(len(positions)) != k)
+        if shapes.kinds[k] == "box" and is_inside.any():
+            covers.append(f"{'hidden' if shapes.are_moving[k] else 'room'}/{shapes.names[k]}")
     return covers
 
 
@@ -92,26 +110,19 @@ def _eye(episode: recording.Episode) -> rrb.EyeControls3D:
 
 def _about(root: str) -> rrb.Container:
     text = rrb.TextDocumentView(origin=f"{root}/did/outcome", name=titled(root, "question and outcome"))
-    columns = rrb.TextLogColumns(
-        timeline_columns=[rrb.encodings.TimelineColumn(TIMELINE, visible=False)], text_log_columns=["Body"]
-    )
-    log = rrb.TextLogView(origin=f"{root}/did/actions", name=titled(root, "actions"), columns=columns)
+    log = rrb.TextDocumentView(origin=f"{root}/did/actions", name=titled(root, "actions so far"))
     return rrb.Horizontal(text, log, column_shares=[2, 1])
 
 
-def _seen(episode: recording.Episode, root: str) -> rrb.View | rrb.Container:
-    """Returns the images, and plots of the readings; in tabs, where there are several."""
+def _readings(episode: recording.Episode, root: str) -> list[rrb.View | rrb.Container]:
+    """Returns plots of the readings; in tabs, where there are several."""
     curves, seen = functools.partial(_curves, episode, root), readings.shown(episode.declared.all_readings)
     seen = [reading for reading in seen if reading.name in episode.observations]
-    views: list[rrb.View] = [
-        rrb.Spatial2DView(origin=f"{root}/seen/{name}", name=titled(root, "seen: the image"))
-        for name in episode.observations
-        if name not in episode.declared.all_readings
-    ]
+    views: list[rrb.View | rrb.Container] = []
     if any(reading.is_position for reading in seen):
         views.append(curves("seen: distance from start, m", ["seen/moved"]))
     views += [curves(title, *plot) for title, plot in _plots(seen).items()]
-    return views[0] if len(views) == 1 else rrb.Tabs(*views, active_tab=0)
+    return views if len(views) < 2 else [rrb.Tabs(*views, active_tab=0)]
 
 
 def _plots(seen: Sequence[readings.Shown]) -> dict[str, tuple[list[str], tuple[float, float] | None]]:
@@ -162,19 +173,17 @@ def _curves(
     entities: Sequence[str],
     limits: tuple[float, float] | None = None,
 ) -> rrb.View:
-    """Returns a plot of some entities, up to a little after the end of an episode that is over."""
-    until = _LONGER * float(episode.times[-1]) if len(episode.actions) else None
+    """Returns a plot of some entities up to the moment shown, with room for the names at the right of an episode."""
+    until = _LONGER * float(episode.times[episode.num_played])
+    start, now = rr.TimeRangeBoundary.absolute(seconds=0), rr.TimeRangeBoundary.cursor_relative(seconds=0)
     return rrb.TimeSeriesView(
         origin=f"{root}/",
         name=titled(root, title),
         contents=[f"{root}/{entity}" for entity in entities],
-        plot_legend=rrb.PlotLegend(rrb.Corner2D.LeftTop),
+        plot_legend=rrb.PlotLegend(rrb.Corner2D.RightTop),
+        time_ranges=rrb.VisibleTimeRange(TIMELINE, start=start, end=now),
         axis_x=None
-        if until is None
-        else rrb.TimeAxis(
-            view_range=rr.TimeRange(
-                start=rr.TimeRangeBoundary.absolute(seconds=0), end=rr.TimeRangeBoundary.absolute(seconds=until)
-            )
-        ),
+        if not until
+        else rrb.TimeAxis(view_range=rr.TimeRange(start=start, end=rr.TimeRangeBoundary.absolute(seconds=until))),
         axis_y=None if limits is None else rrb.ScalarAxis(range=limits),
     )

@@ -20,7 +20,7 @@ class Screen(Protocol):
 
 
 class Live(environment_loop.Observer):
-    """Shows an episode while it is played: what may be known, and all of it once it is over."""
+    """Shows an episode while it is played: what its observations tell, and all of it once it is over."""
 
     def __init__(self, recorder: recording.EpisodeRecorder, screen: Screen):
         """Prepares to show.
@@ -49,6 +49,6 @@ class Live(environment_loop.Observer):
 
     def _show(self, is_over: bool) -> None:
         episode = self._recorder.episode
-        writer, already = writing.EpisodeWriter(self._stream, episode, ""), max(0, len(episode.actions) - 1)
-        writer.write(already) if is_over else writer.write_so_far(already)
+        writer = writing.EpisodeWriter(self._stream, episode, "")
+        writer.write() if is_over else writer.write_so_far()
         self._screen.flush(self._stream)

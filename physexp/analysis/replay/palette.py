@@ -37,24 +37,25 @@ def of_thing(shapes: recording.Shapes, name: str) -> tuple[int, ...]:
 
 
 def of_labels(labels: Sequence[str], shapes: recording.Shapes) -> list[tuple[int, ...]]:
-    """Returns the colours of labels: those of the things that they name, or shades of one that no thing has."""
-    shades = np.linspace(_FIRST_LABEL, _LAST_LABEL, len(labels)).astype(int)
-    named = [_named(label, shapes) for label in labels]
-    return [
-        of_thing(shapes, name) if name else tuple(map(int, shade)) for name, shade in zip(named, shades, strict=True)
-    ]
+    """Returns the colours of labels: the things' own, where each names another thing, or shades that no thing has."""
+    named = _named(labels, shapes)
+    if named is not None:
+        return [of_thing(shapes, name) for name in named]
+    return [tuple(map(int, shade)) for shade in np.linspace(_FIRST_LABEL, _LAST_LABEL, len(labels)).astype(int)]
 
 
 def short(labels: Sequence[str], shapes: recording.Shapes) -> list[str]:
-    """Returns labels in few words: the things that they name, where each names another one, or themselves."""
-    named = [_named(label, shapes) for label in labels]
-    are_told_apart = len({name for name in named if name}) == sum(name is not None for name in named)
-    if not are_told_apart:
-        return list(labels)
-    return [readings.spoken(name) if name else label for name, label in zip(named, labels, strict=True)]
+    """Returns labels in few words: the names of the things, where each names another one, or the labels themselves."""
+    named = _named(labels, shapes)
+    return list(labels) if named is None else [readings.spoken(name) for name in named]
 
 
-def _named(label: str, shapes: recording.Shapes) -> str | None:
-    """Returns the name of the thing that a label names."""
-    names = (name for name in shapes.names if re.search(rf"\b{re.escape(readings.spoken(name))}\b", label))
-    return next(names, None)
+def _named(labels: Sequence[str], shapes: recording.Shapes) -> list[str] | None:
+    """Returns the names of the things that labels name, one each; None where two name the same, or one names none."""
+    found: list[str] = []
+    for label in labels:
+        names = [name for name in shapes.names if re.search(rf"\b{re.escape(readings.spoken(name))}\b", label)]
+        if len(names) != 1 or names[0] in found:
+            return None
+        found += names
+    return found

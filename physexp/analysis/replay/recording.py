@@ -11,6 +11,7 @@ import numpy as np
 from physexp import suite
 from physexp.agents import acting, core, environment_loop, networks
 from physexp.analysis import readings
+from physexp.analysis.replay import observed
 from physexp.analysis.training import config as config_lib
 from physexp.suite.engine import rendering
 from physexp.suite.engine import task as task_lib
@@ -30,7 +31,9 @@ class Shapes:
       kinds: `box`, `sphere`, `ellipsoid`, `cylinder` or `capsule`; of what is none of them, the box around it.
       sizes: half the sizes along the shape's own axes, without the caps of a capsule, m, float64 [K, 3].
       colors: float64 [K, 4].
-      are_drawn: whether images show them, bool [K]; those that they do not are hidden.
+      are_drawn: whether images show them, bool [K].
+      are_moving: whether they do not stand still in images, bool [K].
+      are_placed: whether they stand still, or the observations determine their positions, bool [K].
       geoms: their addresses in the compiled model, int64 [K].
     """
 
@@ -39,6 +42,8 @@ class Shapes:
     sizes: np.ndarray
     colors: np.ndarray
     are_drawn: np.ndarray
+    are_moving: np.ndarray
+    are_placed: np.ndarray
     geoms: np.ndarray
 
     def index(self, thing: str) -> int:
@@ -72,10 +77,12 @@ class Episode:
       beliefs: its probabilities of the labels before each action, float64 [T, L]; of no length where it has none.
       shapes: what is in the scene.
       control_timestep: time between its actions, s.
-      times: when they were where, s, float64 [F].
-      positions, rotations: their true poses at every physics step, and while the answer is played out where a task
-        does that, float64 [F, K, 3] and [F, K, 3, 3].
-      controls: what was sent to the actuators in the physics steps that led there, float64 [F, nu].
+      times: of the physics steps, and of those that play out the answer where a task does that, s, float64 [F].
+      num_played: physics steps before the answer; the later ones play it out.
+      positions, rotations: poses that follow from the observations alone, see `observed.film`; true ones in the steps
+        that play out the answer; float64 [F, K, 3] and [F, K, 3, 3].
+      true_positions, true_rotations: poses in the simulation.
+      controls: values sent to the actuators in the physics steps that led there, float64 [F, nu].
     """
 
     domain: str
@@ -96,8 +103,11 @@ class Episode:
     shapes: Shapes
     control_timestep: float
     times: np.ndarray
+    num_played: int
     positions: np.ndarray
     rotations: np.ndarray
+    true_positions: np.ndarray
+    true_rotations: np.ndarray
     controls: np.ndarray
 
 
@@ -219,50 +229,71 @@ class _Rebuilder:
         task.reseed(seed)
         task.next_episode = episode
         timestep = self._environment.reset()
-        model = task.apparatus.model
-        floor = [model.geom(geom.full_identifier).id for geom in (task.root_entity.floor, task.root_entity.mat)]
-        shapes = _shapes(model, floor)
-        self._geoms = shapes.geoms
         self._poses: list[tuple] = []
         self._note_poses(self._environment.physics)
-        seen = [timestep.observation, *(self._environment.step(action).observation for action in actions)]
+        seen, ends = [timestep.observation], [0]
+        for action in actions:
+            seen.append(self._environment.step(action).observation)
+            ends.append(len(self._poses) - 1)
         if task.answered:
             for _ in task.play_out(self._environment.physics, actions[-1] - task.num_interactions):
                 self._note_poses(self._environment.physics)
-        times, positions, rotations, controls = (np.array(values) for values in zip(*self._poses, strict=True))
-        return {name: np.stack([each[name] for each in seen]) for name in seen[0]}, {
+        observations = {name: np.stack([each[name] for each in seen]) for name in seen[0]}
+        return observations, {
             "declared": task,
             "hidden": np.array(task.hidden),
             "answer": task.correct_answer,
-            "shapes": shapes,
             "control_timestep": task.control_timestep,
+            "num_played": ends[-1],
+            **self._films(observations, ends),
+        }
+
+    def _films(self, observations: Mapping[str, np.ndarray], ends: Sequence[int]) -> dict[str, Any]:
+        """Returns the fields of `Episode` that tell what is in the scene, and where it is in each frame."""
+        task = self._environment.task
+        model, room = task.apparatus.model, task.root_entity
+        floor = [model.geom(geom.full_identifier).id for geom in (room.floor, room.mat)]
+        geoms = _geoms(model, floor)
+        times, positions, rotations, controls = (np.array(values) for values in zip(*self._poses, strict=True))
+        positions, rotations = positions[:, geoms], rotations[:, geoms]
+        seen_positions, seen_rotations, are_placed = observed.film(task, geoms, observations, ends)
+        return {
+            "shapes": _shapes(model, geoms, np.isin(geoms, task.apparatus.moving_geoms), are_placed),
             "times": times,
-            "positions": positions,
-            "rotations": rotations,
+            "positions": np.concatenate([seen_positions, positions[ends[-1] + 1 :]]),
+            "rotations": np.concatenate([seen_rotations, rotations[ends[-1] + 1 :]]),
+            "true_positions": positions,
+            "true_rotations": rotations,
             "controls": controls,
         }
 
     def _note_poses(self, physics) -> None:
-        data = physics.data
+        data, model = physics.data, physics.model
         positions = data.geom_xpos.copy()
         self._environment.task.apparatus.indicate(positions[None], data.sensordata[None])
-        rotations = data.geom_xmat[self._geoms].reshape(-1, 3, 3)
-        self._poses.append((data.time, positions[self._geoms], rotations, data.ctrl.copy()))
+        is_simulated = model.body_weldid[model.geom_bodyid] != 0
+        positions[is_simulated] = data.geom_xpos[is_simulated]  # Even if images show them where a reading places them.
+        self._poses.append((data.time, positions, data.geom_xmat.reshape(-1, 3, 3).copy(), data.ctrl.copy()))
 
 
-def _shapes(model: mujoco.MjModel, floor: Sequence[int]) -> Shapes:
-    """Returns the shapes of a scene: all that moves, and what stands still and is drawn, but for the floor's geoms."""
+def _geoms(model: mujoco.MjModel, floor: Sequence[int]) -> np.ndarray:
+    """Returns the addresses of all geoms that move, or stand still and are drawn, but for the floor's."""
     are_drawn = model.geom_group != rendering.UNDRAWN_GROUP
-    is_moving = model.body_weldid[model.geom_bodyid] != 0
-    geoms = np.setdiff1d(np.flatnonzero(are_drawn | is_moving), floor)
-    geoms = geoms[np.argsort(~are_drawn[geoms], kind="stable")]  # A thing's name is that of a shape that can be seen.
+    geoms = np.setdiff1d(np.flatnonzero(are_drawn | (model.body_weldid[model.geom_bodyid] != 0)), floor)
+    return geoms[np.argsort(~are_drawn[geoms], kind="stable")]  # A thing's name is that of a shape that can be seen.
+
+
+def _shapes(model: mujoco.MjModel, geoms: np.ndarray, are_moving: np.ndarray, are_placed: np.ndarray) -> Shapes:
+    """Returns the shapes of these geoms."""
     kinds = [_KINDS.get(mujoco.mjtGeom(kind).name.removeprefix("mjGEOM_"), "box") for kind in model.geom_type[geoms]]
     return Shapes(
         names=_names([model.geom(geom).name for geom in geoms]),
         kinds=tuple(kinds),
         sizes=np.array([_half_sizes(kind, size) for kind, size in zip(kinds, model.geom_size[geoms], strict=True)]),
         colors=model.geom_rgba[geoms].copy(),
-        are_drawn=are_drawn[geoms],
+        are_drawn=model.geom_group[geoms] != rendering.UNDRAWN_GROUP,
+        are_moving=are_moving,
+        are_placed=are_placed,
         geoms=geoms,
     )
 

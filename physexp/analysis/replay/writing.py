@@ -1,20 +1,22 @@
 """Writes recorded episodes for the rerun viewer, with a blueprint.
 
-world/things/NAME      what is in the scene, with its true pose at every physics step; world/room the floor
-world/action           the force or velocity applied, as an arrow
-world/hidden/...       what cannot be seen, in a view of its own: what the task reveals, and things that no image shows
+world/room/...         the floor and all that stands still
+world/things/NAME      what moves, where the observations place it; after the answer, where it is in the simulation
+world/hidden/NAME      all that moves, where it is in the simulation, and what the task reveals, in a view of its own
+world/.../action       the force or velocity applied, as an arrow
 seen/...               what the agent observed: the image, or readings as plots; seen/moved the distances from the start
 belief/now             the belief, and the policy of the labels, as a table with bars
 belief/labels          the belief: the agent's own, or its policy restricted to the labels and renormalized
 belief/policy          the policy: the probability of every action; belief/answers: of all labels together
 belief/value           the return that the agent expects
 belief/ideal           what an ideal experimenter would believe, where that is known
-did/...                actions as a log, the question and the outcome as text
+did/actions            the actions so far; did/outcome: the question and the outcome, as text
 
 Everything is on one timeline, `time`, in seconds. Episodes side by side have their entities below A, B and so on.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+import contextlib
 import os
 from pathlib import Path
 import subprocess
@@ -45,7 +47,7 @@ def write(
     """Writes recordings into one file; after each of them the file is whole.
 
     Args:
-      path: of the file, usually `*.rrd`.
+      path: of the file, `*.rrd`, in a folder that exists.
       groups: called one after the other, each for the episodes of one recording: one, or several side by side.
       tell: called with a line for each recording.
 
@@ -55,14 +57,14 @@ def write(
     Raises:
       OSError: if the file cannot be written; what had been written stays.
       RuntimeError: if rerun's own program fails.
-      ValueError: if there is something else than a regular file at that path.
+      ValueError: if the path is none of a replay.
     """
     check_output(path)
-    rr.set_strict_mode(True)  # Otherwise errors are warnings, and data is dropped.
     written = b""
     for number, group in enumerate(groups):
         episodes = list(group())
-        newest = _recording(episodes)
+        with _strictly():
+            newest = _recording(episodes)
         written = _merge(written + newest) if written else newest
         files.write_atomically(path, written)
         tell(f"{number + 1} of {len(groups)}: {words.name(episodes[0])}")
@@ -70,11 +72,11 @@ def write(
 
 
 def check_output(path: Path) -> None:
-    """Makes the folder of a file that is going to be written.
+    """Checks where a file is going to be written.
 
     Raises:
       OSError: if the file cannot be written.
-      ValueError: if there is something else than a regular file, or its folder is none.
+      ValueError: if its name does not end in .rrd, something else than a regular file is there, or its folder is none.
     """
     if path.is_symlink():
         raise ValueError(f"{path} is a symbolic link; name a file")
@@ -82,12 +84,23 @@ def check_output(path: Path) -> None:
         raise ValueError(f"{path} is a folder; name a file")
     if path.exists() and not path.is_file():
         raise ValueError(f"{path} is a pipe or a device; name a file")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-    except (FileExistsError, NotADirectoryError):
-        raise ValueError(f"{path.parent} is a file or lies below one; name a file elsewhere") from None
+    if path.suffix != ".rrd":
+        raise ValueError(f"{path} is no name of a replay; name a file that ends in .rrd")
+    if not path.parent.is_dir():
+        raise ValueError(f"{path.parent} is no folder; make it, or name a file in another")
     if not os.access(path.parent, os.W_OK | os.X_OK):
         raise PermissionError(f"{path.parent} is a folder that you may not write to; name a file in another")
+
+
+@contextlib.contextmanager
+def _strictly() -> Iterator[None]:
+    """Makes rerun raise errors, which are otherwise warnings beside dropped data."""
+    before = rr.strict_mode()
+    rr.set_strict_mode(True)
+    try:
+        yield
+    finally:
+        rr.set_strict_mode(before)
 
 
 def _merge(recordings: bytes) -> bytes:
@@ -135,18 +148,19 @@ class EpisodeWriter:
     def _num_interactions(self) -> int:
         return int((self._episode.actions < self._task.num_interactions).sum())
 
-    def write(self, already: int = 0) -> None:
-        """Writes everything; the log has so many actions already."""
-        self.write_so_far(already)
+    def write(self) -> None:
+        """Writes everything."""
+        self.write_so_far()
+        self._write_played_out()
         self._write_hidden()
         self._write_belief()
         self._write_outcome()
 
-    def write_so_far(self, already: int = 0) -> None:
-        """Writes what may be known before the question is answered; the log has so many actions already."""
+    def write_so_far(self) -> None:
+        """Writes all that may be known before the answer: nothing but what follows from observations and actions."""
         self._write_scene()
         self._write_seen()
-        self._write_actions(already)
+        self._write_actions()
 
     def _path(self, entity: str) -> str:
         return f"{self._root}/{entity}"
@@ -165,28 +179,43 @@ class EpisodeWriter:
         self._log("world", rr.ViewCoordinates.RIGHT_HAND_Z_UP)
         half = (*self._task.root_entity.mat.size[:2], _FLOOR_THICKNESS / 2)
         floor = rr.Boxes3D(centers=[(0, 0, -half[2])], half_sizes=[half], colors=[_FLOOR_COLOR], fill_mode="solid")
-        self._log("world/room", floor)
-        for k in np.flatnonzero(self._episode.shapes.are_drawn).tolist():
-            self._write_shape(f"world/things/{self._episode.shapes.names[k]}", k)
+        self._log("world/room/floor", floor)
+        shapes, poses = self._episode.shapes, (self._episode.positions, self._episode.rotations)
+        for k in np.flatnonzero(shapes.are_drawn & shapes.are_placed).tolist():
+            entity = f"world/{'things' if shapes.are_moving[k] else 'room'}/{shapes.names[k]}"
+            self._log(entity, self._shape(k))
+            self._follow(entity, k, poses)
+        if len(self._episode.actions):
+            self._write_arrows("world/things/action", self._episode.positions)
 
-    def _write_shape(self, entity: str, k: int) -> None:
+    def _write_played_out(self) -> None:
+        """Writes the things that images show and observations do not place: they appear after the answer."""
+        episode, shapes, first = self._episode, self._episode.shapes, self._episode.num_played + 1
+        for k in np.flatnonzero(shapes.are_drawn & ~shapes.are_placed).tolist():
+            if first < len(episode.times):
+                self._log(f"world/things/{shapes.names[k]}", self._shape(k), episode.times[first])
+                self._follow(f"world/things/{shapes.names[k]}", k, (episode.positions, episode.rotations), first)
+
+    def _shape(self, k: int):
+        """Returns what rerun draws a shape as."""
         shapes = self._episode.shapes
-        color = (255 * shapes.colors[k]).astype(np.uint8)
-        self._log(entity, _archetype(shapes.kinds[k], shapes.sizes[k], color))
-        self._follow(entity, k)
+        return _archetype(shapes.kinds[k], shapes.sizes[k], (255 * shapes.colors[k]).astype(np.uint8))
 
-    def _follow(self, entity: str, k: int) -> None:
-        """Gives an entity the pose of a shape."""
-        episode = self._episode
-        quaternions = transform.Rotation.from_matrix(episode.rotations[:, k]).as_quat()
-        columns = rr.Transform3D.columns(translation=episode.positions[:, k], quaternion=quaternions)
-        self._columns(entity, episode.times, columns)
+    def _follow(self, entity: str, k: int, poses: tuple[np.ndarray, np.ndarray], first: int = 0) -> None:
+        """Gives an entity the pose of a shape, in all frames from a first one on."""
+        positions, rotations = (values[first:, k] for values in poses)
+        quaternions = transform.Rotation.from_matrix(rotations).as_quat()
+        columns = rr.Transform3D.columns(translation=positions, quaternion=quaternions)
+        self._columns(entity, self._episode.times[first:], columns)
 
     def _write_hidden(self) -> None:
-        """Writes things that images do not show, texts beside things, bars between things that are one, and bands."""
+        """Writes where everything is, texts beside things, bars between things that are one, and bands."""
         episode, shapes = self._episode, self._episode.shapes
-        for k in np.flatnonzero(~shapes.are_drawn).tolist():
-            self._write_shape(f"world/hidden/{shapes.names[k]}", k)
+        poses = episode.true_positions, episode.true_rotations
+        for k in np.flatnonzero(shapes.are_moving).tolist():
+            self._log(f"world/hidden/{shapes.names[k]}", self._shape(k))
+            self._follow(f"world/hidden/{shapes.names[k]}", k, poses)
+        self._write_arrows("world/hidden/action", episode.true_positions)
         revealed = self._task.reveal(episode.hidden)
         for number, (thing, text) in enumerate(revealed.marks.items()):
             entity, k = f"world/hidden/mark_{thing}", shapes.index(thing)
@@ -194,23 +223,26 @@ class EpisodeWriter:
             self._log(
                 entity, rr.Points3D([place], labels=[text], colors=[palette.MARK], radii=[0.006], show_labels=True)
             )
-            self._follow(entity, k)
+            self._follow(entity, k, poses)
         for first, second in revealed.joined:
             entity = f"world/hidden/{first}_to_{second}"
             self._log(entity, self._bar(shapes.index(first), shapes.index(second)))
-            self._follow(entity, shapes.index(first))
+            self._follow(entity, shapes.index(first), poses)
         for first, second in revealed.tied:
             self._write_band(f"world/hidden/{first}_to_{second}", [shapes.index(first), shapes.index(second)])
 
     def _write_band(self, entity: str, ends: list[int]) -> None:
         """Writes a line between two shapes, wherever they are."""
         self._log(entity, rr.LineStrips3D.from_fields(colors=[palette.JOINT], radii=[_BAND_RADIUS]))
-        self._columns(entity, self._episode.times, rr.LineStrips3D.columns(strips=self._episode.positions[:, ends]))
+        self._columns(
+            entity, self._episode.times, rr.LineStrips3D.columns(strips=self._episode.true_positions[:, ends])
+        )
 
     def _bar(self, first: int, second: int) -> rr.Boxes3D:
         """Returns a bar from one shape to another, which stands out of both, as the first one sees it."""
         episode = self._episode
-        between = (episode.positions[0, second] - episode.positions[0, first]) @ episode.rotations[0, first]
+        offset = episode.true_positions[0, second] - episode.true_positions[0, first]
+        between = offset @ episode.true_rotations[0, first]
         size, distance = episode.shapes.sizes[first].max(), np.linalg.norm(between)
         turn, _ = transform.Rotation.align_vectors(between / distance, (0, 0, 1))
         half = (0.4 * size, 1.15 * size, 0.4 * distance)
@@ -278,14 +310,12 @@ class EpisodeWriter:
 
     # What was done.
 
-    def _write_actions(self, already: int) -> None:
+    def _write_actions(self) -> None:
         names = self._task.action_names
-        for step, action in list(enumerate(self._episode.actions))[already:]:
-            self._log("did/actions", rr.TextLog(f"step {step}: {names[action]}"), self._step_times[step])
-        if not already:
-            self._markdown("did/outcome", words.about(self._episode, "Not answered yet."), 0.0)
-        if len(self._episode.actions):
-            self._write_arrows()
+        lines = [f"- step {step}: {names[action]}" for step, action in enumerate(self._episode.actions)]
+        for step in range(len(lines)):
+            self._markdown("did/actions", "\n".join(lines[: step + 1]), self._step_times[step])
+        self._markdown("did/outcome", words.about(self._episode, "Not answered yet."), 0.0)
 
     def _write_outcome(self) -> None:
         text = words.about(self._episode, words.outcome(self._episode))
@@ -294,7 +324,7 @@ class EpisodeWriter:
     def _markdown(self, entity: str, text: str, time: float) -> None:
         self._log(entity, rr.TextDocument(text, media_type="text/markdown"), time)
 
-    def _write_arrows(self) -> None:
+    def _write_arrows(self, entity: str, positions: np.ndarray) -> None:
         """Writes, at every physics step, where the action acts and in which direction; no arrow where there is none."""
         episode, interactions = self._episode, self._task.interactions
         steps = np.ceil(episode.times / episode.control_timestep - 1e-6).astype(int) - 1  # Of the action under way.
@@ -302,22 +332,27 @@ class EpisodeWriter:
         origins, vectors = np.zeros((2, len(steps), 3))
         for frame, step in enumerate(steps):
             if episode.actions[step] < len(interactions):
-                k = episode.shapes.index(interactions[episode.actions[step]].thing)
-                # An arrow does not tell where something hidden has gone.
-                origins[frame] = episode.positions[frame if episode.shapes.are_drawn[k] else 0, k]
+                origins[frame] = positions[frame, episode.shapes.index(interactions[episode.actions[step]].thing)]
                 # Nothing has been sent yet in the first frame; it shows what is about to be.
                 vectors[frame] = _arrow(interactions[episode.actions[step]], episode.controls[max(frame, 1)])
-        self._log("world/action", rr.Arrows3D.from_fields(colors=[palette.ACTION], radii=[0.012]))
-        self._columns("world/action", episode.times, rr.Arrows3D.columns(origins=origins, vectors=vectors))
+        self._log(entity, rr.Arrows3D.from_fields(colors=[palette.ACTION], radii=[0.012]))
+        self._columns(entity, episode.times, rr.Arrows3D.columns(origins=origins, vectors=vectors))
         end = self._step_times[-1] + 1e-3  # After the last step, when nothing is done any more.
-        self._columns("world/action", [end], rr.Arrows3D.columns(origins=[(0, 0, 0)], vectors=[(0, 0, 0)]))
+        self._columns(entity, [end], rr.Arrows3D.columns(origins=[(0, 0, 0)], vectors=[(0, 0, 0)]))
 
 
 def _arrow(interaction: declarations.Interaction, sent: np.ndarray) -> np.ndarray:
-    """Returns the arrow of an interaction that sent this, (3,): backwards, where that is against what it declares."""
-    vector, control = np.array(interaction.vector, float), np.asarray(interaction.control, float)
-    share = sent @ control / (control @ control or 1.0)
-    return _ARROW_LENGTH * share * vector / (np.linalg.norm(vector) or 1.0)
+    """Returns the arrow of an interaction that sent this, (3,): backwards, where that is against what it declares.
+
+    All arrows have the same length, since no observation tells how strong an action is where strength varies.
+    """
+    vector = np.array(interaction.vector, float)
+    return (
+        _ARROW_LENGTH
+        * np.sign(sent @ np.asarray(interaction.control, float))
+        * vector
+        / (np.linalg.norm(vector) or 1.0)
+    )
 
 
 def _archetype(kind: str, size: np.ndarray, color: np.ndarray):

@@ -31,7 +31,7 @@ from physexp.agents.belief import networks as belief_networks
 from physexp.agents.ppo import config as ppo
 from physexp.analysis import readings, replay
 from physexp.analysis.evaluation import finding, playing
-from physexp.analysis.replay import beliefs, live, recording, selection, words, writing
+from physexp.analysis.replay import beliefs, live, palette, recording, selection, words, writing
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
@@ -128,8 +128,8 @@ def test_poses_are_kept_at_every_physics_step_and_end_where_the_physics_is(writt
     assert len(episode.times) == 5 * substeps + 1  # Five interactions; the answer takes no time.
     np.testing.assert_allclose(np.diff(episode.times), environment.task.options.physics_timestep)
     for k, name in enumerate(episode.shapes.names):
-        np.testing.assert_array_equal(episode.positions[-1, k], place(environment, name))
-    assert not np.array_equal(episode.positions[0], episode.positions[-1])
+        np.testing.assert_array_equal(episode.true_positions[-1, k], place(environment, name))
+    assert not np.array_equal(episode.true_positions[0], episode.true_positions[-1])
 
 
 def test_a_recorder_that_was_told_the_wrong_difficulty_says_so():
@@ -151,15 +151,19 @@ def test_a_written_file_passes_reruns_own_check_and_is_small(written):
 
 def test_poses_and_observations_read_back_are_those_of_the_episode(written):
     episode, _, environment, path = written
-    for k, name in enumerate(episode.shapes.names):
-        columns = chunks(path, f"/world/things/{name}")
-        assert [round(time.total_seconds(), 6) for time in columns["time"]] == pytest.approx(
-            list(episode.times), abs=1e-6
-        )
-        moved = np.array(columns["Transform3D:translation"])[:, 0]
-        np.testing.assert_array_equal(moved, episode.positions[:, k].astype(np.float32))
-        turned = transform.Rotation.from_quat(np.array(columns["Transform3D:quaternion"])[:, 0]).as_matrix()
-        np.testing.assert_allclose(turned, episode.rotations[:, k], atol=1e-5)
+    films = [("hidden", episode.true_positions, episode.true_rotations)]
+    if "pixels" not in episode.observations:
+        films.append(("things", episode.positions, episode.rotations))
+    for root, positions, rotations in films:
+        for k, name in enumerate(episode.shapes.names):
+            columns = chunks(path, f"/world/{root}/{name}")
+            assert [round(time.total_seconds(), 6) for time in columns["time"]] == pytest.approx(
+                list(episode.times), abs=1e-6
+            )
+            moved = np.array(columns["Transform3D:translation"])[:, 0]
+            np.testing.assert_array_equal(moved, positions[:, k].astype(np.float32))
+            turned = transform.Rotation.from_quat(np.array(columns["Transform3D:quaternion"])[:, 0]).as_matrix()
+            np.testing.assert_allclose(turned, rotations[:, k], atol=1e-5)
     for name, values in episode.observations.items():
         if values.dtype == np.uint8:
             images = np.array(chunks(path, f"/seen/{name}")["Image:buffer"], np.uint8).reshape(values.shape)
@@ -185,8 +189,9 @@ def test_beliefs_actions_and_outcome_are_written(written):
     np.testing.assert_allclose(chunks(path, "/belief/policy")["Scalars:scalars"], episode.policies)
     np.testing.assert_allclose(np.ravel(chunks(path, "/belief/answers")["Scalars:scalars"]), answers.sum(axis=1))
     np.testing.assert_allclose(np.ravel(chunks(path, "/belief/value")["Scalars:scalars"]), episode.values)
-    said = [text[0] for text in chunks(path, "/did/actions")["TextLog:text"]]
-    assert said == [f"step {t}: {environment.task.action_names[a]}" for t, a in enumerate(episode.actions)]
+    lines = [f"- step {step}: {environment.task.action_names[action]}" for step, action in enumerate(episode.actions)]
+    said = [text[0].splitlines() for text in chunks(path, "/did/actions")["TextDocument:text"]]
+    assert said == [lines[: step + 1] for step in range(len(lines))]  # No later action is told.
 
 
 def test_the_bars_of_a_belief_carry_the_names_of_their_labels(written):
@@ -253,6 +258,17 @@ def test_a_blocks_colour_means_that_block_and_nothing_else(written):
         assert {"fist", *blocks} <= seen
 
 
+@pytest.mark.parametrize(("domain", "task"), [names for names in suite.ALL_TASKS if names[1] == "features"])
+def test_each_label_has_a_colour_of_its_own(domain, task):
+    environment = suite.load(domain, task, task_kwargs={"random": 0})
+    recorder = replay.EpisodeRecorder(environment, domain, task)
+    recorder.observe_first(environment, environment.reset())
+    colors = palette.of_labels(environment.task.label_names, recorder.episode.shapes)
+    assert len(set(colors)) == environment.task.num_labels
+    recorder.close()
+    environment.close()
+
+
 def test_every_component_of_a_feature_is_named_after_the_thing_it_tells_of():
     blocks = [f"block_{k}" for k in range(5)]
     heavier, towers_ = (suite.load_task(*task) for task in TASKS[:2])
@@ -274,16 +290,24 @@ def entities(path, below):
     return {path.removeprefix(below) for path in paths if path.startswith(below)}
 
 
-def things(task, is_drawn):
-    """The things of a task that images show, or those that they do not, but for the floor and what stands still."""
+def things(task, is_still):
+    """The things of a task that stand still in images, or all others, but for the floor and walls."""
     found, model = set(), task.apparatus.model
     for number in range(model.ngeom):
-        is_moving, *models = model.body_weldid[model.geom_bodyid[number]] != 0, *model.geom(number).name.split("/")
-        name = models[max(0, len(models) - 2)]
-        if (model.geom_group[number] != 4) == is_drawn and (is_moving or is_drawn) and name not in ("floor", "mat"):
+        is_moving, *models = number in task.apparatus.moving_geoms, *model.geom(number).name.split("/")
+        name, is_drawn = models[max(0, len(models) - 2)], model.geom_group[number] != 4
+        if is_moving != is_still and (is_moving or is_drawn) and name not in ("floor", "mat"):
             found.add(name)
     return found
 
+
+COVERED = {
+    "threshold": {"block"},
+    "balance": {"beam"},
+    "strings": {"puck_0", "puck_1", "puck_2"},
+    "sealed_box": {"weight"},
+}
+"""The things of each domain that no observation tells of; Strike's puck appears after the answer."""
 
 OUTSIDE = [("which_is_bolted", "features"), ("which_is_bolted", "pixels")]
 
@@ -300,15 +324,20 @@ def test_a_replay_shows_the_right_names(domain, task, tmp_path):
     assert len(set(labels)) == len(labels) == played.num_labels
     assert all(shown in label for shown, label in zip(labels, played.label_names, strict=True))
     assert names_of(path, "/belief/policy") == played.action_names
-    said = [text[0] for text in chunks(path, "/did/actions")["TextLog:text"]]
-    assert said == [f"step {t}: {played.action_names[a]}" for t, a in enumerate(episode.actions)]
+    lines = [f"- step {step}: {played.action_names[action]}" for step, action in enumerate(episode.actions)]
+    assert chunks(path, "/did/actions")["TextDocument:text"][-1][0].splitlines() == lines
     assert played.question in chunks(path, "/did/outcome")["TextDocument:text"][0][0]
     assert f"{domain}/{task}, seed" in chunks(path, "/did/outcome")["TextDocument:text"][0][0]
-    assert entities(path, "/world/things/") == things(played, is_drawn=True)
+    moving, still = things(played, is_still=False), things(played, is_still=True)
+    assert entities(path, "/world/room/") == {"floor", *still}
+    seen = entities(path, "/world/things/") - {"action"}
+    if task == "features":
+        assert seen == moving - COVERED.get(domain, set())
     revealed = played.reveal(episode.hidden)
     shown = (revealed.marks, revealed.joined, revealed.tied)
     assert any(shown) or played.answers(played.hidden[None]) == played.num_labels - 1
-    assert entities(path, "/world/hidden/") == things(played, is_drawn=False) | {
+    assert entities(path, "/world/hidden/") == moving | {
+        "action",
         *(f"mark_{thing}" for thing in revealed.marks),
         *(f"{first}_to_{second}" for first, second in (*revealed.joined, *revealed.tied)),
     }
@@ -325,7 +354,7 @@ def test_a_replay_shows_the_right_names(domain, task, tmp_path):
     for name, reading in played.readings.items():
         for component in reading.components or [""]:
             curves = names_of(path, f"/seen/{name}/{component}".rstrip("/"))
-            spoken = {thing.replace("_", " ") for thing in things(played, True) | things(played, False)}
+            spoken = {thing.replace("_", " ") for thing in moving | still}
             if reading.shape == (1,):
                 assert curves == [name.replace("_", " ")]
             elif set(curves) <= spoken:
@@ -358,9 +387,9 @@ def test_what_is_covered_is_seen_through_its_cover_where_what_is_hidden_is_shown
     flag = episode.positions[steps, names.index("flag"), 2]
     assert flag[0] + 0.05 < flag[1] == flag[2]  # It is up as long as pushes slide the block.
     path = writing.write(tmp_path / "one.rrd", [lambda: [episode]])
-    assert entities(path, "/world/hidden/") == {"block", "mark_block"}
-    assert "ViewContents/overrides/world/things/cover" in text_of(path)
-    columns = chunks(path, "/world/action")
+    assert entities(path, "/world/hidden/") == {"action", "block", "flag", "pointer", "mark_block"}
+    assert "ViewContents/overrides/world/room/cover" in text_of(path)
+    columns = chunks(path, "/world/things/action")
     origins, vectors = (np.array(columns[f"Arrows3D:{name}"])[:, 0] for name in ("origins", "vectors"))
     shown = np.linalg.norm(vectors, axis=1) > 0
     assert np.ptp(origins[shown], axis=0).max() == 0  # The arrow does not follow the block.
@@ -378,10 +407,10 @@ def test_bands_are_hidden_lines_that_follow_what_they_tie(tmp_path):
         recorder.observe(environment, environment.step(action), action)
     episode = recorder.episode
     path = writing.write(tmp_path / "one.rrd", [lambda: [episode]])
-    assert entities(path, "/world/hidden/") == {"puck_0", "puck_1", "puck_2", "puck_0_to_puck_1"}
+    assert {"puck_0", "puck_1", "puck_2", "puck_0_to_puck_1"} <= entities(path, "/world/hidden/")
     strips = np.array(chunks(path, "/world/hidden/puck_0_to_puck_1")["LineStrips3D:strips"])[:, 0]
     ends = [episode.shapes.names.index(f"puck_{k}") for k in range(2)]
-    np.testing.assert_allclose(strips, episode.positions[:, ends], atol=1e-6)
+    np.testing.assert_allclose(strips, episode.true_positions[:, ends], atol=1e-6)
     assert np.ptp(strips[:, :, 1], axis=0).min() > 0.02  # A pull at one of them moves both.
 
 
@@ -399,7 +428,9 @@ def test_a_strike_is_played_out_after_the_answer_and_ends_in_the_goal_if_that_wa
         assert len(places) == len(episode.times) and episode.times[-1] > 0.2  # A poke takes 0.1 s.
         assert (near < places[-1] - places[0] < far) == (mistake == 0)
     path = writing.write(tmp_path / "one.rrd", [lambda: [episode]])
-    assert "mark_puck" in entities(path, "/world/hidden/")
+    assert {"mark_puck", "puck"} <= entities(path, "/world/hidden/")
+    appears = chunks(path, "/world/things/puck")["time"][0].total_seconds()
+    assert appears == pytest.approx(episode.control_timestep + environment.task.options.physics_timestep)
 
 
 def test_any_kind_of_shape_is_drawn_and_several_of_one_thing_have_names_of_their_own(tmp_path):
@@ -421,10 +452,11 @@ def test_any_kind_of_shape_is_drawn_and_several_of_one_thing_have_names_of_their
     blocks = {f"block_{k}": "box" for k in range(3)} | {"block_1_lid": "sphere"}
     assert kinds == blocks | {"rod": "capsule", "weight": "cylinder", "tip": "ellipsoid"}
     path = writing.write(tmp_path / "one.rrd", [lambda: [episode]])
-    assert entities(path, "/world/things/") == set(kinds)
+    assert entities(path, "/world/things/") == {"action", *blocks}  # No reading tells of the rod.
+    assert entities(path, "/world/hidden/") >= set(kinds)
     columns = {}
     for chunk in RrdReader(str(path)).stream():
-        if str(chunk.entity_path).startswith("/world/things/") and chunk.is_static:
+        if str(chunk.entity_path).startswith("/world/hidden/") and chunk.is_static:
             columns.setdefault(str(chunk.entity_path).rpartition("/")[2], {}).update(
                 chunk.to_record_batch().to_pydict()
             )
@@ -437,12 +469,15 @@ def test_any_kind_of_shape_is_drawn_and_several_of_one_thing_have_names_of_their
 def test_what_is_hidden_has_an_entity_of_its_own_which_is_switched_off(written):
     episode, _, _, path = written
     names = {str(chunk.entity_path) for chunk in RrdReader(str(path)).stream()}
-    hidden = {name for name in names if name.startswith("/world/hidden/")}
+    hidden = {name.removeprefix("/world/hidden/") for name in names if name.startswith("/world/hidden/")}
+    told = hidden - {"action", *episode.shapes.names}
     if episode.domain == "which_is_heavier":
-        assert hidden == {f"/world/hidden/mark_block_{k}" for k in range(4)}
+        assert told == {f"mark_block_{k}" for k in range(4)}
     else:
         glued = np.flatnonzero(tower.PATTERNS[int(episode.hidden)])
-        assert hidden == {f"/world/hidden/block_{k}_to_block_{k + 1}" for k in glued}
+        assert told == {f"block_{k}_to_block_{k + 1}" for k in glued}
+    if "pixels" in episode.observations:  # The view that comes first shows the image alone.
+        return
     printed = text_of(path)
     override = printed.partition("ViewContents/overrides/world/hidden")[2]
     table = override.partition("EntityBehavior:visible")[2].partition("METADATA")[0]
@@ -452,7 +487,7 @@ def test_what_is_hidden_has_an_entity_of_its_own_which_is_switched_off(written):
 
 def test_an_arrow_shows_where_the_action_acts_and_which_way(written):
     episode, _, environment, path = written
-    columns = chunks(path, "/world/action")
+    columns = chunks(path, "/world/hidden/action")
     origins, vectors = (np.array(columns[f"Arrows3D:{name}"])[:, 0] for name in ("origins", "vectors"))
     substeps = environment.task.options.substeps
     for step in range(5):
@@ -460,7 +495,7 @@ def test_an_arrow_shows_where_the_action_acts_and_which_way(written):
         thing, effect = interaction.thing, np.array(interaction.vector)
         frame = step * substeps + 1
         k = episode.shapes.names.index(thing)
-        np.testing.assert_allclose(origins[frame], episode.positions[frame, k], atol=1e-6)
+        np.testing.assert_allclose(origins[frame], episode.true_positions[frame, k], atol=1e-6)
         np.testing.assert_allclose(
             vectors[frame] / np.linalg.norm(vectors[frame]), effect / np.linalg.norm(effect), atol=1e-6
         )
@@ -710,8 +745,8 @@ def test_an_episode_that_is_watched_live_shows_nothing_hidden_before_it_is_over(
     said = [{text[0] for text in chunks(path, "/did/outcome")["TextDocument:text"]} for path in paths]
     assert all("Not answered yet" in text for text in said[0])
     assert any("Answer after 2 interactions" in text for text in said[1])
-    log = [text[0] for text in chunks(paths[1], "/did/actions")["TextLog:text"]]
-    assert log == ["step 0: poke block 0", "step 1: poke block 1", "step 2: answer: block 0 is heaviest"]
+    log = chunks(paths[1], "/did/actions")["TextDocument:text"][-1][0].splitlines()
+    assert log == ["- step 0: poke block 0", "- step 1: poke block 1", "- step 2: answer: block 0 is heaviest"]
 
 
 def viewers(home):
@@ -811,7 +846,7 @@ def test_without_a_display_the_viewer_is_refused_in_one_line_before_anything_is_
 
 
 def test_the_command_writes_a_file_and_names_it(tmp_path):
-    path = tmp_path / "some" / "file.rrd"
+    path = tmp_path / "file.rrd"
     done = commands.run("replay", "which_is_heavier/features", "--episodes", 2, "--output", path, check=True)
     assert done.stdout.splitlines()[-1] == str(path)
     assert len(RrdReader(str(path)).recordings()) == 2
@@ -825,8 +860,6 @@ def test_what_is_no_regular_file_is_refused_before_anything_is_played(tmp_path):
     for name, message in (("link.rrd", "is a symbolic link"), ("pipe.rrd", "is a pipe or a device"), (".", "a folder")):
         with pytest.raises(ValueError, match=f"{message}; name a file"):
             replay.replay(["no agent at all"], 1, tmp_path / name)
-    with pytest.raises(ValueError, match="target is a file or lies below one; name a file elsewhere$"):
-        replay.replay(["no agent at all"], 1, target / "below.rrd")
     assert target.read_text() == "precious"
 
 
@@ -852,6 +885,8 @@ def test_a_program_of_reruns_that_fails_or_does_not_answer_is_one_line(tmp_path,
         (["towers/features"], "towers/features holds no run (no config.json); give the folder of a run"),
         (["towers/fist_features", "--episodes", "0"], "episodes is 0; give a number >= 1"),
         (["towers/fist_features", "--output", "."], ". is a folder; name a file"),
+        (["towers/fist_features", "--output", "x.txt"], "x.txt is no name of a replay; name a file that ends in .rrd"),
+        (["towers/fist_features", "--output", "a/x.rrd"], "a is no folder; make it, or name a file in another"),
     ],
 )
 def test_what_makes_no_sense_is_one_readable_line(arguments, message, tmp_path):

@@ -1,0 +1,103 @@
+"""The film of an episode that follows from its observations alone: all that may be drawn before the answer."""
+
+from collections.abc import Mapping, Sequence
+
+import mujoco
+import numpy as np
+
+from physexp.analysis import readings
+from physexp.suite.engine import task as task_lib
+
+Film = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Positions, m [F, K, 3], rotations, [F, K, 3, 3], and whether the observations determine the positions, bool [K]."""
+
+
+def film(
+    task: task_lib.QuestionTask, geoms: np.ndarray, observations: Mapping[str, np.ndarray], ends: Sequence[int]
+) -> Film:
+    """Returns the poses of some geoms in all frames up to the last observation.
+
+    Each reading moves from one observation to the next by the clock, slowly at both ends, and readings alone place
+    geoms: a geom that indicates a reading, a geom whose joints are all read, and a geom whose position is read, which
+    keeps the orientation that it has in the model. All other geoms stay where they are in the model.
+
+    Args:
+      task: the task, with its apparatus.
+      geoms: addresses of K geoms in the compiled model.
+      observations: by name, [T + 1, ...].
+      ends: the frame of each observation, from 0 on; an answer takes no frame.
+    """
+    frames = np.arange(ends[-1] + 1)
+    before = np.searchsorted(ends, frames, side="right") - 1
+    after = np.minimum(before + 1, len(ends) - 1)
+    share = (frames - np.take(ends, before)) / np.maximum(np.take(ends, after) - np.take(ends, before), 1)
+    eased = (share * share * (3 - 2 * share))[:, None]
+    shown = {}
+    for name in task.readings.keys() & observations.keys():
+        values = observations[name].reshape(len(ends), -1).astype(float)
+        shown[name] = values[before] + eased * (values[after] - values[before])
+    positions, rotations, are_placed = _placed(task, shown, len(frames))
+    _indicate(task, shown, positions, are_placed)
+    return positions[:, geoms], rotations[:, geoms], are_placed[geoms]
+
+
+def _placed(task: task_lib.QuestionTask, shown: Mapping[str, np.ndarray], size: int) -> Film:
+    """Returns the poses of all geoms as joints and positions are read, from readings [size, S] by name."""
+    model, start = task.apparatus.model, task.apparatus.start.shown
+    joints, displacements = {}, {}
+    for name, values in shown.items():
+        if task.readings[name].measure is not None:
+            continue
+        for sensor in task.readings[name].sensors:
+            compiled = model.sensor(sensor.full_identifier)
+            address, number = compiled.adr[0] + np.arange(compiled.dim[0]), compiled.objid[0]
+            told = values[:, np.isin(task.apparatus.readings[name].ravel(), address)]
+            if sensor.tag == "jointpos":
+                joints[number] = told
+            elif sensor.tag == "framepos" and sensor.reftype is None:
+                thing = readings.owner(mujoco.mj_id2name(model, compiled.objtype[0], number))
+                displacements[thing] = told - start["sensordata"][0, address]
+    positions, rotations = _posed(model, {model.jnt_qposadr[joint]: told for joint, told in joints.items()}, size)
+    are_placed = np.array([_joints_of(model, body) <= joints.keys() for body in model.geom_bodyid])
+    for geom in range(model.ngeom):
+        thing = readings.owner(model.geom(geom).name)
+        if thing in displacements:
+            positions[:, geom] = start["geom_xpos"][0, geom] + displacements[thing]
+            are_placed[geom] = True
+    return positions, rotations, are_placed
+
+
+def _posed(model: mujoco.MjModel, coordinates: Mapping[int, np.ndarray], size: int) -> tuple[np.ndarray, np.ndarray]:
+    """Returns positions and rotations of all geoms where some coordinates have these values, [size, 1]."""
+    data = mujoco.MjData(model)
+    positions, rotations = np.zeros((size, model.ngeom, 3)), np.zeros((size, model.ngeom, 3, 3))
+    for frame in range(size):
+        for address, values in coordinates.items():
+            data.qpos[address] = values[frame, 0]
+        mujoco.mj_kinematics(model, data)
+        positions[frame], rotations[frame] = data.geom_xpos, data.geom_xmat.reshape(-1, 3, 3)
+    return positions, rotations
+
+
+def _joints_of(model: mujoco.MjModel, body: int) -> set[int]:
+    """Returns the joints that move a body."""
+    found: set[int] = set()
+    while body:
+        found.update(model.body_jntadr[body] + np.arange(model.body_jntnum[body]))
+        body = model.body_parentid[body]
+    return found
+
+
+def _indicate(
+    task: task_lib.QuestionTask, shown: Mapping[str, np.ndarray], positions: np.ndarray, are_placed: np.ndarray
+) -> None:
+    """Writes the positions of the geoms that indicate readings, and whether those are shown; both of all geoms."""
+    start = task.apparatus.start.shown
+    for indicator in task.indicators:
+        geom, name = task.apparatus.model.geom(indicator.geom.full_identifier).id, indicator.reading
+        positions[:, geom] = start["geom_xpos"][0, geom]
+        are_placed[geom] = name in shown
+        if name in shown:
+            first = task.apparatus.read(name, start["sensordata"]).ravel()[indicator.component]
+            values = shown[name][:, indicator.component, None] - first
+            positions[:, geom] += values * np.array(indicator.travel)
