@@ -29,6 +29,7 @@ _STYLE: Any = {
     "lines.linewidth": 1.4,
     "svg.fonttype": "none",
     "svg.hashsalt": "physexp",
+    "text.parse_math": False,  # A dollar sign in a name is a letter.
 }
 
 

@@ -1,16 +1,18 @@
-"""The leaderboard: a row for each folder with a score of the whole protocol, in words and as a figure."""
+"""The leaderboard: a row for each folder with a verified score of the whole protocol, in words and as a figure."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import dataclasses
+import os
 from pathlib import Path
 from typing import Any
+from urllib import parse
 
 import numpy as np
 
 from physexp.agents import files
-from physexp.analysis.data import provenance
+from physexp.analysis.data import provenance, text
 from physexp.analysis.evaluation import figures
-from physexp.analysis.score import drawing, log, protocol, report, scores, scoring
+from physexp.analysis.score import drawing, log, protocol, report, scores, scoring, verifying
 
 FOLDER = "scores"
 NAME = "leaderboard"
@@ -20,11 +22,12 @@ MARKS = ("<!-- leaderboard: physexp leaderboard writes it -->", "<!-- end of the
 SHORT = 10  # Rows in the README.
 _ABSENT = "–"
 _INTRODUCTION = (
-    "Each row is a folder in `results/scores`, which `physexp verify` plays again; `physexp leaderboard` makes this "
-    "page from them. The score is 1 for the [ideal experimenter](../docs/ideal.md) and 0 for the best that needs no "
-    "experiment; its interval is at 95 %. Over all domains it is the interquartile mean. A task that a row does not "
-    "play (–) counts as 0. Frames and minutes are those of training, of all agents of a team together; the commit is "
-    "that of the score. [docs/score.md](../docs/score.md) says how to add a row."
+    "Each row is a folder in `results/scores`. `physexp leaderboard` makes this page from them: it plays the actions "
+    "of every row again, and leaves out a row whose score does not follow from them. The score is 1 for the [ideal "
+    "experimenter](../docs/ideal.md) and 0 for the best that needs no experiment; its interval is at 95 %. Over all "
+    "domains it is the interquartile mean. A task that a row does not play (–) counts as 0. Frames and minutes are "
+    "those of training, of all agents of a team together; the commit is that of the score. "
+    "[docs/score.md](../docs/score.md) says how to add a row."
 )
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "*")  # Of domains.
 _COLORS = (*figures.COLORS[1:], "#CC79A7", "#7F4F24")
@@ -49,23 +52,47 @@ class Row:
     found: Mapping[str, Any]
 
 
-def read(results: Path) -> list[Row]:
-    """Returns the rows, best first.
+def folders(results: Path) -> list[Path]:
+    """Returns the folders of all rows.
 
     Raises:
       OSError: if there are none.
-      ValueError: if a folder holds no score of the whole protocol, or one that was changed; it names the folder.
     """
-    questions = protocol.observing("features")
-    rows = [_row(folder, questions) for folder in sorted((results / FOLDER).glob("*")) if folder.is_dir()]
-    if not rows:
+    found = [folder for folder in sorted((results / FOLDER).glob("*")) if folder.is_dir()]
+    if not found:
         raise FileNotFoundError(f"{results / FOLDER} has no scores; `physexp score` one into a folder there")
-    return sorted(rows, key=lambda row: (-row.whole["score"], row.name))
+    return found
 
 
-def _row(folder: Path, questions: Sequence[protocol.Question]) -> Row:
+def read(
+    results: Path,
+    verify: Callable[[Path], None] = verifying.verify_once,
+    show: Callable[[int], None] = lambda done: None,
+) -> tuple[list[Row], list[str]]:
+    """Returns the rows, best first, and a line for each folder that gives none: its name, and the reason.
+
+    Args:
+      results: the folder of all results.
+      verify: raises ValueError for a folder whose score does not follow from its actions.
+      show: called with how many folders are done.
+
+    Raises:
+      OSError: if there are no folders.
+    """
+    questions, rows, refused = protocol.observing("features"), [], []
+    for done, folder in enumerate(folders(results), 1):
+        try:
+            rows.append(_row(folder, questions, verify))
+        except (OSError, ValueError) as error:
+            refused.append(f"{folder} is no row: {error}")
+        show(done)
+    return sorted(rows, key=lambda row: (-row.whole["score"], row.name)), refused
+
+
+def _row(folder: Path, questions: Sequence[protocol.Question], verify: Callable[[Path], None]) -> Row:
     found = scoring.read(folder)
     _check(folder, found, [asked.name for asked in questions])
+    verify(folder)
     played = scoring.played(log.read(folder), questions)
     earned = scores.over(played, questions)
     names = {one.asked.name for one in played}
@@ -77,41 +104,47 @@ def _row(folder: Path, questions: Sequence[protocol.Question]) -> Row:
 
 
 def _check(folder: Path, found: Mapping[str, Any], names: Sequence[str]) -> None:
-    """Refuses what is less than the whole protocol, and other tasks than those of a leaderboard."""
+    """Refuses less than the whole protocol, and other tasks than those of a leaderboard."""
     asked = found["protocol"]
     if not found["complete"]:
         raise ValueError(f"{folder} is not complete: {found.get('problem')}; score again, elsewhere")
     if asked["episodes"] != protocol.EPISODES:
         raise ValueError(f"{folder} has {asked['episodes']} episodes of each task; a row has {protocol.EPISODES:,}")
-    if others := [name for name in asked["tasks"] if name not in names]:
+    if others := [name for name in asked["tasks"] or ["no task"] if name not in names]:
         raise ValueError(f"{folder} is of {others[0]}; a row is of {', '.join(names)}")
 
 
-def write(results: Path) -> list[Path]:
+def write(results: Path, show: Callable[[int], None] = lambda done: None) -> tuple[list[Path], list[str]]:
     """Writes the leaderboard as Markdown, its figure, and its part of the README beside the results.
 
+    Returns:
+      The paths of all files, and the lines of `read` about folders that give no row.
+
     Raises:
-      OSError, ValueError: as `read`.
+      OSError: as `read`, or if a file cannot be written.
+      ValueError: if no folder gives a row, or the README has no end of the leaderboard.
     """
-    rows = read(results)
-    page, readme = results / f"{NAME}.md", results.resolve().parent / "README.md"
-    files.write_atomically(page, markdown(rows).encode())
+    rows, refused = read(results, show=show)
+    if not rows:
+        raise ValueError(refused[0])
+    path, readme = results / f"{NAME}.md", results.resolve().parent / "README.md"
+    files.write_atomically(path, markdown(rows).encode())
     with figures.style():
-        written = [page, *figures.save(draw(rows), results / "figures", NAME)]
-    text = readme.read_text(encoding="utf-8") if readme.exists() else ""
-    if MARKS[0] in text:
-        files.write_atomically(readme, with_part(text, short(rows)).encode())
+        written = [path, *figures.save(draw(rows), results / "figures", NAME)]
+    page = readme.read_text(encoding="utf-8") if readme.exists() else ""
+    if MARKS[0] in page:
+        files.write_atomically(readme, with_part(page, short(rows)).encode())
         written.append(readme)
-    return written
+    return written, refused
 
 
-def with_part(text: str, part: str) -> str:
+def with_part(page: str, part: str) -> str:
     """Returns the text of a README with another leaderboard between its marks.
 
     Raises:
       ValueError: if the second mark is missing.
     """
-    before, _, rest = text.partition(MARKS[0])
+    before, _, rest = page.partition(MARKS[0])
     _, end, after = rest.partition(MARKS[1])
     if not end:
         raise ValueError(f"the README has {MARKS[0]} without {MARKS[1]} after it; put that where the leaderboard ends")
@@ -143,7 +176,7 @@ def _table(rows: Sequence[Row], folder: str, more: Mapping[str, Any]) -> str:
         lines.append(
             [
                 str(number),
-                f"[{row.name}]({folder}/{row.name}/{report.NAME}.png)",
+                f"[{text.escaped(row.name)}]({folder}/{parse.quote(os.fsencode(row.name))}/{report.NAME}.png)",
                 _number(row.whole["score"]),
                 interval,
                 *cells,
@@ -165,7 +198,7 @@ def _number(score: float) -> str:
 
 
 def _algorithm(row: Row) -> str:
-    return row.found["agent"].get("algorithm", "")
+    return text.escaped(row.found["agent"].get("algorithm") or "")
 
 
 def _frames(row: Row) -> str:
@@ -179,7 +212,7 @@ def _minutes(row: Row) -> str:
 
 
 def _commit(row: Row) -> str:
-    return provenance.shortened(row.found["commit"])
+    return text.escaped(provenance.shortened(row.found["commit"]))
 
 
 def draw(rows: Sequence[Row]):
@@ -210,7 +243,7 @@ def draw(rows: Sequence[Row]):
             linestyle="none",
             label=drawing.words(domain),
         )
-    axes.set_yticks(places, [row.name for row in rows])
+    axes.set_yticks(places, [text.plain(row.name) for row in rows])
     axes.tick_params(axis="y", length=0)
     axes.set(xlim=(drawing.LEAST - 0.03, 1.04), ylim=(-0.7, len(rows) - 0.3))
     axes.set_xlabel("score: black, over all domains, with its 95 % interval; others, of each domain")

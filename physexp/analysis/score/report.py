@@ -2,13 +2,12 @@
 
 import base64
 from collections.abc import Callable, Mapping
-import html
 from pathlib import Path
 import textwrap
 from typing import Any
 
 from physexp.agents import files
-from physexp.analysis.data import provenance
+from physexp.analysis.data import provenance, text
 from physexp.analysis.evaluation import figures
 from physexp.analysis.score import drawing, scoring
 
@@ -27,7 +26,7 @@ def write(folder: Path) -> list[Path]:
       OSError: if it cannot be read or written.
       ValueError: if it is not what was written.
     """
-    found = {**scoring.read(folder), "name": folder.resolve().name}
+    found = {**scoring.read(folder), "name": text.plain(folder.resolve().name)}
     paths = [folder / f"{NAME}.html", folder / f"{NAME}.png"]
     files.write_atomically(paths[0], _html(found).encode())
     files.write_atomically(paths[1], figures.png(_page(found)))
@@ -36,7 +35,7 @@ def write(folder: Path) -> list[Path]:
 
 def _page(found: Mapping[str, Any]):
     """Draws the whole page."""
-    told = "\n".join(textwrap.fill(f"{name}: {value}", 190) for name, value in facts(found).items())
+    told = "\n".join(textwrap.fill(text.plain(f"{name}: {value}"), 190) for name, value in facts(found).items())
     heights = [
         0.85,
         _height_of_overview(found),
@@ -57,7 +56,7 @@ def _page(found: Mapping[str, Any]):
 def _draw_head(figure, found: Mapping[str, Any]) -> None:
     whole = found["whole"]
     figure.text(0.01, 0.92, found["name"], fontsize=17, weight="bold", va="top")
-    figure.text(0.01, 0.42, _subtitle(found), fontsize=8.5, color="0.3", va="top", linespacing=1.5)
+    figure.text(0.01, 0.42, "\n".join(_subtitle(found)), fontsize=8.5, color="0.3", va="top", linespacing=1.5)
     figure.text(
         0.99, 0.95, f"{whole['score']:.3f}", fontsize=27, weight="bold", ha="right", va="top", color=drawing.OURS
     )
@@ -110,11 +109,12 @@ _INFORMATION = (
 )
 
 
-def _subtitle(found: Mapping[str, Any]) -> str:
+def _subtitle(found: Mapping[str, Any]) -> list[str]:
+    """Returns two lines: the meaning of the score, and the extent of the play."""
     asked, tasks = found["protocol"], len(found["tasks"])
     played = f"{asked['episodes']:,} episodes of {tasks} task{'s' if tasks > 1 else ''}, protocol {found['version']}"
     what = "Share of what the ideal experimenter earns beyond the best answer without an experiment"
-    return f"{what}\n{played}" + ("" if found["complete"] else f"; not complete: {found['problem']}")
+    return [what, text.plain(played + ("" if found["complete"] else f"; not complete: {found['problem']}"))]
 
 
 def _interval(row: Mapping[str, Any]) -> str:
@@ -142,14 +142,14 @@ def _made(agent: Mapping[str, Any]) -> str:
     known = [text.format(agent[name]) for name, text in words.items() if agent.get(name) is not None]
     if agent.get("commit") is not None:
         known.append(f"commit {provenance.shortened(agent['commit'])}")
-    return ", ".join(([agent["algorithm"]] if "algorithm" in agent else []) + known)
+    return ", ".join(([agent["algorithm"]] if agent.get("algorithm") else []) + known)
 
 
 def _html(found: Mapping[str, Any]) -> str:
     whole = found["whole"]
     head = (
-        f"<header><div><h1>{html.escape(found['name'])}</h1>"
-        f"<p>{html.escape(_subtitle(found)).replace(chr(10), '<br>')}</p></div>"
+        f"<header><div>{_tagged('h1', found['name'])}"
+        f"<p>{'<br>'.join(map(text.escaped, _subtitle(found)))}</p></div>"
         f"<div class=score><b>{whole['score']:.3f}</b><br>score, 95 % interval {_interval(whole)}</div></header>"
     )
     parts = [
@@ -159,10 +159,10 @@ def _html(found: Mapping[str, Any]) -> str:
         f"<h2>What is found out</h2><p>{_INFORMATION}</p>",
         _figure(found, _height_of_information(found), _draw_information, "Bits from each interaction"),
         "<h2>How it was made</h2>",
-        _rows([[f"<th>{name}</th>", f"<td>{html.escape(value)}</td>"] for name, value in facts(found).items()]),
+        _rows([[_tagged("th", name), _tagged("td", value)] for name, value in facts(found).items()]),
     ]
-    title = f"physexp: score of {html.escape(found['name'])}"
-    return f"<!doctype html><meta charset=utf-8><title>{title}</title><style>{_STYLE}</style>" + "\n".join(parts) + "\n"
+    title = _tagged("title", f"physexp: score of {found['name']}")
+    return f"<!doctype html><meta charset=utf-8>{title}<style>{_STYLE}</style>" + "\n".join(parts) + "\n"
 
 
 def _figure(found: Mapping[str, Any], height: float, draw: Callable[[Any, Mapping[str, Any]], None], words: str) -> str:
@@ -176,7 +176,7 @@ def _figure(found: Mapping[str, Any], height: float, draw: Callable[[Any, Mappin
 
 def _table(found: Mapping[str, Any]) -> str:
     names = ("task", "score", "95 % interval", "right", "interactions", "the ideal's", "bits each", "the ideal's")
-    rows = [[f"<th>{name}</th>" for name in (*names, "lost most by")]]
+    rows = [[_tagged("th", name) for name in (*names, "lost most by")]]
     for name, task in found["tasks"].items():
         kind = max(task["mistakes"], key=task["mistakes"].__getitem__)
         cost = task["mistakes"][kind]
@@ -191,12 +191,16 @@ def _table(found: Mapping[str, Any]) -> str:
             _number(task["ideal_bits_per_interaction"]),
             f"{kind} {cost:.3f}" if cost > 0 else "nothing",
         )
-        rows.append([f"<td>{html.escape(cell)}</td>" for cell in cells])
+        rows.append([_tagged("td", cell) for cell in cells])
     return _rows(rows)
 
 
 def _number(value: float | None) -> str:
     return "" if value is None else f"{value:.2f}"
+
+
+def _tagged(tag: str, words: str) -> str:
+    return f"<{tag}>{text.escaped(words)}</{tag}>"
 
 
 def _rows(rows: list[list[str]]) -> str:

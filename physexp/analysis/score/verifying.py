@@ -1,14 +1,20 @@
 """Verifies a score: plays the logged actions again, bit for bit, and says what does not follow from them."""
 
 from collections.abc import Callable, Mapping, Sequence
+import functools
+import hashlib
 import itertools
 import math
+import os
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+import physexp
 from physexp import suite
+from physexp.agents import files
+from physexp.analysis.data import provenance, tables
 from physexp.analysis.score import episodes, judging, log, protocol, reference, scoring
 
 _TOLERANCE = 1e-9  # Of what is computed in floating point, on whatever machine.
@@ -46,6 +52,35 @@ def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dic
     again = scoring.figures(found, questions, ideals)
     _compare_figures(folder / scoring.FILE, {name: written[name] for name in again}, again)
     return {"episodes": done, "actions": len(found), "target": written["target"], "score": written["whole"]["score"]}
+
+
+def verify_once(folder: Path) -> None:
+    """Verifies a folder, unless this user has verified the same files with the same sources before.
+
+    An empty file in `~/.cache/physexp/verified` (or below `$XDG_CACHE_HOME`) stands for files that were verified. It is
+    outside of the results, so that nobody who adds a row can add it.
+
+    Raises:
+      OSError, ValueError: as `verify`.
+    """
+    kept = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "physexp" / "verified"
+    kept.mkdir(parents=True, exist_ok=True)
+    of_folder = [files.read_plain(folder / name, tables.MOST_BYTES) for name in (scoring.FILE, log.FILE)]
+    mark = kept / _digest([_sources(), *of_folder]).hex()
+    if not mark.exists():
+        verify(folder)
+        mark.touch()
+
+
+@functools.cache
+def _sources() -> bytes:
+    """Returns a digest of all that decides whether a folder is verified: the package's files and the versions."""
+    paths = sorted(Path(physexp.__file__).parent.rglob("*.py"))
+    return _digest([repr(provenance.versions()).encode(), *(path.read_bytes() for path in paths)])
+
+
+def _digest(parts: Sequence[bytes]) -> bytes:
+    return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).digest()
 
 
 def _check_order(path: Path, domains: np.ndarray, tasks: np.ndarray, wanted: Sequence[str]) -> None:

@@ -1,6 +1,9 @@
 """A score's report shows what the figures say, on one page that needs no other file."""
 
+import json
+import os
 import re
+import shutil
 
 import commands
 import numpy as np
@@ -128,7 +131,19 @@ def test_a_score_of_one_domain_has_a_report_without_a_radar(tmp_path):
     paths = report.write(tmp_path / "<quiet>")
     assert not drawing.has_skills(scoring.read(tmp_path / "<quiet>"))
     assert [path.name for path in paths] == ["report.html", "report.png"]
-    assert "&lt;quiet&gt;" in paths[0].read_text() and "<quiet>" not in paths[0].read_text()
+    assert "&#60;quiet&#62;" in paths[0].read_text() and "<quiet>" not in paths[0].read_text()
+
+
+def test_a_report_shows_any_text_of_a_score_as_text(folder, tmp_path):
+    copied = shutil.copytree(folder, tmp_path / os.fsdecode(b"$\\frac{1}$ \xff\x1b[8m"))
+    path = copied / scoring.FILE
+    hostile = {"algorithm": r"<b>$\frac{1}$", "agents": {FOUR[0]: {"commit": "<i>"}}}
+    facts = {"target": "<script>", "agent": hostile, "commit": "<img>", "complete": False, "problem": "<hr>\x1b"}
+    path.write_text(json.dumps({**json.loads(path.read_text()), **facts}))
+    page, _ = report.write(path.parent)
+    shown = page.read_text()
+    assert not any(tag in shown for tag in ("<b>$", "<i>", "<script>", "<img>", "<hr>", "\x1b"))
+    assert r"<h1>&#36;\frac{1}&#36; \udcff\x1b&#91;8m</h1>".replace("\\", "&#92;") in shown
 
 
 def test_a_report_is_no_part_of_what_is_verified(folder):
