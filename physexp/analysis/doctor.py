@@ -67,7 +67,7 @@ def _core() -> Iterator[dict]:
     for module in _CORE:
         try:
             importlib.import_module(module)
-        except Exception as error:  # Whatever a library that is broken raises is what the user wants to read.
+        except Exception as error:  # The user is to read the broken library's own words.
             advice = "install physexp anew, into an environment of its own"
             yield _check(f"import {module}", _in_a_line(error), BROKEN, advice)
             return

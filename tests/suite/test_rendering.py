@@ -196,7 +196,7 @@ def test_a_backend_that_does_not_work_here_is_refused_by_its_name_and_leaves_not
     ids=str,
 )
 def test_a_variable_that_keeps_pixels_from_being_drawn_is_named(variables):
-    """By what draws, and by the doctor, in whose eyes nothing else is wrong; features play."""
+    """By the error and by the doctor, which finds nothing else wrong; features play."""
     found, stderr = interpreters.run(
         f"""
 {HIDE_GL}
@@ -231,7 +231,7 @@ def test_pixels_are_drawn_whatever_was_imported_first_or_spelled_how(first, choi
 
 
 @pytest.mark.parametrize("backend", ["egl", "osmesa"])
-def test_without_a_choice_of_mujocos_the_backend_is_the_platform_of_pyopengl(backend):
+def test_without_a_choice_for_mujoco_pyopengls_platform_is_the_backend(backend):
     _needs_library({"egl": "EGL", "osmesa": "OSMesa"}[backend])
     code = f"{PLAY}\nimport os\nfound['drawn'], found['backend'] = draw(), os.environ['MUJOCO_GL']"
     found, _ = interpreters.run(code, MUJOCO_GL=None, PYOPENGL_PLATFORM=backend)

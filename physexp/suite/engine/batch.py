@@ -427,7 +427,7 @@ class _Group:
         self._starts = apparatus.start.repeated(size) if self._are_alike else apparatus.start.of(nowhere)
         self._qpos, self._control = (self._batch.bind(name) for name in ("qpos", "ctrl"))
         self._looked_at = {field: self._batch.bind(field) for field in task.sense.fields}
-        self._measured = np.zeros((size, apparatus.model.nsensordata))  # Of which the last observations were made.
+        self._measured = np.zeros((size, apparatus.model.nsensordata))  # The sensors' values at the last observation.
 
     @functools.cached_property
     def _first_observation(self) -> dict[str, np.ndarray]:
@@ -498,10 +498,10 @@ class _Group:
         return self.apparatus.moved(self._qpos[rows], self._starts.qpos[rows])
 
     def poses(self, rows) -> tuple[np.ndarray, np.ndarray]:
-        """Returns where the geoms are: positions, m, and rotations, [number of rows, ngeom, 3 and 9].
+        """Returns positions, m, and rotations of the geoms, [number of rows, ngeom, 3 and 9].
 
-        They are computed anew, since a row that has been reset or restored shows what it showed before. What sensors of
-        other stages measure is not, and is remembered.
+        They are computed anew, since a reset or a restored state does not change them by itself. Sensors are not: this
+        stage measures some of them alone, so the indicators show the last readings.
         """
         fields = [self._batch.bind(field) for field in ("geom_xpos", "geom_xmat")]  # Written to by what is called next.
         self._batch.forward(ids=rows, stage=mujoco.mjtStage.mjSTAGE_POS)

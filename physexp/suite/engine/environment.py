@@ -70,7 +70,7 @@ class Environment(composer.Environment):
             return self._flattened(super().step(action))
 
     def observation_spec(self):
-        """What is observed: by name, bounded where the task knows bounds."""
+        """Returns the specs of the observations by name, with bounds if the task knows them."""
         described = super().observation_spec()
         if not self._flat:
             return described

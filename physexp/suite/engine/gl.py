@@ -1,7 +1,7 @@
 """Chooses the GL backend, and has one thread make, use and free its off-screen contexts.
 
-A GL context is current to a thread. All contexts of this package belong to a thread of their own, so that no drawing of
-ours changes which context is current to the caller, and no context of the caller's, of whatever library, changes ours.
+A GL context is current to a thread. All contexts of this package belong to a thread of their own: drawing leaves the
+caller's current context as it is, and the caller's contexts, of any library, leave this package's as they are.
 """
 
 from collections.abc import Callable
@@ -30,10 +30,10 @@ _SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software rasterizer")
 
 
 def prepare() -> None:
-    """Chooses the backend, and imports mujoco and dm_control with it, or without GL where it does not work.
+    """Chooses the backend, and imports mujoco and dm_control with it, or without GL if that fails.
 
-    They look at the environment variables of GL once, when they are imported. A variable that they cannot follow is a
-    fault of what draws alone: `make_context` names it.
+    Both read the environment variables of GL once, when they are imported. A variable that they cannot follow concerns
+    pixels alone: `make_context` names it.
     """
     backend = choose_backend()
     try:
@@ -41,9 +41,9 @@ def prepare() -> None:
         if theirs := sys.modules.get("dm_control._render.pyopengl.egl_renderer"):
             from mujoco import egl
 
-            # One display of both, which is terminated after all that was drawn on it: hooks run in the opposite order.
+            # Both share one display, which dm_control terminates last of all: hooks run in the opposite order.
             egl.EGL_DISPLAY = egl.EGL_DISPLAY or theirs.EGL_DISPLAY
-    except Exception:  # Of whatever kind the driver, PyOpenGL or MuJoCo raises.
+    except Exception:  # The driver, PyOpenGL and MuJoCo raise errors of many kinds.
         os.environ["MUJOCO_GL"] = "disable"
         try:
             _import_simulators()
@@ -59,7 +59,7 @@ def _import_simulators() -> None:
 def choose_backend() -> str:
     """Sets MUJOCO_GL, unless the user has: EGL if it works, else OSMesa if it is installed, else `disable`; returns it.
 
-    Of two that work, PYOPENGL_PLATFORM, where it is set, decides.
+    PYOPENGL_PLATFORM, if it is set, decides between the two.
     """
     # Mesa's software renderer hands small images to threads at a greater cost than drawing them.
     os.environ.setdefault("LP_NUM_THREADS", "0")
@@ -127,19 +127,22 @@ def _jobs(process: int) -> queue.SimpleQueue:
 def _do(future: futures.Future, function: Callable[[], Any]) -> None:
     try:
         future.set_result(function())
-    except BaseException as error:  # It is raised in the thread that waits.
+    except BaseException as error:  # The thread that waits raises it.
         future.set_exception(error)
 
 
 def later(function: Callable[[], Any]) -> futures.Future:
-    """Has the drawing thread of this process call a function after all that it was given before."""
+    """Has the drawing thread of this process call a function, after its earlier jobs."""
     future: futures.Future = futures.Future()
     _jobs(os.getpid()).put((future, function))
     return future
 
 
 def draw(function: Callable[[], Any]) -> Any:
-    """Returns or raises what a function does in the drawing thread: the only one that may touch a GL context."""
+    """Returns the result of a function, or raises its error, after the drawing thread has called it.
+
+    No other thread may touch a GL context.
+    """
     return later(function).result()
 
 
@@ -147,13 +150,13 @@ def make_context(size: int):
     """Makes an off-screen GL context for images of `size` by `size` pixels; for the drawing thread.
 
     Raises:
-      RuntimeError: if no GL backend works; it names the environment variables, and says what to do.
+      RuntimeError: if no GL backend works; the message names the environment variables and a remedy.
     """
     backend = choose_backend()
     try:
-        # Not mujoco.GLContext, which is what MUJOCO_GL said when mujoco was imported, perhaps before this package.
+        # Not mujoco.GLContext: mujoco chose its backend when it was imported, perhaps before this package.
         return importlib.import_module(f"mujoco.{_module(backend)}").GLContext(size, size)
-    except Exception as error:  # Whatever the driver raises is what the user wants to read.
+    except Exception as error:  # The user is to read the driver's own words.
         platform = os.environ.get("PYOPENGL_PLATFORM", backend)
         variables = {"MUJOCO_GL": backend} | ({"PYOPENGL_PLATFORM": platform} if platform != backend else {})
         if device := os.environ.get("MUJOCO_EGL_DEVICE_ID"):
@@ -167,7 +170,7 @@ def make_context(size: int):
 
 
 def _module(backend: str) -> str:
-    """Returns the module of mujoco that makes a backend's contexts; raises RuntimeError where there is none."""
+    """Returns the module of mujoco that makes a backend's contexts; raises RuntimeError if none can."""
     if backend in _OFF:
         raise RuntimeError("no GL library is here, or none is wanted")
     if backend in ("egl", "osmesa"):
@@ -177,7 +180,7 @@ def _module(backend: str) -> str:
     if backend not in _WINDOWS:
         raise RuntimeError("MUJOCO_GL may be egl, osmesa or glfw")
     if sys.platform == "darwin":
-        return "cgl"  # GLFW draws in the main thread alone there.
+        return "cgl"  # On macOS, GLFW works in the main thread alone.
     if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         raise RuntimeError("there is no display")  # glfw itself says so by ending the process.
     return "glfw"
@@ -185,7 +188,7 @@ def _module(backend: str) -> str:
 
 @contextlib.contextmanager
 def current(context):
-    """Makes a GL context current, and afterwards none: EGL lends no thread, as of a fork, a context of another's."""
+    """Makes a GL context current, and afterwards none: a fork's drawing thread could not take over a current one."""
     context.make_current()
     try:
         yield
@@ -208,14 +211,14 @@ def check() -> None:
     """Makes sure that images can be drawn here.
 
     Raises:
-      RuntimeError: if no GL backend works; it names the environment variables, and says what to do.
+      RuntimeError: if no GL backend works; the message names the environment variables and a remedy.
     """
     draw(_name)
 
 
 @functools.cache
 def renderer_name() -> str:
-    """Returns the name of the GL renderer that draws images in this process, or why there is none."""
+    """Returns the name of the GL renderer that draws images in this process, or `none` and the reason."""
     try:
         return draw(_name)
     except RuntimeError as error:

@@ -19,7 +19,7 @@ UNDRAWN_GROUP = 4  # Of geoms that are in no image.
 class Renderer:
     """Draws images of one scene, whatever the poses of its geoms, in a GL context of its own.
 
-    Any thread may call it, one at a time: what draws is the process's drawing thread.
+    Any thread may call it, one at a time: the process's drawing thread does the work.
 
     Attributes:
       size: edge of an image, pixels.
@@ -38,12 +38,12 @@ class Renderer:
           size: edge of an image, pixels.
 
         Raises:
-          RuntimeError: if no GL backend works; it says what to install.
+          RuntimeError: if no GL backend works; the message names a remedy.
         """
         self.size = size
         drawn = _with_buffer(model, size)
         self.context, self.buffers, drawn_by = gl.draw(functools.partial(_upload, drawn, size))
-        # Freed in the drawing thread, also when the renderer is dropped.
+        # The drawing thread frees them, also after the renderer has been dropped.
         self._free = weakref.finalize(self, gl.later, functools.partial(_free, self.context, self.buffers))
         _close_at_exit()
         _OPEN.add(self)
@@ -58,7 +58,7 @@ class Renderer:
         drawn_geoms = [geom.objid for geom in self.scene.geoms[: self.scene.ngeom]]
         self._moving = [geom for geom in drawn_geoms if geom in moving_geoms]
         first = drawn_geoms.index(self._moving[0])
-        assert drawn_geoms[first:] == self._moving  # What stands still is the arena, which comes first.
+        assert drawn_geoms[first:] == self._moving  # The arena, which stands still, comes first.
         self._drawn_geoms = drawn_geoms
         self._colors, positions, rotations = (_views(self.scene, field) for field in ("rgba", "pos", "mat"))
         self._positions, self._rotations = positions[first:], rotations[first:]
@@ -121,9 +121,10 @@ _OPEN: weakref.WeakSet[Renderer] = weakref.WeakSet()
 
 @functools.cache
 def _close_at_exit() -> None:
-    """Has all renderers closed before the backend's own exit hook, after which no context can be freed.
+    """Has all renderers closed at exit, before the backend's own hook, after which no context can be freed.
 
-    It is called when the first context has been made, and the backend with it: hooks run in the opposite order.
+    The first renderer calls this after it has made its context, and the backend's hook with it: the last hook runs
+    first.
     """
     atexit.register(_close_all)
 
@@ -131,11 +132,11 @@ def _close_at_exit() -> None:
 def _close_all() -> None:
     for renderer in list(_OPEN):
         renderer.close()
-    gl.draw(lambda: None)  # After what was to be freed.
+    gl.draw(lambda: None)  # It waits until all are freed.
 
 
 def _upload(model, size: int):
-    """Returns a new context, the buffers that a model is drawn with there, and the name of what draws."""
+    """Returns a new context, its buffers for a model, and the name of the GL renderer."""
     context = gl.make_context(size)
     with gl.current(context):
         buffers = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_50)
