@@ -104,7 +104,7 @@ def _joined(parts: Sequence[rounds.BehaviourData]) -> rounds.BehaviourData:
     )
 
 
-class RecurrentActor(core.Actor):
+class RecurrentActor(core.EpisodicActor):
     """Plays one environment with a fixed network, carrying the LSTM's state through each episode.
 
     Attributes:
@@ -124,7 +124,7 @@ class RecurrentActor(core.Actor):
         self._state = network.initial_state(1)
 
     @torch.inference_mode()
-    def select_action(self, observation) -> int:
+    def _choose(self, observation) -> int:
         tensors = {name: torch.as_tensor(value)[None] for name, value in observation.items()}
         logits, values, self._state = self._network.step(self._network.encode(tensors), self._state)
         self.policy, self.value = torch.softmax(logits[0].double(), dim=-1).cpu().numpy(), float(values[0])
@@ -132,10 +132,10 @@ class RecurrentActor(core.Actor):
         self.belief = None if beliefs is None else beliefs[0].double().cpu().numpy()
         return int(logits.argmax() if self._greedy else sample(logits, self._generator)[0])
 
-    def observe_first(self, timestep):
+    def _begin(self, timestep):
         self._network.check(timestep.observation)
         self._state = self._network.initial_state(1)
 
     @torch.inference_mode()
-    def observe(self, action, next_timestep):
+    def _note(self, action, next_timestep):
         self._state = self._network.note(torch.tensor([action]), self._state)

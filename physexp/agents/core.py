@@ -84,6 +84,47 @@ class Actor(abc.ABC):
         """Brings the actor's variables up to date, after each step; one whose variables are fixed does nothing."""
 
 
+class EpisodicActor(Actor):
+    """An actor that remembers an episode, and refuses a loop that leaves out `observe_first`."""
+
+    _is_playing = False
+
+    def observe_first(self, timestep: dm_env.TimeStep) -> None:
+        """Begins an episode."""
+        self._begin(timestep)
+        self._is_playing = True
+
+    def select_action(self, observation: Mapping[str, Any]) -> int:
+        """Returns an action; raises RuntimeError if the episode was not begun."""
+        self._check(self._is_playing)
+        return self._choose(observation)
+
+    def observe(self, action: int, next_timestep: dm_env.TimeStep) -> None:
+        """Notes an action and the timestep that followed; raises RuntimeError if the episode was not begun."""
+        self._check(self._is_playing and not next_timestep.first())
+        self._note(action, next_timestep)
+        self._is_playing = not next_timestep.last()
+
+    @staticmethod
+    def _check(has_begun: bool) -> None:
+        if not has_begun:
+            raise RuntimeError(
+                "the actor does not know that an episode has begun; call observe_first(timestep) after each reset"
+            )
+
+    @abc.abstractmethod
+    def _begin(self, timestep: dm_env.TimeStep) -> None:
+        """Forgets the episode before."""
+
+    @abc.abstractmethod
+    def _choose(self, observation: Mapping[str, Any]) -> int:
+        """Returns an action."""
+
+    @abc.abstractmethod
+    def _note(self, action: int, next_timestep: dm_env.TimeStep) -> None:
+        """Notes an action and the timestep that followed."""
+
+
 class Learner(abc.ABC):
     """Improves variables from experience."""
 

@@ -9,6 +9,7 @@ import torch
 
 from physexp import suite
 from physexp.agents import acting, devices, environment_loop, networks, rounds
+from physexp.analysis import domains
 
 torch.set_num_threads(1)  # As a worker does; more of them only wait for each other.
 
@@ -280,15 +281,37 @@ def test_a_greedy_actor_takes_the_likeliest_action_whatever_its_seed():
 def test_actors_of_one_seed_draw_the_same_actions_and_of_two_seeds_others():
     environment = suite.load("which_is_heavier", "features", {"random": 0})
     network = make_network(environment, 0)
-    observation = environment.reset().observation
+    timestep = environment.reset()
     environment.close()
 
     def draws(seed):
         actor = acting.RecurrentActor(network, seed=seed)
-        return [actor.select_action(observation) for _ in range(200)]
+        actor.observe_first(timestep)
+        return [actor.select_action(timestep.observation) for _ in range(200)]
 
     assert draws(5) == draws(5)
     assert draws(5) != draws(6)
+
+
+@pytest.mark.parametrize("made", ["trained", "ideal"])
+@pytest.mark.parametrize("first", [True, False])
+def test_a_loop_that_forgets_observe_first_is_told_so(made, first):
+    environment = suite.load("threshold", "features", {"random": 0})
+    actor = acting.RecurrentActor(make_network(environment, 0))
+    if made == "ideal":
+        actor = domains.find("threshold").ideal("features", {}, 0.95).actor()
+    timestep = environment.reset()
+    if first:
+        actor.observe_first(timestep)
+        while not timestep.last():
+            action = actor.select_action(timestep.observation)
+            timestep = environment.step(action)
+            actor.observe(action, timestep)
+        timestep = environment.reset()
+    for act in (lambda: actor.select_action(timestep.observation), lambda: actor.observe(0, timestep)):
+        with pytest.raises(RuntimeError, match=r"call observe_first\(timestep\) after each reset"):
+            act()
+    environment.close()
 
 
 def test_what_is_chosen_is_what_the_environment_gets_and_what_is_recorded():

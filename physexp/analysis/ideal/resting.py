@@ -263,19 +263,19 @@ class Solution:
         return {**self.figures(), "at_once": self.at_once, "random_value": self.random_value}
 
 
-class _Player(core.Actor):
+class _Player(core.EpisodicActor):
     """Plays a solution."""
 
     def __init__(self, solution: Solution, read: Callable[[Mapping[str, np.ndarray]], int]):
         self._solution, self._read = solution, read
 
-    def observe_first(self, timestep):
+    def _begin(self, timestep):
         self._state, self._step = self._solution.apparatus.start, 0
 
-    def select_action(self, observation) -> int:
+    def _choose(self, observation) -> int:
         return self._solution.action(self._state, self._step)
 
-    def observe(self, action, next_timestep):
+    def _note(self, action, next_timestep):
         if next_timestep.last():
             return
         reading = self._read(next_timestep.observation)

@@ -55,17 +55,17 @@ class Solution:
         return {**self.figures(), "at_once": self.value, "random_value": self.value}
 
 
-class _Player(core.Actor):
+class _Player(core.EpisodicActor):
     """Plays the solution."""
 
     def __init__(self, num_interactions: int):
         self._num_interactions = num_interactions
 
-    def observe_first(self, timestep):
+    def _begin(self, timestep):
         """Does nothing: each observation tells all."""
 
-    def select_action(self, observation) -> int:
+    def _choose(self, observation) -> int:
         return self._num_interactions + int(observation[task_lib.ANSWER].argmax())
 
-    def observe(self, action, next_timestep):
+    def _note(self, action, next_timestep):
         """Does nothing: each observation tells all."""

@@ -265,21 +265,21 @@ def _part_with(hypothesis: int, parts: situations_lib.Parts) -> situations_lib.G
     return next(part for _, part in parts if hypothesis in part)
 
 
-class _Player(core.Actor):
+class _Player(core.EpisodicActor):
     """Plays a solution."""
 
     def __init__(self, solution: Solution):
         """Prepares to play in the environments of the solution's task."""
         self._first, self._hypotheses = solution.policy, solution.hypotheses
 
-    def observe_first(self, timestep):
+    def _begin(self, timestep):
         self._node = self._first
 
-    def select_action(self, observation) -> int:
+    def _choose(self, observation) -> int:
         node = self._node
         return self._hypotheses.task.num_interactions + node.label if node.action is None else node.action
 
-    def observe(self, action, next_timestep):
+    def _note(self, action, next_timestep):
         node = self._node
         if node.seen is None or next_timestep.last():
             return
