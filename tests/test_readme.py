@@ -21,7 +21,7 @@ FIRST, BATCH, PRETRAINED, GYMNASIUM = [block for block in BLOCKS if block.langua
 COMMANDS = [
     line.split("#")[0].strip() for language, code, _ in BLOCKS if language == "sh" for line in code.splitlines()
 ]
-TRAINING = ("physexp train", "physexp evaluate")
+TRAINING = ("physexp train", "physexp evaluate", "physexp score")
 
 
 def physexp(command, capsys):
@@ -123,8 +123,8 @@ def test_an_experiment_draws_its_figure_and_holds_and_the_report_has_it(tmp_path
 
 
 @pytest.mark.long
-def test_the_trained_agent_is_right_in_19_of_20_episodes_and_beats_its_own_random_pokes(tmp_path):
-    # Chance is 0.25. The command reached 0.99 or more with each of eight seeds.
+def test_the_trained_agent_experiments_well_and_is_scored(tmp_path):
+    # Chance is 0.25. The command reached 0.974 and 0.979 with two seeds: less than 0.92 of 200 has a chance of 1e-5.
     evaluations = []
     for command in (line for line in COMMANDS if line.startswith(TRAINING)):
         as_json = " --json" if "evaluate" in command and "--json" not in command else ""
@@ -137,9 +137,11 @@ def test_the_trained_agent_is_right_in_19_of_20_episodes_and_beats_its_own_rando
         if "evaluate" in command:
             evaluations.append(json.loads(done.stdout))
     learned, random = evaluations
-    assert learned["success_rate"] >= 0.95
+    assert learned["success_rate"] >= 0.92
     assert learned["mean_return"] > random["mean_return"]
     assert learned["median_interactions"] >= 2
+    scored = json.loads((tmp_path / "runs/readme_score/score.json").read_text(encoding="utf-8"))
+    assert scored["complete"] and scored["whole"]["score"] > 0.8
 
 
 def test_every_link_to_a_file_has_a_file():

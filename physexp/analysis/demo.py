@@ -8,17 +8,14 @@ from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import progress, trainer, verdict
 from physexp.analysis.training import run as run_lib
 
-DIFFICULTY = 10.0
-FRAMES = 1_500_000
+FRAMES = 20_000
 EPISODES = 2000
 
 
 def config() -> config_lib.TrainConfig:
     """Returns what a demo trains."""
     agent = config_lib.preset("which_is_heavier", "features").replace(frames=FRAMES)
-    return config_lib.TrainConfig(
-        domain="which_is_heavier", task="features", task_kwargs={"difficulty": DIFFICULTY}, agent=agent
-    )
+    return config_lib.TrainConfig(domain="which_is_heavier", task="features", agent=agent)
 
 
 def run(folder: Path) -> None:
@@ -33,7 +30,7 @@ def run(folder: Path) -> None:
             raise ValueError(f"{folder} holds a run that is no demo's; choose another --run-dir")
         with demo.locked():
             demo.set_aside()
-    print(f"Training an agent to find the heaviest of four blocks (difficulty {DIFFICULTY:g}) ...", flush=True)
+    print("Training an agent to find the heaviest of four blocks ...", flush=True)
     with progress.Progress(wanted) as display:
         trainer.train(demo, display, start=wanted)
     if problem := verdict.of_run(demo):

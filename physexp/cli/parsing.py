@@ -12,6 +12,7 @@ import tyro
 from tyro import _errors as tyro_errors  # Its hook on what it refuses; not public as yet, so setup.cfg bounds tyro.
 
 from physexp import __version__, extras
+from physexp.analysis import domains
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import stopping
 from physexp.cli import options as options_lib
@@ -75,14 +76,14 @@ def parse(arguments: list[str]) -> Any:
         raise ValueError(f"{_problem(event, command)}; see {' '.join(words)}")
 
     with tyro_errors.on_parse_error(refuse):
-        return tyro.cli(Union[command.kinds()], prog="physexp", description=_DESCRIPTION, args=arguments)  # type: ignore[call-overload] # noqa: UP007
+        return tyro.cli(Union[command.kinds()], prog="physexp", description=_DESCRIPTION, args=command.arguments)  # type: ignore[call-overload] # noqa: UP007
 
 
 class _Command:
     """The command that some arguments name, and what its options depend on: the domain, the task and the learner.
 
     Attributes:
-      arguments: what was typed.
+      arguments: what was typed, with tasks as the command takes them.
       name: the command's; empty where none is named.
       domains: those whose options go with it.
       options: the dataclass of these options.
@@ -94,10 +95,14 @@ class _Command:
         Raises:
           ValueError: for a domain that is none.
         """
-        self.arguments = arguments
         self.name = arguments[0] if arguments[:1] and arguments[0] in COMMANDS else ""
         domains_of = getattr(COMMANDS.get(self.name), "domains_of", None)
-        self._words = _words(arguments[1:], self._switches()) if domains_of else []
+        if domains_of is options_lib.of_domain:
+            self.arguments = _with_tasks_apart(arguments, self._switches(), "task" in _options(COMMANDS[self.name]))
+        else:
+            self.arguments = _with_tasks_joined(arguments)
+        places = _places_of_words(self.arguments, self._switches()) if domains_of else []
+        self._words = [self.arguments[place] for place in places]
         self.domains: list[str] = domains_of(self._words) if domains_of else []
         self._options_of = getattr(COMMANDS.get(self.name), "options_of", options_lib.of_task)
         default = "the agent's" if domains_of is options_lib.of_agent else None
@@ -127,7 +132,7 @@ class _Command:
         return Annotated[kind, tyro.conf.subcommand(name)]
 
     def _algorithm(self) -> str:
-        """Returns the learner that is named, or else the paper's."""
+        """Returns the learner that is named, or else the default."""
         named = self.value("--agent")
         return named if named in config_lib.ALGORITHMS else config_lib.DEFAULT_ALGORITHM
 
@@ -164,12 +169,10 @@ class _Command:
 
     def option_names(self) -> list[str]:
         """Returns the command's options as they are typed, without their dashes."""
-        kinds = get_type_hints(COMMANDS[self.name], include_extras=True)
-        named = [field for field in dataclasses.fields(COMMANDS[self.name]) if not _is_positional(kinds[field.name])]
-        fields = [*named, *dataclasses.fields(self.options)]
+        names = [*_options(COMMANDS[self.name]), *(field.name for field in dataclasses.fields(self.options))]
         if self.name == "train":
-            fields += [field for kind in config_lib.ALGORITHMS.values() for field in dataclasses.fields(kind)]
-        return [name.replace("_", "-") for name in dict.fromkeys(field.name for field in fields)]
+            names += [field.name for kind in config_lib.ALGORITHMS.values() for field in dataclasses.fields(kind)]
+        return [name.replace("_", "-") for name in dict.fromkeys(names)]
 
     def _switches(self) -> set[str]:
         """Returns the options that have no value, as they are typed."""
@@ -184,15 +187,41 @@ class _Command:
         return {*_HELP, *(f"--{prefix}{name}" for name in names for prefix in ("", "no-"))}
 
 
-def _words(arguments: Sequence[str], switches: Collection[str]) -> list[str]:
-    """Returns the arguments that are neither options nor their values, of which some have several numbers."""
-    found = []
-    before = ""
+def _with_tasks_apart(arguments: list[str], switches: Collection[str], task_is_option: bool) -> list[str]:
+    """Returns the arguments of a command that takes DOMAIN TASK, or DOMAIN --task TASK, with DOMAIN/TASK taken apart."""
+    places = _places_of_words(arguments, switches)
+    if not places:
+        return arguments
+    domain, slash, task = arguments[places[0]].partition("/")
+    if slash and domain in domains.DOMAINS:
+        arguments = [*arguments[: places[0]], domain, task, *arguments[places[0] + 1 :]]
+        places = _places_of_words(arguments, switches)
+    if task_is_option and len(places) > 1:
+        arguments = [*arguments[: places[1]], "--task", *arguments[places[1] :]]
+    return arguments
+
+
+def _with_tasks_joined(arguments: list[str]) -> list[str]:
+    """Returns the arguments of a command that takes DOMAIN/TASK, with DOMAIN TASK joined."""
+    found: list[str] = []
     for argument in arguments:
+        if found and found[-1] in domains.DOMAINS:
+            from physexp import suite
+
+            if argument in suite.TASKS_BY_DOMAIN[found[-1]]:
+                found[-1] += f"/{argument}"
+                continue
+        found.append(argument)
+    return found
+
+
+def _places_of_words(arguments: Sequence[str], switches: Collection[str]) -> list[int]:
+    """Returns the indices of the arguments that are neither the command, nor options, nor their values, nor numbers."""
+    found = []
+    for place, (before, argument) in enumerate(itertools.pairwise(arguments), start=1):
         is_value = before.startswith("--") and "=" not in before and before.replace("_", "-") not in switches
         if not (argument.startswith("-") or is_value or _is_number(argument)):
-            found.append(argument)
-        before = argument
+            found.append(place)
     return found
 
 
@@ -207,6 +236,12 @@ def _is_number(text: str) -> bool:
 def _is_positional(kind: Any) -> bool:
     """Returns whether arguments of a type are typed without a name."""
     return tyro.conf.Positional in getattr(kind, "__metadata__", ())
+
+
+def _options(kind: type) -> list[str]:
+    """Returns the fields of a command that are typed with a name."""
+    kinds = get_type_hints(kind, include_extras=True)
+    return [field.name for field in dataclasses.fields(kind) if not _is_positional(kinds[field.name])]
 
 
 def _flags(tokens: Sequence[str]) -> list[str]:

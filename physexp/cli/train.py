@@ -26,7 +26,7 @@ class Train(Generic[Config, options_lib.Options]):
     Attributes:
       options: what the domain lets choose.
       replay_every: environment steps between replays, which go into the run's folder; 0 for none.
-      agent: the learner; a3c is the paper's.
+      agent: the learner; belief needs the fewest frames, and a3c is the paper's.
       config: the agent's hyperparameters.
       run_dir: the run's folder; by default one named after the run, under runs/.
       tensorboard: write the metrics for TensorBoard too.

@@ -98,7 +98,7 @@ def _measure(num_workers: int) -> tuple[float, parameter_server.Traffic, float]:
 def _final_return(on_cluster: bool) -> float:
     """Returns mean discounted return of an agent that two workers have trained."""
     domain, task = measuring.REFERENCE
-    agent = config_lib.preset(domain, task).replace(num_workers=2, frames=_FRAMES)
+    agent = config_lib.preset(domain, task, algorithm="a3c").replace(num_workers=2, frames=_FRAMES)
     with tempfile.TemporaryDirectory() as folder:
         run = run_lib.Run(Path(folder) / "run")
         run.create(config_lib.TrainConfig(domain=domain, task=task, agent=agent))
@@ -123,7 +123,7 @@ def _recovery() -> float:
 
 def _agent(num_workers: int, tell: callbacks.Tell = callbacks.ignore) -> distributed.DistributedA3C:
     domain, task = measuring.REFERENCE
-    preset = config_lib.preset(domain, task).replace(num_workers=num_workers, frames=10**12)
+    preset = config_lib.preset(domain, task, algorithm="a3c").replace(num_workers=num_workers, frames=10**12)
     config = config_lib.TrainConfig(domain=domain, task=task, agent=preset)
     agent = trainer.make_agent(config, on_cluster=True, tell=tell)
     assert isinstance(agent, distributed.DistributedA3C)

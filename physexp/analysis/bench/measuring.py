@@ -120,8 +120,8 @@ def random_batch(task: Task, size: int = BATCH, only_interactions: bool = False)
 
 
 def training_rate(task: Task, seconds: float) -> float:
-    """Returns frames per second of the default agent on two workers, from scratch, once all workers are under way."""
-    preset = config_lib.preset(*task)
+    """Returns frames per second of A3C on two workers, from scratch, once all workers are under way."""
+    preset = config_lib.preset(*task, algorithm="a3c")
     assert isinstance(preset, a3c.A3CConfig)
     agent = trainer.make_agent(config_lib.TrainConfig(domain=task[0], task=task[1], agent=preset))
     heard: set[int] = set()

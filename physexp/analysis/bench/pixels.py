@@ -150,7 +150,7 @@ def bare_network_rate(task: measuring.Task) -> float:
 def _bare_network_rate(task: measuring.Task) -> float:
     """Returns frames per second; as in training, an image passes forward to act, and forward and backward to learn."""
     torch.set_num_threads(1)
-    config = config_lib.preset(*task)
+    config = config_lib.preset(*task, algorithm="a3c")
     assert isinstance(config, a3c.A3CConfig)
     environment = suite.load_batch(*task, 1)
     network = starting.make_network(networks.RecurrentActorCritic, environment, config)

@@ -87,12 +87,10 @@ def progress(run: run_lib.Run) -> tuple[int, int]:
 
 def command(config: config_lib.TrainConfig) -> str:
     """Returns the command that trains such a run: what differs from the task's preset is spelled out."""
-    words = ["physexp", "train", config.domain, config.task]
+    words = ["physexp", "train", config.domain, config.task, "--agent", config.agent.algorithm]
     for name, value in config.task_kwargs.items():
         words += _flag(name, value)
     preset = dataclasses.asdict(config_lib.preset(config.domain, config.task, algorithm=config.agent.algorithm))
-    if config.agent.algorithm != config_lib.DEFAULT_ALGORITHM:
-        words += ["--agent", config.agent.algorithm]
     for name, value in dataclasses.asdict(config.agent).items():
         if value != preset[name]:
             words += _flag(name, value)

@@ -57,7 +57,7 @@ def heavier(
     difficulty: float, observations: str, frames: int, discount: float = which_is_heavier.DOMAIN.discount
 ) -> config_lib.TrainConfig:
     """Returns Which is Heavier at a difficulty, for so many environment steps, the agent's gamma being `discount`."""
-    agent = config_lib.preset("which_is_heavier", observations)
+    agent = config_lib.preset("which_is_heavier", observations, algorithm="a3c")
     return config_lib.TrainConfig(
         domain="which_is_heavier",
         task=observations,
@@ -69,7 +69,7 @@ def heavier(
 def towers(actuator: str, observations: str = "features") -> config_lib.TrainConfig:
     """Returns Towers with an actuator."""
     task = f"{actuator}_{observations}"
-    agent = config_lib.preset("towers", task).replace(num_workers=1)
+    agent = config_lib.preset("towers", task, algorithm="a3c").replace(num_workers=1)
     return config_lib.TrainConfig(domain="towers", task=task, agent=agent)
 
 
@@ -86,7 +86,9 @@ BY_LABEL = {config.label: config for config in (*HEAVIER, *TOWERS)}
 
 THRESHOLD, BALANCE, STRINGS, SEALED_BOX, STRIKE = (
     config_lib.TrainConfig(
-        domain=domain, task="features", agent=config_lib.preset(domain, "features").replace(num_workers=1)
+        domain=domain,
+        task="features",
+        agent=config_lib.preset(domain, "features", algorithm="a3c").replace(num_workers=1),
     )
     for domain in ("threshold", "balance", "strings", "sealed_box", "strike")
 )

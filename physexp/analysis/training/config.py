@@ -22,9 +22,10 @@ ALGORITHMS: dict[str, type[agent_config.AgentConfig]] = {
 }
 """The configurations of all agents, by name."""
 
-DEFAULT_ALGORITHM = a3c.A3CConfig.algorithm
-"""The paper's."""
+DEFAULT_ALGORITHM = belief.BeliefConfig.algorithm
+"""The learner that needs the fewest environment steps."""
 
+_UNNAMED = a3c.A3CConfig.algorithm  # Names of runs, and configurations of format 1, leave the paper's learner out.
 _OF_FORMAT_1 = ("difficulty", "control_timestep")  # Fields that now are in `task_kwargs`; null for the task's default.
 
 
@@ -82,7 +83,7 @@ class TrainConfig:
     def name(self) -> str:
         """A name for the run's folder."""
         options = "".join(f"-{name}{agent_config.shown(value)}" for name, value in sorted(self.task_kwargs.items()))
-        algorithm = "" if self.agent.title == DEFAULT_ALGORITHM else f"-{self.agent.title}"
+        algorithm = "" if self.agent.title == _UNNAMED else f"-{self.agent.title}"
         discount = f"-discount{self.agent.discount:g}"
         return f"{self.domain}-{self.task}{options}{algorithm}{discount}-seed{self.agent.seed}"
 
@@ -98,7 +99,7 @@ class TrainConfig:
             name: tuple(value) if isinstance(value, list) else value  # JSON has lists.
             for name, value in fields["agent"].items()
         }
-        algorithm = ALGORITHMS[agent.pop("algorithm", DEFAULT_ALGORITHM)]
+        algorithm = ALGORITHMS[agent.pop("algorithm", _UNNAMED)]
         chosen = {name: fields[name] for name in _OF_FORMAT_1 if fields.get(name) is not None}
         others = {name: value for name, value in fields.items() if name not in _OF_FORMAT_1}
         task_kwargs = {**chosen, **fields.get("task_kwargs", {})}

@@ -52,7 +52,8 @@ def of_run(run: run_lib.Run) -> str | None:
 def advice(config: config_lib.TrainConfig) -> str:
     """Returns what may help an agent that has learned nothing."""
     agent = config.agent
-    other = "--agent ppo, " if agent.algorithm == config_lib.DEFAULT_ALGORITHM else ""
+    best = config_lib.DEFAULT_ALGORITHM
+    other = "" if agent.algorithm == best else f"--agent {best}, "
     usual = config_lib.preset(config.domain, config.task, algorithm=agent.algorithm).frames
     return (
         f"train anew, in another --run-dir, with --frames {max(2 * agent.frames, usual)} or more "

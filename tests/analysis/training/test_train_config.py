@@ -9,6 +9,7 @@ import pytest
 
 from physexp import suite
 from physexp.agents.a3c import config as a3c
+from physexp.agents.belief import config as belief
 from physexp.analysis import domains
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
@@ -94,8 +95,8 @@ def test_no_preset_is_of_a_task_that_there_is_not():
 
 
 def test_without_a_preset_an_agent_has_its_defaults_at_the_domain_s_discount():
-    assert config_lib.preset("towers", "feet") == a3c.A3CConfig(discount=0.98)
-    assert config_lib.preset() == a3c.A3CConfig()
+    assert config_lib.preset("towers", "feet", algorithm="a3c") == a3c.A3CConfig(discount=0.98)
+    assert config_lib.preset() == belief.BeliefConfig()
 
 
 def test_a_condition_has_the_paper_s_name_or_else_those_of_domain_and_task():
