@@ -68,7 +68,7 @@ def players(
     return functools.partial(Player, exact, responses, task_kwargs["noise"])
 
 
-class Player(core.Actor):
+class Player(core.EpisodicActor):
     """Plays the policy; what it has of an episode is what was read of each thing, and when it was touched."""
 
     def __init__(self, exact: odd_one_out.Solution, responses: calibration.Responses, noise: float):
@@ -81,28 +81,29 @@ class Player(core.Actor):
         """Returns how likely each thing is to have the largest value, float64 [K]."""
         return self._posterior(self._logs[None])[0][0]
 
-    def observe_first(self, timestep):
+    def _begin(self, timestep):
         self._touched: list[tuple[bool, ...]] = [()] * self._prior.num_things
         self._logs = np.zeros((self._prior.num_things, _NODES))
         self._num_touches = 0
 
-    def select_action(self, observation) -> int:
+    def _choose(self, observation) -> int:
         beliefs, densities = self._posterior(self._logs[None])
         answer, label = base.worth_of_answers(beliefs[0].max()), self._prior.num_things + int(beliefs[0].argmax())
-        silence = -(self._exact.discount ** (self._exact.step_limit - 1 - self._num_touches))
-        if self._num_touches >= _MOST_TOUCHES:
-            return label if answer > silence else 0
+        left = self._exact.step_limit - self._num_touches
+        last = self._exact.discount ** (left - 1) * answer  # The worth of the answer in the last step.
+        if left == 1 or self._num_touches >= _MOST_TOUCHES:
+            return label if left == 1 or answer >= last else 0
         means = densities[0] @ self._responses.values
         unknown = [k for k, touched in enumerate(self._touched) if not touched]
         means[unknown] = np.nan
-        if unknown and self._exact.values(means[None])[1][0] > answer:
+        if unknown and self._exact.values(means[None], left)[1][0] > answer:
             return unknown[0]
         candidates = [k for k in range(self._prior.num_things) if k not in unknown[1:]]  # Unknown ones are alike.
         worths = [self._worth_of_touching(k, densities[0, k]) for k in candidates]
         best = int(np.argmax(worths))
-        return candidates[best] if max(worths[best], silence) > answer else label
+        return candidates[best] if max(worths[best], last) > answer else label
 
-    def observe(self, action, next_timestep):
+    def _note(self, action, next_timestep):
         if action >= self._prior.num_things or next_timestep.last():
             return
         self._num_touches += 1

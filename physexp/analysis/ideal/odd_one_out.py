@@ -1,8 +1,8 @@
 """The ideal experimenter of K things of which one is different, when one touch of a thing reveals its value.
 
-The theory is in docs/ideal.md. What it knows after some touches is all in two numbers: the largest value M found, and
-t, the sum of the likelihood ratios r(m) (odd one's density over a common one's) of the values found, over r(M). What
-states are worth is found by going back from the last touch, on a grid.
+The theory is in docs/ideal.md. Two numbers hold all that is known after some touches: the largest value M found, and t,
+the sum of the likelihood ratios r(m) (odd one's density over a common one's) of the values found, over r(M). The worth of
+states is computed backwards from the last touch, on a grid.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -23,6 +23,7 @@ from physexp.suite.engine import priors, rules
 _LARGEST_NODES, _RATIO_NODES = 400, 33
 _QUADRATURE_NODES = 48  # Per half of each density; many more where there is only one state to integrate from.
 _EPISODES = 2**17  # Of the histogram; drawn evenly (Sobol), so that its error is far below 0.001.
+_NEGLIGIBLE = 1e-9  # Of a return.
 MOST_THINGS = 20
 _EASIEST = 1e6
 
@@ -79,12 +80,13 @@ def _largest_is_touched(unknown, largest, log_weight, prior):
 
 @dataclasses.dataclass(frozen=True)
 class Solution:
-    """The best policy there is, and what it is worth. It is solved for when it is first asked what touches are worth.
+    """The best policy and its value. It is solved when the worth of a touch is first needed.
 
     Attributes:
-      prior, discount: of what it is the best.
-      step_limit: steps in an unanswered episode, which are taken for more than all touches and an answer need.
-      find_read: finds out how values are read from what a task observes; None where they cannot be.
+      prior: distribution of the values.
+      discount: the agent's gamma.
+      step_limit: most actions in an episode, the answer included.
+      find_read: returns a function that reads values from observations; None for images.
     """
 
     prior: priors.OddOneOut
@@ -95,7 +97,7 @@ class Solution:
     @property
     def value(self) -> float:
         """Expected discounted return, discount^touches times +1 or -1, from an episode's start."""
-        return _go_back(self.prior, self.discount)[0]
+        return self._value(at_random=False)
 
     @property
     def bound(self) -> float:
@@ -110,35 +112,45 @@ class Solution:
     @property
     def random_value(self) -> float:
         """Expected return of touches drawn uniformly, with the best answers at the best moment."""
-        return _go_back(self.prior, self.discount, at_random=True)[0]
+        return self._value(at_random=True)
 
-    def values(self, known: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Returns what the best answer and what one more touch are worth.
+    def _value(self, at_random: bool) -> float:
+        if self.step_limit == 1:
+            return self.at_once
+        touch = _touch(self.prior, self.discount, 0, self.step_limit, at_random)
+        return max(self.at_once, float(touch(np.zeros((1, 2)))[0]))
+
+    def values(self, known: np.ndarray, left: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Returns the worth of the best answer and that of one more touch of an unknown thing.
 
         Args:
           known: the values that are known, as for `posterior`, [N, K].
+          left: number of actions left in the episode, at least 1; of each row, [N], or of all.
 
         Returns:
-          Two float64 [N]; a touch is worth -inf where nothing is left to touch.
+          Two float64 [N]; a touch is worth -inf if all things are known.
         """
-        beliefs, touch = self._beliefs_and_touch(known)
+        beliefs, touch = self._beliefs_and_touch(known, left)
         return base.worth_of_answers(beliefs.max(axis=1)), touch
 
-    def _beliefs_and_touch(self, known: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Returns the posterior, [N, K], and what one more touch is worth, [N]."""
+    def _beliefs_and_touch(self, known: np.ndarray, left: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Returns the posterior, [N, K], and the worth of one more touch of an unknown thing, [N]."""
         largest, log_weight = _statistics(known, self.prior)
         touches = (~np.isnan(known)).sum(axis=1)
-        touch = np.full(len(known), -np.inf)
-        touch[touches == 0] = self.value
-        for number, function in enumerate(_go_back(self.prior, self.discount)[1], start=1):
-            rows = touches == number
-            ratio = np.exp(log_weight[rows] - self.prior.log_ratio(largest[rows]))
-            touch[rows] = function(_points(largest[rows], ratio))
+        num_things = self.prior.num_things
+        useful = np.minimum(left, num_things - touches + 1)  # An answer follows the last touch; more steps are no use.
+        touch = np.where(touches < num_things, float(rules.WRONG), -np.inf)  # Silence, in the last step.
+        for number, steps in {*zip(touches.tolist(), useful.tolist(), strict=True)}:
+            if number < num_things and steps > 1:
+                rows = (touches == number) & (useful == steps)
+                ratio = np.exp(log_weight[rows] - self.prior.log_ratio(largest[rows])) if number else np.zeros(rows.sum())
+                points = _points(largest[rows], ratio)
+                touch[rows] = _touch(self.prior, self.discount, number, steps)(points)
         return _posterior(known, largest, log_weight, self.prior), touch
 
-    def actions(self, known: np.ndarray) -> np.ndarray:
-        """Returns the best action, int64 [N]: the first unknown thing, or K plus the label; `known` as above."""
-        beliefs, touch = self._beliefs_and_touch(known)
+    def actions(self, known: np.ndarray, left: float | np.ndarray) -> np.ndarray:
+        """Returns the best action, int64 [N]: the first unknown thing, or K plus the label; arguments as for `values`."""
+        beliefs, touch = self._beliefs_and_touch(known, left)
         label = self.prior.num_things + beliefs.argmax(axis=1)
         return np.where(touch > base.worth_of_answers(beliefs.max(axis=1)), np.isnan(known).argmax(axis=1), label)
 
@@ -147,7 +159,7 @@ class Solution:
 
         Args:
           values: of the things, float64 [N, K].
-          read: what touches show of them, float64 [N, K]; by default the values.
+          read: the values that touches show, float64 [N, K]; by default those of the things.
 
         Returns:
           Touches, int64 [N], and whether the answer was right, bool [N].
@@ -157,7 +169,7 @@ class Solution:
         touches, labels = np.zeros(len(values), np.int64), np.full(len(values), -1)
         going = np.arange(len(values))
         while len(going):
-            actions = self.actions(known[going])
+            actions = self.actions(known[going], self.step_limit - touches[going])
             touching = actions < self.prior.num_things
             labels[going[~touching]] = actions[~touching] - self.prior.num_things
             going, touched = going[touching], actions[touching]
@@ -180,15 +192,15 @@ class Solution:
         return self.judge(episode).beliefs
 
     def judge(self, episode: base.Episode) -> base.Judgement:
-        """Returns what could be known in an episode, and what its actions were worth."""
+        """Returns the beliefs in an episode, and the worth of its actions."""
         return self.judge_all(np.asarray(episode.hidden)[None], [episode.actions])[0]
 
     def judge_all(self, values: np.ndarray, actions: Sequence[np.ndarray]) -> list[base.Judgement]:
         """Returns the same of N episodes, much faster than one after the other.
 
         Args:
-          values: of the things, float64 [N, K].
-          actions: of each episode, N arrays int64 [T].
+          values: values of the things, float64 [N, K].
+          actions: the actions of each episode, N arrays int64 [T].
         """
         num_things = self.prior.num_things
         lengths = np.array([len(taken) + 1 for taken in actions])
@@ -201,10 +213,12 @@ class Solution:
         touched_at[rows[moments], taken[moments]] = steps[moments]
         is_known = steps[:, None] > touched_at[rows]
         known = np.where(is_known, values[rows], np.nan)
-        beliefs, touch = self._beliefs_and_touch(known)
-        again = self.discount * np.maximum(base.worth_of_answers(beliefs.max(axis=1)), touch)
+        left = np.maximum(self.step_limit - steps, 1)
+        beliefs, touch = self._beliefs_and_touch(known, left)
+        _, next_touch = self._beliefs_and_touch(known, np.maximum(left - 1, 1))
+        again = self.discount * np.maximum(base.worth_of_answers(beliefs.max(axis=1)), next_touch)
         touches = np.where(is_known, again[:, None], touch[:, None])
-        touches[steps >= self.step_limit - 1] = rules.WRONG  # Silence.
+        touches[left == 1] = rules.WRONG  # Silence.
         worth = np.concatenate([touches, base.worth_of_answers(beliefs)], axis=1)
         tells = np.append(~is_known, np.zeros_like(is_known), axis=1)[np.arange(len(rows)), taken]
         parts = [slice(start, end) for start, end in zip(ends - lengths, ends, strict=True)]
@@ -219,19 +233,21 @@ class Solution:
         return {**self.figures(), "at_once": self.at_once, "random_value": self.random_value}
 
 
-class _Player(core.Actor):
-    """Plays a solution: from what a touch shows it reads the value."""
+class _Player(core.EpisodicActor):
+    """Plays a solution, with values that are read from observations."""
 
     def __init__(self, solution: Solution, read: Read):
         self._solution, self._read = solution, read
 
-    def observe_first(self, timestep):
+    def _begin(self, timestep):
         self._known = np.full((1, self._solution.prior.num_things), np.nan)
+        self._left = self._solution.step_limit
 
-    def select_action(self, observation) -> int:
-        return int(self._solution.actions(self._known)[0])
+    def _choose(self, observation) -> int:
+        return int(self._solution.actions(self._known, self._left)[0])
 
-    def observe(self, action, next_timestep):
+    def _note(self, action, next_timestep):
+        self._left -= 1
         if action < self._solution.prior.num_things and not next_timestep.last():
             self._known[0, action] = self._read(next_timestep.observation, action)
 
@@ -266,46 +282,64 @@ def solve(
     return Solution(prior, checks.discount("discount", discount), step_limit, find_read)
 
 
-@functools.lru_cache(maxsize=64)
-def _go_back(prior, discount, at_random=False) -> tuple[float, tuple[Callable, ...]]:
-    """Returns the value, and for each number of touches done, 1 to K - 1, what going on is worth.
+@functools.lru_cache(maxsize=512)
+def _touch(
+    prior: priors.OddOneOut, discount: float, known: int, left: float, at_random: bool = False
+) -> Callable[[np.ndarray], np.ndarray]:
+    """Returns the worth of one more touch, as a function of states, points [N, 2] of (largest value found, t).
 
-    The latter are functions of points [N, 2] of (largest value found, t). Who draws touches may touch what is known,
-    which tells nothing and takes as long: with k of K known, until a new one is touched,
-    `g (K - k) / K * sum over i of (g k / K)^i`.
+    Args:
+      prior, discount: as in `Solution`.
+      known: number of things known, less than all.
+      left: number of actions left, at least 2.
+      at_random: whether all touches are drawn uniformly, of known things too, instead of touching an unknown one.
     """
     num_things = prior.num_things
+    again = known / num_things if at_random else 0.0  # The chance to touch a known thing, which tells nothing.
+    if not at_random:
+        left = min(left, num_things - known + 1)
+    elif (discount * (num_things - 1) / num_things) ** (left - 2) < _NEGLIGIBLE:  # Only known things touched until then.
+        left = math.inf
+    further = _touch(prior, discount, known + 1, left - 1, at_random) if known + 1 < num_things and left > 2 else None
+    largest, ratio, axes = _grid(prior, known)
+    values = discount * (1 - again) * _expected(known, largest, ratio, prior, further)
+    if again and left == math.inf:  # Known things may be touched any number of times before an unknown one.
+        values /= 1 - discount * again
+    elif again:
+        worth = _worth_of_answer(num_things - known, largest, ratio, prior)
+        if left > 2:
+            worth = np.maximum(worth, _touch(prior, discount, known, left - 1, True)(_points(largest, ratio)))
+        values += discount * again * worth
+    if not known:
+        return lambda points: np.full(len(points), values[0])
+    shape = [len(axis) for axis in axes]
+    return interpolate.RegularGridInterpolator(axes, values.reshape(shape), bounds_error=False, fill_value=None)
+
+
+def _grid(prior: priors.OddOneOut, known: int) -> tuple[np.ndarray, np.ndarray, tuple[np.ndarray, ...]]:
+    """Returns states with so many things known: largest values [N], ratios [N], and the axes of their grid."""
+    if not known:
+        return np.zeros(1), np.zeros(1), ()
     levels = np.linspace(0, 1, _LARGEST_NODES // 2 + 2)[1:-1]
     nodes = np.unique(np.concatenate([prior.odd_quantile(levels), prior.common_quantile(levels)]))
     nodes = np.concatenate([[nodes[0] * 1e-3], nodes, [1 - (1 - nodes[-1]) * 1e-3]])
-    functions: list[Callable] = []
-    after = None  # What a state with one more touch is worth beyond its answer.
-    for known in reversed(range(1, num_things)):
-        ratios = np.linspace(1, known, _RATIO_NODES) if known > 1 else np.array([1.0, 2.0])
-        largest, ratio = (grid.ravel() for grid in np.meshgrid(nodes, ratios, indexing="ij"))
-        again = discount * known / num_things if at_random else 0.0
-        delay = discount * (1 - known / num_things) / (1 - again) if at_random else discount
-        values = delay * _expected(known, largest, ratio, prior, after)
-        after = interpolate.RegularGridInterpolator(
-            (nodes, ratios), values.reshape(len(nodes), -1), bounds_error=False, fill_value=None
-        )
-        functions.insert(0, after)
-    first = discount * _expected(0, np.zeros(1), np.zeros(1), prior, after)
-    return max(float(first[0]), base.worth_of_answers(1 / num_things)), tuple(functions)
+    ratios = np.linspace(1, known, _RATIO_NODES) if known > 1 else np.array([1.0, 2.0])
+    largest, ratio = (grid.ravel() for grid in np.meshgrid(nodes, ratios, indexing="ij"))
+    return largest, ratio, (nodes, ratios)
 
 
 def _expected(known, largest, ratio, prior, after) -> np.ndarray:
-    """Returns what a state is worth on average after one more touch, [N].
+    """Returns the mean worth of states after one more touch of an unknown thing, [N].
 
     Args:
-      known: touches done.
+      known: number of things known before it.
       largest, ratio: the states, [N] each.
-      prior: of the values.
-      after: what a further touch is worth in a state with `known` + 1 touches; None where nothing is left to touch.
+      prior: distribution of the values.
+      after: worth of a further touch in states with one thing more known; None if there is none, for an answer.
     """
-    if after is None:
-        return np.ones(len(largest))
     unknown = prior.num_things - known
+    if unknown == 1:
+        return np.ones(len(largest))
     with np.errstate(divide="ignore"):
         log_weight = prior.log_ratio(largest) + np.log(ratio) if known else np.full(1, -np.inf)
     nodes, weights = special.roots_legendre(_QUADRATURE_NODES * (1 if known else 16))
@@ -326,7 +360,7 @@ def _expected(known, largest, ratio, prior, after) -> np.ndarray:
 
 
 def _worth_after(known, unknown, largest, ratio, value, prior, after) -> np.ndarray:
-    """Returns what a state is worth once one more thing has turned out to have this value; arrays [N, 1] and [N, Q]."""
+    """Returns the worth of states after one more thing was found to have a value; arrays [N, 1] and [N, Q]."""
     value = value.clip(1e-300, 1 - 1e-16)
     if known:
         difference = prior.log_ratio(value) - prior.log_ratio(largest)
@@ -334,11 +368,15 @@ def _worth_after(known, unknown, largest, ratio, value, prior, after) -> np.ndar
         largest = np.maximum(largest, value)
     else:
         largest, ratio = value, np.ones_like(value)
+    answer = _worth_of_answer(unknown - 1, largest, ratio, prior)
+    return answer if after is None else np.maximum(answer, after(_points(largest, ratio)))
+
+
+def _worth_of_answer(unknown: int, largest, ratio, prior) -> np.ndarray:
+    """Returns the worth of the best answer in states with so many unknown things, at least one."""
     log_weight = prior.log_ratio(largest) + np.log(ratio)
-    left = np.full(largest.shape, unknown - 1)
-    chance = _largest_is_touched(left, largest, log_weight, prior)
-    answer = base.worth_of_answers(np.maximum(chance, (1 - chance) / (unknown - 1)))
-    return np.maximum(answer, after(_points(largest, ratio)))
+    chance = _largest_is_touched(np.full(largest.shape, unknown), largest, log_weight, prior)
+    return base.worth_of_answers(np.maximum(chance, (1 - chance) / unknown))
 
 
 def _points(largest, ratio) -> np.ndarray:

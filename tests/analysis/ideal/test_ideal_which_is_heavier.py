@@ -12,7 +12,7 @@ from seeds import fresh_seed
 from physexp import suite
 from physexp.agents import environment_loop
 from physexp.analysis import domains
-from physexp.analysis.ideal import calibration, mistakes, odd_one_out
+from physexp.analysis.ideal import calibration, mistakes, odd_one_out, rollouts
 from physexp.suite.domains import which_is_heavier
 from physexp.suite.engine import priors
 
@@ -21,8 +21,8 @@ def posterior(masses, difficulty):
     return odd_one_out.posterior(masses, priors.OddOneOut(masses.shape[1], difficulty))
 
 
-def solve(difficulty, discount, blocks=4):
-    return odd_one_out.solve(priors.OddOneOut(blocks, difficulty), discount)
+def solve(difficulty, discount, blocks=4, step_limit=math.inf):
+    return odd_one_out.solve(priors.OddOneOut(blocks, difficulty), discount, step_limit)
 
 
 def draw(generator, count, difficulty, blocks=4):
@@ -52,10 +52,10 @@ def test_a_block_never_poked_can_be_the_best_answer():
     # (3/7) / (3/7 + 1) = 0.3, and heaviest with 0.3 * (1 - 0.7^2) + 0.7 * 0.3^2 = 0.153 + 0.063 = 0.216.
     found = posterior(np.array([[0.3, np.nan]]), 2.0)
     np.testing.assert_allclose(found, [[0.216, 0.784]])
-    answer, poke = solve(2.0, 0.5, 2).values(np.array([[0.3, np.nan]]))
+    answer, poke = solve(2.0, 0.5, 2).values(np.array([[0.3, np.nan]]), left=9)
     assert answer[0] == pytest.approx(2 * 0.784 - 1)
     assert poke[0] == pytest.approx(0.5)  # Nothing is left to find out after it.
-    assert solve(2.0, 0.5, 2).actions(np.array([[0.3, np.nan]])) == [2 + 1]
+    assert solve(2.0, 0.5, 2).actions(np.array([[0.3, np.nan]]), left=9) == [2 + 1]
 
 
 def test_the_posterior_depends_on_every_mass_seen():
@@ -133,12 +133,12 @@ def test_what_simulated_episodes_earn_is_the_value(difficulty, discount, blocks)
 
 def test_a_finer_grid_changes_little(monkeypatch):
     coarse = solve(3.0, 0.95).value
-    odd_one_out._go_back.cache_clear()
+    odd_one_out._touch.cache_clear()
     monkeypatch.setattr(odd_one_out, "_LARGEST_NODES", 800)
     monkeypatch.setattr(odd_one_out, "_RATIO_NODES", 65)
     monkeypatch.setattr(odd_one_out, "_QUADRATURE_NODES", 96)
     assert abs(solve(3.0, 0.95).value - coarse) < 1e-4
-    odd_one_out._go_back.cache_clear()
+    odd_one_out._touch.cache_clear()
 
 
 def test_no_rule_of_thumb_earns_more():
@@ -151,6 +151,65 @@ def test_no_rule_of_thumb_earns_more():
         seen = np.where(np.arange(4) < pokes[:, None], masses, -1)
         returns = 0.95**pokes * np.where(seen.argmax(axis=1) == masses.argmax(axis=1), 1, -1)
         assert returns.mean() < value + 4.5 * returns.std() / math.sqrt(len(returns))
+
+
+def value_by_tree(difficulty, discount, blocks, step_limit, at_random, bins=32):
+    """The value where each mass is one of so many equal parts of [0, 1], by going through all sequences of pokes."""
+    edges = np.linspace(0, 1, bins + 1)
+    heavy, light = np.diff(edges**difficulty), np.diff(1 - (1 - edges) ** difficulty)
+    heavy_below, light_below = heavy.cumsum() - heavy / 2, light.cumsum() - light / 2
+
+    def worth(seen, left):
+        """The worth of known masses times their probability; `seen` has an array of parts for each poked block."""
+        seen = np.broadcast_arrays(*seen)
+        unknown = blocks - len(seen)
+        all_light = np.prod([light[part] for part in seen], axis=0)
+        one_heavy = sum(all_light / light[part] * heavy[part] for part in seen)
+        chance = (one_heavy + unknown * all_light) / blocks
+        if not seen:
+            largest_known = 0.0
+        elif not unknown:
+            largest_known = chance
+        else:
+            top = np.max(seen, axis=0)
+            smaller = light_below[top] ** (unknown - 1)
+            unknown_heavy = unknown * all_light * heavy_below[top] * smaller
+            largest_known = (one_heavy * light_below[top] * smaller + unknown_heavy) / blocks
+        likeliest = np.maximum(largest_known, (chance - largest_known) / max(unknown, 1))
+        answer = 2 * likeliest - chance
+        if left == 1:
+            return answer
+        pokes = worth([*(part[..., None] for part in seen), np.arange(bins)], left - 1).sum(-1) if unknown else answer
+        if at_random:
+            again = worth(seen, left - 1) if seen else 0.0
+            pokes = unknown / blocks * pokes * (unknown > 0) + len(seen) / blocks * again
+        return np.maximum(answer, discount * pokes)
+
+    return float(worth([], step_limit))
+
+
+@pytest.mark.parametrize(("difficulty", "blocks"), [(5.0, 4), (3.0, 4), (2.0, 2)])
+@pytest.mark.parametrize("step_limit", [1, 2, 3, 4, 5])
+def test_the_value_within_a_time_limit_is_that_of_a_tree(difficulty, blocks, step_limit):
+    solution = solve(difficulty, 0.95, blocks, step_limit)
+    tree = [value_by_tree(difficulty, 0.95, blocks, step_limit, at_random) for at_random in (False, True)]
+    assert [solution.value, solution.random_value] == pytest.approx(tree, abs=5e-4)  # The parts' width, squared.
+
+
+def test_a_long_time_limit_does_not_change_the_value():
+    for at_random in ("value", "random_value"):
+        unlimited, limited = (getattr(solve(5.0, 0.95, 3, limit), at_random) for limit in (math.inf, 60))
+        assert limited == pytest.approx(unlimited, abs=1e-7)
+
+
+@pytest.mark.parametrize("time_limit", [0.2, 0.3, 0.4])
+def test_within_a_time_limit_it_earns_its_value_in_the_real_environment(time_limit):
+    task_kwargs = {"time_limit": time_limit}
+    solution = domains.find("which_is_heavier").ideal("features", task_kwargs, 0.95)
+    actors = [solution.actor() for _ in range(100)]
+    rewards, lengths = rollouts.play(actors, "which_is_heavier", "features", task_kwargs, 20, fresh_seed())
+    returns = rewards * 0.95 ** (lengths - 1)
+    assert abs(returns.mean() - solution.value) < 4.5 * returns.std() / math.sqrt(returns.size) + 1e-3
 
 
 @pytest.mark.parametrize("control_timestep", [0.1, 0.05])
@@ -209,6 +268,17 @@ def test_the_costs_of_mistakes_add_up_to_the_gap():
     assert all((cost >= -1e-9).all() for cost in costs.values())
     both = returns + total  # Its mean is the value, and its spread what luck adds to both sides.
     assert abs(both.mean() - solution.value) < 4.5 * both.std() / math.sqrt(len(both)) + 1e-3
+
+
+@pytest.mark.parametrize("step_limit", [3, 6])
+def test_luck_is_zero_on_average_up_to_the_last_step_in_time(step_limit):
+    generator = np.random.default_rng(fresh_seed())
+    masses, _ = draw(generator, 40_000, 3.0)
+    actions = [generator.integers(4, size=step_limit) for _ in masses]  # Never answered.
+    solution = solve(3.0, 0.9, step_limit=step_limit)
+    costs = mistakes.of_episodes(solution.judge_all(masses, actions), actions, 0.9)
+    luck = -(0.9 ** (step_limit - 1)) + sum(costs.values()) - solution.value
+    assert abs(luck.mean()) < 4.5 * luck.std() / math.sqrt(len(luck)) + 1e-4
 
 
 def test_each_mistake_is_counted_under_its_name():
