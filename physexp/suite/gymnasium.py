@@ -7,15 +7,10 @@ Importing this module registers every task, so that Gymnasium finds them by name
                        vectorization_mode="vector_entry_point")
 """
 
-from collections.abc import Sequence
-import math
+from collections.abc import Mapping
 from typing import Any
 
-import dm_env
-
 from physexp import checks, extras, suite
-from physexp.suite.engine import batch as batch_lib
-from physexp.suite.engine import rendering, seeding
 
 extras.require("gymnasium")
 
@@ -25,56 +20,7 @@ from gymnasium.vector import utils as vector_utils  # noqa: E402
 from gymnasium.vector import vector_env  # noqa: E402
 import numpy as np  # noqa: E402
 
-_LARGEST_GRID = 1920  # Pixels, of the images of many environments side by side.
-
-
-def observation_space(spec) -> spaces.Dict:
-    """Images are bounded by their type, features by what the task knows of them."""
-    boxes: dict[str, spaces.Space] = {}
-    for name, array in spec.items():
-        low: Any
-        high: Any
-        if isinstance(array, dm_env.specs.BoundedArray):
-            low, high = (np.broadcast_to(side, array.shape) for side in (array.minimum, array.maximum))
-        else:
-            low, high = (0, 255) if array.dtype == np.uint8 else (-np.inf, np.inf)
-        boxes[name] = spaces.Box(low, high, array.shape, array.dtype)
-    return spaces.Dict(boxes)
-
-
-def check_render_mode(render_mode: str | None, known: tuple[str, ...] = ("rgb_array",)) -> None:
-    """Raises ValueError unless the render mode is None or one of `known`."""
-    if render_mode is not None and render_mode not in known:
-        choices = " or ".join(map(repr, (None, *known)))
-        raise ValueError(f"render_mode is {checks.shown(render_mode)}; choose {choices}")
-
-
-def check_num_envs(num_envs: int) -> int:
-    """Returns the number of environments as an int; raises ValueError if it is out of range."""
-    return checks.integer("num_envs", num_envs, 1, batch_lib.MOST_ENVIRONMENTS)
-
-
-def check_seed(seed: Any) -> int | None:
-    """Returns a seed as an int, or None; raises ValueError if it is neither None nor an integer in [0, 2**63)."""
-    return None if seed is None else checks.integer("seed", seed, 0, seeding.LARGEST_SEED)
-
-
-def images(batch: suite.BatchEnvironment) -> tuple[np.ndarray, ...]:
-    """Returns one image for each environment, uint8 [size, size, 3]; the more environments, the smaller the images.
-
-    Side by side they fit into a square of 1920 pixels: up to 16 environments are drawn with 480 pixels, 64 with 240.
-    """
-    a_side = math.ceil(math.sqrt(batch.num_environments))
-    return tuple(batch.render(min(rendering.SIZE_FOR_PEOPLE, _LARGEST_GRID // a_side)))
-
-
-def grid(drawn: Sequence[np.ndarray]) -> np.ndarray:
-    """Returns images [size, size, 3] as one, row by row in a square; places that are left over are black."""
-    a_side, size = math.ceil(math.sqrt(len(drawn))), len(drawn[0])
-    rows = math.ceil(len(drawn) / a_side)
-    tiles = np.zeros((rows * a_side, *drawn[0].shape), np.uint8)
-    tiles[: len(drawn)] = drawn
-    return tiles.reshape(rows, a_side, size, size, 3).swapaxes(1, 2).reshape(rows * size, a_side * size, 3)
+from physexp.suite import adapters  # noqa: E402
 
 
 class Environment(gymnasium.Env):
@@ -85,59 +31,90 @@ class Environment(gymnasium.Env):
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"]}
 
-    def __init__(self, domain: str, task: str, render_mode: str | None = None, **task_kwargs: Any):
+    def __init__(
+        self,
+        domain: str,
+        task: str,
+        render_mode: str | None = None,
+        flat_observation: bool = False,
+        **task_kwargs: Any,
+    ):
         """Loads an environment.
 
         Args:
           domain, task, task_kwargs: as for `suite.load`.
           render_mode: `rgb_array`, or None.
+          flat_observation: observe one vector of all arrays, sorted by name.
 
         Raises:
-          ValueError: for an unknown name, a bad keyword argument or an unknown render mode.
+          TypeError: for an unknown keyword argument.
+          ValueError: for an unknown name, a bad value or an unknown render mode.
         """
-        check_render_mode(render_mode)
+        adapters.check_render_mode(render_mode)
+        self._is_flat = checks.flag("flat_observation", flat_observation)
+        adapters.refuse_unknown(Environment, domain, task_kwargs)
         self._environment = suite.load(domain, task, task_kwargs=task_kwargs)
-        self._seeded = "random" in task_kwargs
         self._playing = False
         self.render_mode = render_mode
-        self.metadata = {**self.metadata, "render_fps": frames_per_second(self._environment.task)}
-        self.observation_space = observation_space(self._environment.observation_spec())
+        self.metadata = {**self.metadata, "render_fps": adapters.frames_per_second(self._environment.task)}
+        self.observation_space = adapters.observation_space(self._environment.observation_spec(), self._is_flat)
         self.action_space = spaces.Discrete(self._environment.action_spec().num_values)
+        super().reset(seed=self._environment.task.options.random)  # `np_random_seed` is the seed that is played.
 
     @property
     def dm_env(self) -> suite.Environment:
         """The dm_env environment that this one wraps."""
         return self._environment
 
+    @property
+    def discount(self) -> float:
+        """Gamma of the returns that are scored; rewards are not discounted by the environment."""
+        return self._environment.task.discount
+
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None):
         """Starts the next episode, or with a seed the first one of that seed.
 
+        `info["seed"]` and `info["episode_index"]` say which episode it is: `reset` with this seed, and with the index
+        as the option `episode`, starts it again.
+
+        Args:
+          seed: an integer in [0, 2**63).
+          options: `episode`, the index of the episode to start in place of the next one.
+
         Raises:
-          ValueError: for a seed that is no integer in [0, 2**63).
+          ValueError: for any other seed or option.
         """
-        seed = check_seed(seed)
+        seed, options = adapters.check_seed(seed), adapters.check_options(options, "episode")
         super().reset(seed=seed)
-        if seed is not None or not self._seeded:
-            self._environment.task.reseed(int(self.np_random.integers(2**32)) if seed is None else seed)
-            self._seeded = True
+        task = self._environment.task
+        if seed is not None:
+            task.reseed(seed)
+        task.next_episode = options.get("episode", task.next_episode)
         timestep = self._environment.reset()
         self._playing = True
-        return dict(timestep.observation), {}
+        return self._shown(timestep.observation), {"seed": task.options.random, "episode_index": task.episode}
 
     def step(self, action):
-        """Takes an action; after the last one of an episode, `info["correct_answer"]` is the right label.
+        """Takes an action.
+
+        After the last one of an episode, `info` has `correct_answer`, the index of the right label; `discounted_return`
+        with the task's gamma; and `is_success`, whether the answer was right.
 
         Raises:
           ValueError: if the action is not one of the action space's; the episode stays as it was.
           gymnasium.error.ResetNeeded: if no episode has begun, or it is over.
         """
-        check_started(self._playing)
-        diverged = self._environment.task.num_divergences
+        adapters.check_started(self._playing)
+        task = self._environment.task
+        diverged = task.num_divergences
         timestep = self._environment.step(action)
-        self._playing = not timestep.last()
-        lost = self._environment.task.num_divergences > diverged
-        info = {"correct_answer": self._environment.task.correct_answer} if timestep.last() else {}
-        return dict(timestep.observation), float(timestep.reward), timestep.last() and not lost, lost, info
+        ended, lost = timestep.last(), task.num_divergences > diverged
+        self._playing = not ended
+        info = {}
+        if ended:
+            of_one = (np.array([value]) for value in (task.steps, float(timestep.reward), task.correct_answer))
+            info = {name: values.item() for name, values in adapters.outcomes(task, *of_one).items()}
+        return self._shown(timestep.observation), float(timestep.reward), ended and not lost, lost, info
 
     def render(self):
         """Returns an image of the scene for people, uint8 [480, 480, 3]; None without a render mode."""
@@ -146,12 +123,18 @@ class Environment(gymnasium.Env):
     def close(self) -> None:
         self._environment.close()
 
+    def _shown(self, observation):
+        return adapters.flattened(observation) if self._is_flat else dict(observation)
+
 
 class VectorEnvironment(vector_env.VectorEnv):
-    """Many environments that step together.
+    """Many environments that step together; `autoreset_mode` says when the next episode starts after an end.
 
-    After an episode's end, the environment's next step ignores its action and starts the next episode
-    (`AutoresetMode.NEXT_STEP`).
+    - `next_step`: the environment's next step ignores its action and starts it.
+    - `same_step`: the same step starts it; `final_obs` and `final_info` are the last ones of the episode that ended.
+    - `disabled`: a reset with the option `reset_mask` starts it.
+
+    Observations, rewards and infos are those of Gymnasium's own `SyncVectorEnv` of single environments.
     """
 
     metadata: dict[str, Any] = {
@@ -166,92 +149,158 @@ class VectorEnvironment(vector_env.VectorEnv):
         num_envs: int = 1,
         num_threads: int = 1,
         render_mode: str | None = None,
+        flat_observation: bool = False,
+        autoreset_mode: str | vector_env.AutoresetMode = vector_env.AutoresetMode.NEXT_STEP,
         **task_kwargs: Any,
     ):
         """Loads a batch.
 
         Args:
           domain, task, task_kwargs: as for `suite.load`.
-          num_envs: how many.
+          num_envs: number of environments.
           num_threads: threads that simulate.
           render_mode: `rgb_array` for an image of each environment, as Gymnasium's wrappers want them, `rgb_array_grid`
             for one image of all, or None.
+          flat_observation: observe one vector of all arrays, sorted by name.
+          autoreset_mode: `next_step`, `same_step` or `disabled`, or one of Gymnasium's `AutoresetMode`.
 
         Raises:
-          ValueError: for an unknown name or a bad argument.
+          TypeError: for an unknown keyword argument.
+          ValueError: for an unknown name or a bad value.
         """
-        check_render_mode(render_mode, ("rgb_array", "rgb_array_grid"))
-        num_envs = check_num_envs(num_envs)
+        adapters.check_render_mode(render_mode, ("rgb_array", "rgb_array_grid"))
+        self.num_envs = adapters.check_num_envs(num_envs)
+        self.autoreset_mode = check_autoreset_mode(autoreset_mode)
+        self._is_flat = checks.flag("flat_observation", flat_observation)
+        adapters.refuse_unknown(VectorEnvironment, domain, task_kwargs)
         self._batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
-        self._seeded = "random" in task_kwargs
+        self._observation = self._batch.task.blank_observations(num_envs)
+        self._ended = np.zeros(num_envs, bool)
         self._started = False
-        self.num_envs = num_envs
         self.render_mode = render_mode
-        self.metadata = {**self.metadata, "render_fps": frames_per_second(self._batch.task)}
-        self.single_observation_space = observation_space(self._batch.observation_spec())
+        self.metadata = {
+            **self.metadata,
+            "autoreset_mode": self.autoreset_mode,
+            "render_fps": adapters.frames_per_second(self._batch.task),
+        }
+        self.single_observation_space = adapters.observation_space(self._batch.observation_spec(), self._is_flat)
         self.single_action_space = spaces.Discrete(self._batch.action_spec().num_values)
         self.observation_space = vector_utils.batch_space(self.single_observation_space, num_envs)
         self.action_space = vector_utils.batch_space(self.single_action_space, num_envs)
+        super().reset(seed=self._batch.task.options.random)  # `np_random_seed` is the seed that is played.
 
     @property
     def batch(self) -> suite.BatchEnvironment:
         """The batch that this one wraps."""
         return self._batch
 
-    def reset(self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None):
+    @property
+    def discount(self) -> float:
+        """Gamma of the returns that are scored; rewards are not discounted by the environment."""
+        return self._batch.task.discount
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None):
         """Starts the next episode everywhere; with a seed, the first of each: `environment_seed(seed, i)`.
 
+        Args:
+          seed: an integer in [0, 2**63).
+          options: `episode`, the index of the episode to start in place of the next one; `reset_mask`, bool
+            [num_envs], true for the environments to reset.
+
         Raises:
-          ValueError: for a list of seeds: the batch derives them from one, an integer in [0, 2**63); or for a
-            `reset_mask` among the options.
+          ValueError: for any other seed or option, such as a list of seeds: the batch derives them from one.
+          gymnasium.error.ResetNeeded: for the first reset, if it is of a part.
         """
-        seed = check_seed(seed)
-        if "reset_mask" in (options or {}):
-            raise ValueError("options has a reset_mask; reset all: where an episode has ended, a step begins the next")
+        seed, options = adapters.check_seed(seed), adapters.check_options(options, "episode", "reset_mask")
+        mask = self._check_mask(options.get("reset_mask"), seed)
         super().reset(seed=seed)
-        if seed is not None or not self._seeded:
-            self._batch.reseed(int(self.np_random.integers(2**32)) if seed is None else seed)
-            self._seeded = True
-        timestep = self._batch.reset()
+        if seed is not None:
+            self._batch.reseed(seed)
+        infos = self._begin(mask, options.get("episode"))
         self._started = True
-        return dict(timestep.observation), {}
+        return self._shown(), infos
 
     def step(self, actions):
-        """Takes actions, int [num_envs]; `info["correct_answer"]` is filled in where an episode has ended.
+        """Takes actions, int [num_envs]; infos are those of single environments, each with a mask.
 
         Raises:
           ValueError: if an action is not one of the action space's; nothing has moved then.
-          gymnasium.error.ResetNeeded: if `reset` has never been called.
+          gymnasium.error.ResetNeeded: if `reset` has never been called, or, where `autoreset_mode` is `disabled`, if an
+            episode is over.
         """
-        check_started(self._started)
-        timestep = self._batch.step(actions)
-        ended = timestep.last()
-        lost = ended & (timestep.reward == 0)  # Only a diverged simulation ends without a verdict.
-        info = {}
-        if ended.any():
-            info = {"correct_answer": np.where(ended, self._batch.correct_answers, 0), "_correct_answer": ended}
-        return dict(timestep.observation), timestep.reward, ended & ~lost, lost, info
+        adapters.check_started(self._started)
+        if self.autoreset_mode is vector_env.AutoresetMode.DISABLED and self._ended.any():
+            raise error.ResetNeeded("an episode is over; reset it with options={'reset_mask': terminated | truncated}")
+        timestep = self._batch.step(actions)  # Starts the next episode where one had ended before.
+        rewards, ended = timestep.reward, timestep.last()
+        lost = ended & (rewards == 0)  # Only a diverged simulation ends without a verdict.
+        self._observation, self._ended = dict(timestep.observation), ended
+        batch = self._batch
+        infos = _masked(adapters.outcomes(batch.task, batch.steps, rewards, batch.correct_answers), ended)
+        if self.autoreset_mode is vector_env.AutoresetMode.SAME_STEP and ended.any():
+            last = list(vector_utils.iterate(self.observation_space, self._shown()))
+            final = np.full(self.num_envs, None, object)
+            for row in np.flatnonzero(ended):
+                final[row] = last[row]
+            infos = {"final_obs": final, "_final_obs": ended, "final_info": infos, "_final_info": ended.copy()}
+            infos |= self._begin(ended)
+        else:
+            infos |= _masked(adapters.beginnings(batch), timestep.first())
+        return self._shown(), rewards, ended & ~lost, lost, infos
 
     def render(self):
-        """Returns images for people (see `images`), as the render mode says: a tuple, or one; None without a mode."""
+        """Returns images for people as the render mode says: a tuple (see `adapters.images`) or one; or None."""
         if self.render_mode is None:
             return None
-        drawn = images(self._batch)
-        return drawn if self.render_mode == "rgb_array" else grid(drawn)
+        drawn = adapters.images(self._batch)
+        return drawn if self.render_mode == "rgb_array" else adapters.grid(drawn)
 
     def close_extras(self, **kwargs: Any) -> None:
         self._batch.close()
 
+    def _begin(self, mask: np.ndarray, episode: int | None = None) -> dict[str, Any]:
+        """Starts episodes in some environments, bool [num_envs]; returns the infos."""
+        first = self._batch.reset(np.flatnonzero(mask), episode).observation
+        for name, values in first.items():
+            self._observation[name][mask] = values
+        self._ended = self._ended & ~mask
+        return _masked(adapters.beginnings(self._batch), mask)
 
-def frames_per_second(task) -> int:
-    """Returns how many images a second of an episode has."""
-    return max(1, round(1 / task.control_timestep))
+    def _shown(self):
+        """Returns the observations, which nothing changes later."""
+        if self._is_flat:
+            return adapters.flattened(self._observation, 1)
+        return {name: values.copy() for name, values in self._observation.items()}
+
+    def _check_mask(self, mask: Any, seed: int | None) -> np.ndarray:
+        """Returns the environments to reset, bool [num_envs]."""
+        if mask is None:
+            return np.ones(self.num_envs, bool)
+        array = np.asarray(mask)
+        if array.dtype != bool or array.shape != (self.num_envs,) or not array.any():
+            raise ValueError(f"reset_mask is {checks.shown(mask)}; give {self.num_envs} booleans, one of them true")
+        if not array.all():
+            adapters.check_started(self._started)
+            if seed is not None:
+                raise ValueError(f"seed is {seed} beside a reset_mask; a seed starts all environments: reset all")
+        return array
 
 
-def check_started(started: bool) -> None:
-    """Raises `gymnasium.error.ResetNeeded` if no episode has begun."""
-    if not started:
-        raise error.ResetNeeded("there is no episode to step in; call reset() first")
+def check_autoreset_mode(given: Any) -> vector_env.AutoresetMode:
+    """Returns one of Gymnasium's modes; raises ValueError for anything else than it or its name."""
+    for mode in vector_env.AutoresetMode:
+        if given in (mode, mode.value, mode.name.lower()):
+            return mode
+    choices = ", ".join(repr(mode.name.lower()) for mode in vector_env.AutoresetMode)
+    raise ValueError(f"autoreset_mode is {checks.shown(given)}; choose from {choices}")
+
+
+def _masked(infos: Mapping[str, np.ndarray], mask: np.ndarray) -> dict[str, Any]:
+    """Returns infos of some environments, as Gymnasium has them: 0 for the others, and a mask beside each."""
+    if not mask.any():
+        return {}
+    shown = {name: np.where(mask, values, values.dtype.type(0)) for name, values in infos.items()}
+    return {**shown, **{f"_{name}": mask.copy() for name in infos}}
 
 
 def environment_id(domain: str, task: str) -> str:

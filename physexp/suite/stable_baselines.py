@@ -11,14 +11,15 @@ from gymnasium import spaces  # noqa: E402
 import numpy as np  # noqa: E402
 from stable_baselines3.common.vec_env import base_vec_env  # noqa: E402
 
-from physexp.suite import gymnasium as gymnasium_lib  # noqa: E402
+from physexp.suite import adapters  # noqa: E402
 
 
 class VecEnv(base_vec_env.VecEnv):
     """Many environments that step together; an episode that ends is followed by the next one in the same step.
 
-    `infos[i]` then has `terminal_observation` and `correct_answer`, and `TimeLimit.truncated`, which is true where the
-    simulation has diverged, so that there is no outcome: running out of time is a wrong answer.
+    `infos[i]` then has `terminal_observation`, `correct_answer`, `discounted_return`, `is_success`, and
+    `TimeLimit.truncated`, which is true where the simulation has diverged, so that there is no outcome: running out of
+    time is a wrong answer. `reset_infos[i]` has the `seed` and the `episode_index` of the episode that is played.
     """
 
     def __init__(
@@ -33,39 +34,60 @@ class VecEnv(base_vec_env.VecEnv):
         """Loads a batch; arguments as for `suite.load_batch`, and `render_mode`: `rgb_array`, or None.
 
         Raises:
-          ValueError: for an unknown name or a bad argument.
+          TypeError: for an unknown keyword argument.
+          ValueError: for an unknown name or a bad value.
         """
-        gymnasium_lib.check_render_mode(render_mode)
-        num_envs = gymnasium_lib.check_num_envs(num_envs)
+        adapters.refuse_unknown(VecEnv, domain, task_kwargs)
+        adapters.check_render_mode(render_mode)
+        num_envs = adapters.check_num_envs(num_envs)
         self._batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
         self._started = False
         self.render_mode = render_mode
         super().__init__(
             num_envs,
-            gymnasium_lib.observation_space(self._batch.observation_spec()),
+            adapters.observation_space(self._batch.observation_spec()),
             spaces.Discrete(self._batch.action_spec().num_values),
         )
-        cast(Any, self.metadata)["render_fps"] = gymnasium_lib.frames_per_second(self._batch.task)
+        cast(Any, self.metadata)["render_fps"] = adapters.frames_per_second(self._batch.task)
 
     def seed(self, seed: int | None = None):
         """Has the next reset start the first episodes of another seed, by default a random one.
 
+        Returns:
+          The seeds of the environments; `suite.load` with one of them makes that environment alone.
+
         Raises:
           ValueError: if the seed is no integer in [0, 2**63).
         """
-        return super().seed(gymnasium_lib.check_seed(seed))
+        of_batch = cast(int, super().seed(adapters.check_seed(seed))[0])
+        return [suite.environment_seed(of_batch, row) for row in range(self.num_envs)]
 
     def reset(self):
-        if self._seeds[0] is not None:  # `seed` has been called: it takes effect with the next reset.
+        """Starts the next episode everywhere, or what `seed` and `set_options` have asked for.
+
+        Raises:
+          ValueError: for an option other than `episode`, the index of the episode to start, the same everywhere.
+        """
+        options = adapters.check_options(self._options[0], "episode")
+        if any(others != self._options[0] for others in self._options):
+            raise ValueError("options differ between environments; give all the same")
+        if self._seeds[0] is not None:
             self._batch.reseed(self._seeds[0])
         self._reset_seeds()
         self._reset_options()
-        observation = dict(self._batch.reset().observation)
+        return dict(self._begin(np.arange(self.num_envs), options.get("episode")))
+
+    def _begin(self, rows: np.ndarray, episode: int | None = None):
+        """Starts episodes in some environments and tells which; returns the observations."""
+        observation = self._batch.reset(rows, episode).observation
+        infos = adapters.beginnings(self._batch)
+        for row in rows:
+            self.reset_infos[row] = {name: int(values[row]) for name, values in infos.items()}
         self._started = True
         return observation
 
     def step_async(self, actions: np.ndarray) -> None:
-        gymnasium_lib.check_started(self._started)
+        adapters.check_started(self._started)
         self._actions = actions
 
     def step_wait(self):
@@ -74,15 +96,16 @@ class VecEnv(base_vec_env.VecEnv):
         observation = dict(timestep.observation)
         infos: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
         if ended.any():
-            answers, rows = self._batch.correct_answers, np.flatnonzero(ended)
+            batch, rows = self._batch, np.flatnonzero(ended)
+            outcomes = adapters.outcomes(batch.task, batch.steps, timestep.reward, batch.correct_answers)
             for row in rows:
                 terminal = {name: value[row] for name, value in observation.items()}
                 infos[row] = {
                     "terminal_observation": terminal,
-                    "correct_answer": int(answers[row]),
                     "TimeLimit.truncated": bool(timestep.reward[row] == 0),  # As in `gymnasium.VectorEnvironment`.
+                    **{name: values[row].item() for name, values in outcomes.items()},
                 }
-            first = self._batch.reset(rows).observation
+            first = self._begin(rows)
             for name, value in observation.items():
                 observation[name] = value.copy()
                 observation[name][rows] = first[name]
@@ -90,7 +113,7 @@ class VecEnv(base_vec_env.VecEnv):
 
     def get_images(self) -> Sequence[np.ndarray | None]:
         """Returns one image for each environment, as under Gymnasium; `render` lays them out side by side."""
-        return [None] * self.num_envs if self.render_mode is None else gymnasium_lib.images(self._batch)
+        return [None] * self.num_envs if self.render_mode is None else adapters.images(self._batch)
 
     def close(self) -> None:
         self._batch.close()

@@ -8,12 +8,14 @@ import gymnasium
 from gymnasium.utils import env_checker
 import numpy as np
 import pytest
+from seeds import fresh_seed
 from stable_baselines3.common import env_checker as sb3_checker
 
 from physexp import suite
 from physexp.suite import gymnasium as adapter
 
 NAMES = [adapter.environment_id(*names) for names in suite.ALL_TASKS]
+PIXELS = "physexp/threshold-pixels-v0"
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -47,15 +49,23 @@ def test_an_episode_is_that_of_the_environment_behind_it(name, seed):
     for episode in range(3):
         observation, info = environment.reset(seed=seed if episode == 0 else None)
         timestep = expected.reset()
-        assert info == {}
+        assert info == {"seed": seed, "episode_index": episode}
+        interactions = -1
         while not timestep.last():
+            interactions += 1
             action = int(generator.integers(environment.action_space.n))
             timestep = expected.step(action)
             observation, reward, terminated, truncated, info = environment.step(action)
             assert reward == timestep.reward and terminated == timestep.last() and not truncated
             for key, value in timestep.observation.items():
                 np.testing.assert_array_equal(observation[key], value)
-        assert info == {"correct_answer": expected.task.correct_answer}
+        gamma = 0.98 if domain == "towers" else 0.95
+        assert environment.unwrapped.discount == gamma
+        assert info == {
+            "correct_answer": expected.task.correct_answer,
+            "discounted_return": pytest.approx(timestep.reward * gamma**interactions),
+            "is_success": timestep.reward == 1,
+        }
 
 
 def test_running_out_of_time_terminates_with_a_wrong_answer():
@@ -84,33 +94,100 @@ def test_a_seed_makes_the_same_episodes_again_and_none_goes_on_with_others(seed)
     assert not np.array_equal(hidden(seed=seed + 1), first)
 
 
-def test_a_vector_environment_is_the_batch_and_starts_episodes_with_the_next_step(seed):
-    name = "physexp/which_is_heavier-features-v0"
-    vector = gymnasium.make_vec(name, num_envs=6, vectorization_mode="vector_entry_point")
-    assert vector.metadata["autoreset_mode"] == gymnasium.vector.AutoresetMode.NEXT_STEP
-    batch = suite.load_batch("which_is_heavier", "features", 6, {"random": seed})
-    observation, info = vector.reset(seed=seed)
-    assert info == {} and observation in vector.observation_space
-    batch.reset()
-    generator = np.random.default_rng(seed)
-    ended_before = np.zeros(6, bool)
-    for _ in range(60):
-        actions = generator.integers(8, size=6)
-        answers = batch.correct_answers
-        expected = batch.step(actions)
-        observation, rewards, terminated, truncated, info = vector.step(actions)
-        np.testing.assert_array_equal(observation["heights"], expected.observation["heights"])
-        np.testing.assert_array_equal(rewards, expected.reward)
-        np.testing.assert_array_equal(terminated, expected.last())
-        assert not truncated.any() and not (terminated & ended_before).any()
-        assert not rewards[ended_before].any()  # Where an episode starts, nothing is earned.
-        if terminated.any():
-            np.testing.assert_array_equal(info["_correct_answer"], terminated)
-            np.testing.assert_array_equal(info["correct_answer"][terminated], answers[terminated])
-            assert not info["correct_answer"][~terminated].any()
-        else:
-            assert info == {}
-        ended_before = terminated
+def test_the_seed_that_is_told_starts_the_same_episode_again():
+    for environment in (gymnasium.make(NAMES[0]), gymnasium.make(NAMES[0], random=3)):
+        environment.reset()
+        _, told = environment.reset()
+        assert told == {"seed": environment.np_random_seed, "episode_index": 1}
+        hidden = environment.unwrapped.dm_env.task.hidden
+        environment.reset()
+        environment.reset(seed=told["seed"], options={"episode": told["episode_index"]})
+        np.testing.assert_array_equal(environment.unwrapped.dm_env.task.hidden, hidden)
+        again = suite.load("which_is_heavier", "features", {"random": told["seed"]})
+        again.task.next_episode = told["episode_index"]
+        again.reset()
+        np.testing.assert_array_equal(again.task.hidden, hidden)
+
+
+def test_the_seeds_that_a_vector_environment_tells_rebuild_its_episodes():
+    vector = gymnasium.make_vec(NAMES[0], num_envs=3)
+    vector.reset()
+    _, told = vector.reset(options={"episode": 5})
+    hidden = vector.unwrapped.batch.hidden
+    for seed, episode, of_one in zip(told["seed"], told["episode_index"], hidden, strict=True):
+        single = gymnasium.make(NAMES[0])
+        single.reset(seed=int(seed), options={"episode": int(episode)})
+        np.testing.assert_array_equal(single.unwrapped.dm_env.task.hidden, of_one)
+    vector.reset(seed=vector.np_random_seed, options={"episode": 5})
+    np.testing.assert_array_equal(vector.unwrapped.batch.hidden, hidden)
+
+
+def assert_same(ours, theirs):
+    """Asserts that observations or infos are equal in structure, types and values."""
+    if isinstance(theirs, (tuple, dict)):
+        assert len(ours) == len(theirs)
+        for key in theirs if isinstance(theirs, dict) else range(len(theirs)):
+            assert_same(ours[key], theirs[key])
+    elif isinstance(theirs, np.ndarray) and theirs.dtype == object:
+        assert_same(tuple(ours), tuple(theirs))
+    else:
+        assert getattr(ours, "dtype", None) == getattr(theirs, "dtype", None)
+        np.testing.assert_array_equal(ours, theirs)
+
+
+@pytest.mark.parametrize("mode", gymnasium.vector.AutoresetMode)
+@pytest.mark.parametrize(
+    ("name", "is_flat"), [(NAMES[0], False), ("physexp/sealed_box-features-v0", True), (PIXELS, False)]
+)
+def test_a_vector_environment_is_gymnasiums_own_of_single_ones(name, is_flat, mode, seed):
+    ours = gymnasium.make_vec(name, num_envs=4, flat_observation=is_flat, autoreset_mode=mode)
+    singles = [lambda: gymnasium.make(name, flat_observation=is_flat)] * 4
+    theirs = gymnasium.vector.SyncVectorEnv(singles, autoreset_mode=mode)
+    assert ours.observation_space == theirs.observation_space and ours.action_space == theirs.action_space
+    assert ours.metadata == theirs.metadata | {"render_modes": ["rgb_array", "rgb_array_grid"]}
+    seeds = [suite.environment_seed(seed, i) for i in range(4)]
+    assert_same(ours.reset(seed=seed), theirs.reset(seed=seeds))
+    generator, num_ended = np.random.default_rng(seed), 0
+    for _ in range(30):
+        actions = generator.integers(ours.single_action_space.n, size=4)
+        stepped = ours.step(actions)
+        assert_same(stepped, theirs.step(actions))
+        assert stepped[0] in ours.observation_space
+        ended = stepped[2] | stepped[3]
+        num_ended += ended.sum()
+        if mode is gymnasium.vector.AutoresetMode.DISABLED and ended.any():
+            with pytest.raises(gymnasium.error.ResetNeeded, match="reset_mask"):
+                ours.step(actions)
+            assert_same(*(envs.reset(options={"reset_mask": ended}) for envs in (ours, theirs)))
+    assert num_ended > 10
+    assert_same(*(envs.reset(options={"episode": 2}) for envs in (ours, theirs)))
+    ours.close()
+    theirs.close()
+
+
+@pytest.mark.parametrize("names", [("which_is_heavier", "features"), ("towers", "fist_features")])
+def test_flat_observations_are_those_of_dm_env_with_bounds(names):
+    name, seed = adapter.environment_id(*names), fresh_seed()
+    flat, apart = gymnasium.make(name, flat_observation=True, random=seed), gymnasium.make(name)
+    behind = suite.load(*names, {"random": seed}, environment_kwargs={"flat_observation": True})
+    np.testing.assert_array_equal(flat.reset()[0], behind.reset().observation["observations"])
+    np.testing.assert_array_equal(flat.step(0)[0], behind.step(0).observation["observations"])
+    for side in ("low", "high"):
+        bounds = [getattr(space, side).ravel() for space in apart.observation_space.values()]
+        np.testing.assert_array_equal(getattr(flat.observation_space, side), np.concatenate(bounds))
+
+
+@pytest.mark.parametrize("make", [gymnasium.make, gymnasium.make_vec])
+def test_an_unknown_keyword_is_a_type_error_as_torchrl_expects(make):
+    words = r"an unexpected keyword argument 'frameskip'; allowed: (num_envs, num_threads, )?render_mode, .*difficulty"
+    with pytest.raises(TypeError, match=words):  # Which is how TorchRL finds out that nothing takes its own.
+        make(NAMES[0], frameskip=1)
+
+
+def test_modes_of_autoreset_are_given_by_name():
+    for mode in gymnasium.vector.AutoresetMode:
+        for given in (mode, mode.value, mode.name.lower()):
+            assert adapter.VectorEnvironment("threshold", "features", autoreset_mode=given).autoreset_mode is mode
 
 
 def test_an_image_for_people_is_larger_than_what_agents_see():
@@ -192,7 +269,7 @@ def test_a_step_without_an_episode_says_that_a_reset_is_needed(size):
 @pytest.mark.parametrize("make", [adapter.Environment, adapter.VectorEnvironment])
 def test_a_closed_environment_says_so_and_is_closed_twice(make):
     environment = make("which_is_heavier", "features", render_mode="rgb_array")
-    environment.reset(seed=0, options={"unknown": 1})
+    environment.reset(seed=0)
     environment.close()
     environment.close()
     action = 0 if make is adapter.Environment else [0]
@@ -210,10 +287,33 @@ def test_a_seed_that_is_none_is_refused_and_changes_nothing(make, seed):
     environment.reset(seed=np.int64(3))
 
 
-def test_a_part_of_a_vector_environment_is_not_reset():
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"episodes": 1}, "^options has 'episodes'; allowed: episode(, reset_mask)?$"),
+        ({"episode": -1}, "^episode is -1; give an integer"),
+        ({"episode": [1, 2]}, r"^episode is \[1, 2\]; give an integer"),
+    ],
+)
+@pytest.mark.parametrize("make", [adapter.Environment, adapter.VectorEnvironment])
+def test_an_option_that_makes_no_sense_is_refused_and_changes_nothing(make, options, message):
+    environment = make("which_is_heavier", "features", random=5)
+    with pytest.raises(ValueError, match=message):
+        environment.reset(seed=3, options=options)
+    assert environment.reset()[1]["episode_index"] == 0 and environment.np_random_seed == 5
+
+
+def test_a_mask_that_makes_no_sense_is_refused():
     environment = adapter.VectorEnvironment("which_is_heavier", "features", 2, random=5)
-    with pytest.raises(ValueError, match="^options has a reset_mask; reset all"):
-        environment.reset(options={"reset_mask": np.array([True, False])})
+    part = np.array([True, False])
+    with pytest.raises(gymnasium.error.ResetNeeded, match=r"reset\(\)"):
+        environment.reset(options={"reset_mask": part})
+    environment.reset()
+    for mask in ([True], [1, 0], [False, False]):
+        with pytest.raises(ValueError, match="^reset_mask is .*; give 2 booleans, one of them true"):
+            environment.reset(options={"reset_mask": mask})
+    with pytest.raises(ValueError, match="^seed is 3 beside a reset_mask"):
+        environment.reset(seed=3, options={"reset_mask": part})
 
 
 @pytest.mark.parametrize(
@@ -224,6 +324,8 @@ def test_a_part_of_a_vector_environment_is_not_reset():
         (lambda: adapter.VectorEnvironment("towers", "fist_features", 0), "num_envs is 0"),
         (lambda: adapter.VectorEnvironment("towers", "fist_features", 2.0), r"num_envs is 2\.0"),
         (lambda: adapter.VectorEnvironment("towers", "fist_features", 2, render_mode=3), "render_mode is 3"),
+        (lambda: adapter.VectorEnvironment("towers", "fist_features", autoreset_mode="never"), "_mode is 'never'; cho"),
+        (lambda: adapter.Environment("towers", "fist_features", flat_observation=2), "flat_observation is 2"),
     ],
 )
 def test_what_makes_no_sense_is_refused(make, message):

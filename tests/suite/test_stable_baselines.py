@@ -4,7 +4,7 @@ import gymnasium
 import numpy as np
 import pytest
 from sb3_contrib import RecurrentPPO
-from stable_baselines3.common import vec_env
+from stable_baselines3.common import evaluation, vec_env
 
 from physexp import suite
 from physexp.suite import stable_baselines
@@ -28,12 +28,61 @@ def test_an_episode_that_ends_is_followed_by_the_next_in_the_same_step(seed):
                     infos[row]["terminal_observation"]["heights"], expected.observation["heights"][row]
                 )
                 assert infos[row]["correct_answer"] == answers[row]
+                assert infos[row]["is_success"] is bool(expected.reward[row] > 0)
+                assert infos[row]["discounted_return"] == pytest.approx(
+                    expected.reward[row] * 0.95 ** (batch.steps[row] - 1)
+                )
                 assert not observation["heights"][row].any()  # Every block is at rest again.
             else:
                 assert infos[row] == {}
                 np.testing.assert_array_equal(observation["heights"][row], expected.observation["heights"][row])
         if dones.any():
             batch.reset(np.flatnonzero(dones))
+
+
+def test_the_seeds_that_are_told_rebuild_the_episodes(seed):
+    vector = stable_baselines.VecEnv("which_is_heavier", "features", 3)
+    told = vector.seed(seed)
+    vector.set_options({"episode": 4})
+    vector.reset()
+    vector.step(np.array([0, 4, 0]))  # The second one answers, and goes on with episode 5.
+    assert vector.reset_infos == [
+        {"seed": told[row], "episode_index": episode} for row, episode in enumerate([4, 5, 4])
+    ]
+    for row, info in enumerate(vector.reset_infos):
+        again = suite.load("which_is_heavier", "features", {"random": info["seed"]})
+        again.task.next_episode = info["episode_index"]
+        again.reset()
+        np.testing.assert_array_equal(again.task.hidden, vector._batch.hidden[row])
+    vector.reset()
+    assert [info["episode_index"] for info in vector.reset_infos] == [5, 6, 5]
+
+
+def test_success_rates_are_those_that_evaluations_of_stable_baselines_show(seed):
+    vector = stable_baselines.VecEnv("threshold", "features", 2, random=seed)
+    found = []
+
+    class RightInTheFirst:
+        def predict(self, observations, state=None, **_):
+            return 8 + (vector._batch.correct_answers + [0, 1]) % 8, state
+
+    def keep(names, _):
+        found.append((names["i"], names["info"]["is_success"]))
+
+    evaluation.evaluate_policy(RightInTheFirst(), vector, 4, callback=keep, warn=False)
+    assert found == [(0, True), (1, False)] * 2
+
+
+def test_keywords_and_options_that_there_are_not_are_refused():
+    with pytest.raises(TypeError, match="^VecEnv got an unexpected keyword argument 'frameskip'; allowed: num_envs, "):
+        stable_baselines.VecEnv("threshold", "features", 2, frameskip=1)
+    vector = stable_baselines.VecEnv("threshold", "features", 2)
+    vector.set_options({"episodes": 1})
+    with pytest.raises(ValueError, match="^options has 'episodes'; allowed: episode$"):
+        vector.reset()
+    vector.set_options([{"episode": 1}, {"episode": 2}])
+    with pytest.raises(ValueError, match="^options differ between environments; give all the same$"):
+        vector.reset()
 
 
 def test_an_episode_whose_simulation_diverges_is_truncated_and_no_other_is(caplog):

@@ -1,0 +1,131 @@
+"""Spaces, infos, checks and images, which the adapters for Gymnasium and Stable-Baselines3 share."""
+
+from collections.abc import Mapping, Sequence
+import dataclasses
+import inspect
+import math
+from typing import Any
+
+import dm_env
+from gymnasium import error, spaces
+import numpy as np
+
+from physexp import checks, suite
+from physexp.suite.engine import batch as batch_lib
+from physexp.suite.engine import rendering, seeding
+
+_LARGEST_GRID = 1920  # Pixels, of the images of many environments side by side.
+
+
+def observation_space(spec, is_flat: bool = False) -> spaces.Space:
+    """Returns the space of observations: images are bounded by their type, features as their specs say.
+
+    Args:
+      spec: the specs by name.
+      is_flat: whether observations are `flattened`.
+    """
+    boxes: dict[str, spaces.Space] = {}
+    for name, array in spec.items():
+        low: Any
+        high: Any
+        if isinstance(array, dm_env.specs.BoundedArray):
+            low, high = (np.broadcast_to(side, array.shape) for side in (array.minimum, array.maximum))
+        else:
+            low, high = (0, 255) if array.dtype == np.uint8 else (-np.inf, np.inf)
+        boxes[name] = spaces.Box(low, high, array.shape, array.dtype)
+    return spaces.flatten_space(spaces.Dict(boxes)) if is_flat else spaces.Dict(boxes)
+
+
+def flattened(observation: Mapping[str, np.ndarray], num_axes: int = 0) -> np.ndarray:
+    """Returns the arrays of an observation as one vector, sorted by name; as many leading axes stay."""
+    arrays = (observation[name] for name in sorted(observation))
+    return np.concatenate([array.reshape(*array.shape[:num_axes], -1) for array in arrays], axis=-1)
+
+
+def outcomes(task, steps: np.ndarray, rewards: np.ndarray, answers: np.ndarray) -> dict[str, np.ndarray]:
+    """Returns the infos of N episodes that have ended, arrays [N].
+
+    Args:
+      task: the task.
+      steps: control steps of each episode, int64 [N].
+      rewards: the rewards at the end, float64 [N].
+      answers: indices of the right labels, int64 [N].
+    """
+    return {
+        "correct_answer": answers,
+        "discounted_return": rewards * task.discount ** (steps - 1.0),
+        "is_success": rewards > 0,
+    }
+
+
+def beginnings(batch: suite.BatchEnvironment) -> dict[str, np.ndarray]:
+    """Returns the infos of the episodes that have begun, int64 [B]: seeds and indices, which rebuild them."""
+    return {"seed": batch.seeds, "episode_index": batch.episodes}
+
+
+def refuse_unknown(kind: type, domain: str, task_kwargs: Mapping[str, Any]) -> None:
+    """Raises TypeError, as Python does, for a keyword that is none of a class's and no option of the domain."""
+    own = list(inspect.signature(kind).parameters)[2:-1]  # Between the names of the task and its options.
+    allowed = [*own, *(field.name for field in dataclasses.fields(suite.options(domain)))]
+    for name in task_kwargs:
+        if name not in allowed:
+            raise TypeError(
+                f"{kind.__name__} got an unexpected keyword argument {name!r}; allowed: {', '.join(allowed)}"
+            )
+
+
+def check_options(options: Mapping[str, Any] | None, *allowed: str) -> dict[str, Any]:
+    """Returns the options of a reset; raises ValueError for an unknown one, or an index that no episode has."""
+    found = dict(options or {})
+    for name in found:
+        if name not in allowed:
+            raise ValueError(f"options has {checks.shown(name)}; allowed: {', '.join(allowed)}")
+    if "episode" in found:
+        found["episode"] = checks.integer("episode", found["episode"], 0, seeding.LAST_EPISODE)
+    return found
+
+
+def check_render_mode(render_mode: str | None, known: tuple[str, ...] = ("rgb_array",)) -> None:
+    """Raises ValueError unless the render mode is None or one of `known`."""
+    if render_mode is not None and render_mode not in known:
+        choices = " or ".join(map(repr, (None, *known)))
+        raise ValueError(f"render_mode is {checks.shown(render_mode)}; choose {choices}")
+
+
+def check_num_envs(num_envs: int) -> int:
+    """Returns the number of environments as an int; raises ValueError if it is out of range."""
+    return checks.integer("num_envs", num_envs, 1, batch_lib.MOST_ENVIRONMENTS)
+
+
+def check_seed(seed: Any) -> int | None:
+    """Returns a seed as an int, or None; raises ValueError if it is neither None nor an integer in [0, 2**63)."""
+    return None if seed is None else checks.integer("seed", seed, 0, seeding.LARGEST_SEED)
+
+
+def images(batch: suite.BatchEnvironment) -> tuple[np.ndarray, ...]:
+    """Returns one image for each environment, uint8 [size, size, 3]; the more environments, the smaller the images.
+
+    Side by side they fit into a square of 1920 pixels: up to 16 environments are drawn with 480 pixels, 64 with 240.
+    """
+    a_side = math.ceil(math.sqrt(batch.num_environments))
+    return tuple(batch.render(min(rendering.SIZE_FOR_PEOPLE, _LARGEST_GRID // a_side)))
+
+
+def grid(drawn: Sequence[np.ndarray]) -> np.ndarray:
+    """Returns images [size, size, 3] as one, row by row in a square; places that are left over are black."""
+    a_side, size = math.ceil(math.sqrt(len(drawn))), len(drawn[0])
+    rows = math.ceil(len(drawn) / a_side)
+    tiles = np.zeros((rows * a_side, *drawn[0].shape), np.uint8)
+    tiles[: len(drawn)] = drawn
+    return tiles.reshape(rows, a_side, size, size, 3).swapaxes(1, 2).reshape(rows * size, a_side * size, 3)
+
+
+def frames_per_second(task) -> int:
+    """Returns how many images a second of an episode has."""
+    return max(1, round(1 / task.control_timestep))
+
+
+def check_started(started: bool) -> None:
+    """Raises `gymnasium.error.ResetNeeded` if no episode has begun."""
+    if not started:
+        raise error.ResetNeeded("there is no episode to step in; call reset() first")
