@@ -1,8 +1,8 @@
 """The ideal experimenter of K things of which one is different, when one touch of a thing reveals its value.
 
-The theory is in docs/ideal.md. Two numbers hold all that is known after some touches: the largest value M found, and t,
-the sum of the likelihood ratios r(m) (odd one's density over a common one's) of the values found, over r(M). The worth of
-states is computed backwards from the last touch, on a grid.
+The theory is in docs/ideal.md. Two numbers hold all that is known after some touches: the largest value M found, and
+t, the sum of the likelihood ratios r(m) (odd one's density over a common one's) of the values found, over r(M). The
+worth of states is computed backwards from the last touch, on a grid.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -143,13 +143,13 @@ class Solution:
         for number, steps in {*zip(touches.tolist(), useful.tolist(), strict=True)}:
             if number < num_things and steps > 1:
                 rows = (touches == number) & (useful == steps)
-                ratio = np.exp(log_weight[rows] - self.prior.log_ratio(largest[rows])) if number else np.zeros(rows.sum())
-                points = _points(largest[rows], ratio)
-                touch[rows] = _touch(self.prior, self.discount, number, steps)(points)
+                most, touch_in = largest[rows], _touch(self.prior, self.discount, number, steps)
+                ratio = np.exp(log_weight[rows] - self.prior.log_ratio(most)) if number else np.zeros(len(most))
+                touch[rows] = touch_in(_points(most, ratio))
         return _posterior(known, largest, log_weight, self.prior), touch
 
     def actions(self, known: np.ndarray, left: float | np.ndarray) -> np.ndarray:
-        """Returns the best action, int64 [N]: the first unknown thing, or K plus the label; arguments as for `values`."""
+        """Returns the best action, int64 [N]: the first unknown thing, or K plus the label; arguments of `values`."""
         beliefs, touch = self._beliefs_and_touch(known, left)
         label = self.prior.num_things + beliefs.argmax(axis=1)
         return np.where(touch > base.worth_of_answers(beliefs.max(axis=1)), np.isnan(known).argmax(axis=1), label)
@@ -298,7 +298,7 @@ def _touch(
     again = known / num_things if at_random else 0.0  # The chance to touch a known thing, which tells nothing.
     if not at_random:
         left = min(left, num_things - known + 1)
-    elif (discount * (num_things - 1) / num_things) ** (left - 2) < _NEGLIGIBLE:  # Only known things touched until then.
+    elif (discount * (num_things - 1) / num_things) ** (left - 2) < _NEGLIGIBLE:  # All of known things.
         left = math.inf
     further = _touch(prior, discount, known + 1, left - 1, at_random) if known + 1 < num_things and left > 2 else None
     largest, ratio, axes = _grid(prior, known)
