@@ -17,9 +17,10 @@ import minari  # noqa: E402
 from minari.data_collector.episode_buffer import EpisodeBuffer  # noqa: E402
 from minari.dataset.minari_storage import MinariStorage  # noqa: E402
 
+from physexp.suite import adapters  # noqa: E402
 from physexp.suite import gymnasium as environments  # noqa: E402
 
-_OF_EPISODE = ("answer", "hidden", "seed", "episode")
+_OF_EPISODE = ("answer", "hidden")
 
 
 class DataSet:
@@ -42,7 +43,7 @@ class DataSet:
         path.mkdir(parents=True)
         self._storage = MinariStorage.new(
             path,
-            observation_space=environments.observation_space(asked.observation_spec),
+            observation_space=adapters.observation_space(asked.observation_spec),
             action_space=gymnasium.spaces.Discrete(asked.num_actions),
             env_spec=gymnasium.spec(environments.environment_id(asked.domain, asked.task)),
             jpeg_encoding=False,  # Which would change images.
@@ -78,6 +79,8 @@ class DataSet:
             at_the_end = np.full((1, columns["values"].shape[1]), np.nan)  # There is no action left.
             infos = {"belief": at_all_times("belief"), "values": np.concatenate([columns["values"], at_the_end])}
         return EpisodeBuffer(
+            seed=int(columns["seed"][0]),  # With the options, `reset` starts the episode again.
+            options={"episode": int(columns["episode"][0])},
             observations={
                 name: at_all_times(f"{steps.OBSERVED}{name}").reshape(-1, *spec.shape)
                 for name, spec in self._observed.items()
