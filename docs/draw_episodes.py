@@ -16,13 +16,13 @@ from physexp.suite.engine import rendering
 EPISODES = {
     "which_is_heavier": ("which_is_heavier/features", 12, 1),
     "towers": ("towers/fist_features", 8, 0),
-    "threshold": ("ppo/threshold-features", 5, 8),
+    "threshold": ("threshold/features", 5, 6),
     "balance": ("balance/features", 5, 1),
     "strings": ("strings/features", 5, 2),
     "sealed_box": ("sealed_box/features", 5, 7),
     "strike": ("strike/features", 5, 0),
 }
-"""For each picture whose agent plays, and the seed and the index of the episode."""
+"""For each picture the agent, which keeps a belief, and the seed and the index of the episode."""
 
 SCALE = 2  # For dense screens.
 SIZE = (880 * SCALE, 400 * SCALE)  # pixels
@@ -37,10 +37,10 @@ LABEL_COLOR, RIGHT, WRONG = "#2b8a94", "#2f7d3b", "#b3362b"
 
 @dataclasses.dataclass(frozen=True)
 class Frame:
-    """What a frame shows.
+    """The content of a frame.
 
     Attributes:
-      substep: of the physics, whose poses are shown.
+      substep: of the physics: the poses follow from the observations, and with the verdict they are the true ones.
       action: in words.
       belief: probabilities of the labels, float64 [L].
       verdict: in words, at the end.
@@ -62,7 +62,7 @@ def recorded(name: str) -> recording.Episode:
 
 
 def frames(episode: recording.Episode) -> list[Frame]:
-    """Returns what is shown of an episode: each decision, what it brings, and the verdict."""
+    """Returns the frames of an episode: each decision, its effect, and the verdict."""
     task = episode.declared
     belief, substeps, found = beliefs.of_agent(episode), task.options.substeps, []
     for step, action in enumerate(episode.actions):
@@ -79,15 +79,18 @@ def frames(episode: recording.Episode) -> list[Frame]:
     return found
 
 
-def scenes(episode: recording.Episode, substeps: Sequence[int]) -> Iterator[np.ndarray]:
-    """Yields images at some physics steps, uint8 [SCENE, SCENE, 3]."""
+def scenes(episode: recording.Episode, shown: Sequence[Frame]) -> Iterator[np.ndarray]:
+    """Yields the scenes of some frames, uint8 [SCENE, SCENE, 3]."""
     apparatus, geoms = episode.declared.apparatus, episode.shapes.geoms
     renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms, size=2 * SCENE)
     large = np.zeros((1, 2 * SCENE, 2 * SCENE, 3), np.uint8)
     positions, rotations = np.zeros((1, apparatus.model.ngeom, 3)), np.zeros((1, apparatus.model.ngeom, 9))
-    for substep in substeps:
-        positions[0, geoms] = episode.positions[substep]
-        rotations[0, geoms] = episode.rotations[substep].reshape(-1, 9)
+    for frame in shown:
+        film = (episode.positions, episode.rotations)
+        if frame.verdict:
+            film = (episode.true_positions, episode.true_rotations)
+        positions[0, geoms] = film[0][frame.substep]
+        rotations[0, geoms] = film[1][frame.substep].reshape(-1, 9)
         renderer.render(positions, rotations, np.zeros(1, int), large)
         yield np.asarray(Image.fromarray(large[0]).resize((SCENE, SCENE), Image.Resampling.LANCZOS))
     renderer.close()
@@ -150,6 +153,6 @@ if __name__ == "__main__":
     for name in EPISODES:
         episode = recorded(name)
         shown = frames(episode)
-        images = scenes(episode, [frame.substep for frame in shown])
+        images = scenes(episode, shown)
         pictures = [drawn(episode, frame, scene) for frame, scene in zip(shown, images, strict=True)]
         save(pictures, [frame.duration for frame in shown], Path(__file__).with_name(f"{name}.gif"))

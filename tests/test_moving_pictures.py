@@ -25,20 +25,31 @@ TRAINED = {domain for domain, _ in suite.ALL_TASKS if (domain, "features") not i
 
 
 @pytest.mark.parametrize("name", [name for name in suite.TASKS_BY_DOMAIN if name in TRAINED])
-def test_a_moving_picture_is_small_loops_and_ends_as_the_script_draws_it(script, name):
+def test_a_moving_picture_shows_the_beliefs_and_actions_of_its_agent(script, name):
     path = DOCS / f"{name}.gif"
     assert path.stat().st_size < 1e6
     episode = script.recorded(name)
+    assert len(episode.beliefs) == len(episode.actions)
     shown = script.frames(episode)
+    starts = np.cumsum([0, *(frame.duration for frame in shown)])
     with Image.open(path) as picture:
         assert picture.info["loop"] == 0 and picture.n_frames > 8  # It repeats for ever.
         pictures, durations = [], []
         for frame in ImageSequence.Iterator(picture):
             pictures.append(np.asarray(frame.convert("RGB")).astype(int))
             durations.append(frame.info["duration"])
-    assert np.isin(np.cumsum(durations), np.cumsum([frame.duration for frame in shown])).all()  # Equal ones are joined.
-    assert 5000 < sum(durations) == sum(frame.duration for frame in shown) < 11000
-    assert all((later != earlier).any() for earlier, later in zip(pictures, pictures[1:], strict=False))
-    (scene,) = script.scenes(episode, [shown[-1].substep])
-    drawn = np.asarray(script.drawn(episode, shown[-1], scene)).astype(int)
-    assert np.abs(pictures[-1] - drawn).mean() < 2 < np.abs(pictures[0] - drawn).mean()  # Of 255; its colours are few.
+    assert 5000 < sum(durations) == starts[-1] < 11000
+    numbers = np.searchsorted(starts, np.cumsum([0, *durations[:-1]]))
+    assert np.isin(np.cumsum(durations), starts).all()  # Equal frames are joined.
+    left = 30 * script.SCALE + script.SCENE  # pixels: text and bars are at the right of the scene
+    texts = {}
+    for number, pixels in zip(numbers, pictures, strict=True):
+        frame = shown[number]
+        key = frame.action, frame.verdict
+        if key not in texts:  # All frames of a decision share its text, and the first one is drawn as a whole.
+            (scene,) = script.scenes(episode, [frame])
+            texts[key] = np.asarray(script.drawn(episode, frame, scene)).astype(int)
+            assert np.abs(pixels - texts[key]).mean() < 2  # Of 255; its colours are few.
+        # One digit differs by nearly 255 from another one, somewhere.
+        assert np.abs(pixels - texts[key])[:, left:].max() < 100
+    assert len({action for action, _ in texts}) == len(episode.actions)
