@@ -154,7 +154,7 @@ def entity(reading: readings.Shown, component: str) -> str:
 
 
 def _thoughts(episode: recording.Episode, root: str) -> tuple[list[rrb.View], list[list[rrb.View]]]:
-    """Returns what is believed now, and plots of it over time in groups; the first of each is to be seen first."""
+    """Returns the view of the belief now, and plots of it over time in groups, of which the first shows first."""
     curves, chances = functools.partial(_curves, episode, root), (-0.05, 1.05)
     is_known = domains.find(episode.domain).ideal_with(episode.task_kwargs) is not None
     ideal = [curves("belief of an ideal experimenter", ["belief/ideal"], chances)] if is_known else []

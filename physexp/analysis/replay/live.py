@@ -10,7 +10,7 @@ from physexp.analysis.replay import layout, recording, words, writing
 
 
 class Screen(Protocol):
-    """Where streams are shown: `viewing.Viewer`, for one."""
+    """A place that shows streams: `viewing.Viewer`, for one."""
 
     def show(self, stream: rr.RecordingStream, layout: rrb.Blueprint) -> None:
         """Connects a stream."""

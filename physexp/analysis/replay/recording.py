@@ -28,7 +28,7 @@ class Shapes:
 
     Attributes:
       names: of K shapes: a thing's first one is called as the thing, its others have longer names.
-      kinds: `box`, `sphere`, `ellipsoid`, `cylinder` or `capsule`; of what is none of them, the box around it.
+      kinds: `box`, `sphere`, `ellipsoid`, `cylinder` or `capsule`; for a shape of another kind, the box around it.
       sizes: half the sizes along the shape's own axes, without the caps of a capsule, m, float64 [K, 3].
       colors: float64 [K, 4].
       are_drawn: whether images show them, bool [K].
@@ -62,14 +62,14 @@ class Episode:
     """One episode of T actions, as it went.
 
     Attributes:
-      domain, task: what was played.
+      domain, task: of the environment.
       task_kwargs: that differ from the defaults, without the seed.
       declared: the task itself, for what it declares.
       seed, episode: seed of the environment and index of the episode; they rebuild it.
-      agent: who played, in words.
+      agent: the name of the player.
       hidden: the hidden property.
       answer: the right label.
-      observations: for each name, what was seen before each action and at the end, [T + 1, ...].
+      observations: by name, before each action and at the end, [T + 1, ...].
       actions: int64 [T].
       rewards: float64 [T].
       policies: probabilities of all actions before each, float64 [T, A]; of no length where the actor has none.
@@ -224,7 +224,7 @@ class _Rebuilder:
         self._environment.close()
 
     def rebuild(self, seed: int, episode: int, actions: Sequence[int]) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-        """Returns what is seen, by name, and the fields of `Episode` that only the simulation knows."""
+        """Returns the observations, by name, and the fields of `Episode` that only the simulation knows."""
         task = self._environment.task
         task.reseed(seed)
         task.next_episode = episode

@@ -104,7 +104,7 @@ def _strictly() -> Iterator[None]:
 
 
 def _merge(recordings: bytes) -> bytes:
-    """Returns one file of what is several, one after the other.
+    """Returns one file of several, one after the other.
 
     Raises:
       RuntimeError: if rerun's program fails or does not answer.
@@ -140,7 +140,7 @@ class EpisodeWriter:
     def __init__(self, stream: rr.RecordingStream, episode: recording.Episode, root: str):
         self._stream, self._episode, self._root = stream, episode, root
         self._task = episode.declared
-        # Of what was seen: before each action, and at the end. A label takes no time.
+        # Observations come before each action, and at the end. A label takes no time.
         steps = np.minimum(np.arange(len(episode.actions) + 1), self._num_interactions)
         self._step_times = steps * episode.control_timestep
 
@@ -197,7 +197,7 @@ class EpisodeWriter:
                 self._follow(f"world/things/{shapes.names[k]}", k, (episode.positions, episode.rotations), first)
 
     def _shape(self, k: int):
-        """Returns what rerun draws a shape as."""
+        """Returns rerun's form of a shape."""
         shapes = self._episode.shapes
         return _archetype(shapes.kinds[k], shapes.sizes[k], (255 * shapes.colors[k]).astype(np.uint8))
 
@@ -254,7 +254,7 @@ class EpisodeWriter:
             fill_mode="solid",
         )
 
-    # What was seen.
+    # Observations.
 
     def _write_seen(self) -> None:
         observations = self._episode.observations
@@ -288,7 +288,7 @@ class EpisodeWriter:
         self._log(entity, lines)
         self._columns(entity, self._step_times[: len(values)], rr.Scalars.columns(scalars=values))
 
-    # What was believed.
+    # Beliefs.
 
     def _write_belief(self) -> None:
         episode, shapes, labels = self._episode, self._episode.shapes, self._task.label_names
@@ -308,7 +308,7 @@ class EpisodeWriter:
             )
             self._series("belief/value", episode.values[:, None], ["value"], [palette.VALUE], steps=True)
 
-    # What was done.
+    # Actions.
 
     def _write_actions(self) -> None:
         names = self._task.action_names
@@ -356,7 +356,7 @@ def _arrow(interaction: declarations.Interaction, sent: np.ndarray) -> np.ndarra
 
 
 def _archetype(kind: str, size: np.ndarray, color: np.ndarray):
-    """Returns what rerun draws a shape as: its kind, half its sizes, m, (3,), and its colour, uint8 (4,)."""
+    """Returns rerun's form of a shape: its kind, half its sizes, m, (3,), and its colour, uint8 (4,)."""
     if kind == "box":
         return rr.Boxes3D(half_sizes=[size], colors=[color], fill_mode="solid")
     radius, length = size[0], 2 * size[2]

@@ -78,7 +78,7 @@ def record(domain, task, interactions=5, seed=None, make_task=None):
 
 
 def place(environment, thing):
-    """Where a thing is in the simulation."""
+    """The position of a thing in the simulation."""
     model = environment.physics.model
     (geom,) = [g for g in range(model.ngeom) if f"{thing}/geom" in model.geom(g).name]
     return environment.physics.data.geom_xpos[geom].copy()
@@ -374,7 +374,7 @@ def names_of(path, entity):
     raise LookupError(entity)
 
 
-def test_what_is_covered_is_seen_through_its_cover_where_what_is_hidden_is_shown_and_nothing_before_tells_of_it(
+def test_covers_are_seen_through_only_in_the_view_of_hidden_things(
     tmp_path,
 ):
     environment = suite.load("threshold", "features", task_kwargs={"random": fresh_seed()})
@@ -414,7 +414,7 @@ def test_bands_are_hidden_lines_that_follow_what_they_tie(tmp_path):
     assert np.ptp(strips[:, :, 1], axis=0).min() > 0.02  # A pull at one of them moves both.
 
 
-def test_a_strike_is_played_out_after_the_answer_and_ends_in_the_goal_if_that_was_right(tmp_path):
+def test_a_strike_is_played_out_after_the_answer(tmp_path):
     environment = suite.load("strike", "features", task_kwargs={"random": fresh_seed()})
     recorder = replay.EpisodeRecorder(environment, "strike", "features")
     near, far = (environment.task.options.goal_distance * 1.5**power for power in (-1, 1))
@@ -433,7 +433,7 @@ def test_a_strike_is_played_out_after_the_answer_and_ends_in_the_goal_if_that_wa
     assert appears == pytest.approx(episode.control_timestep + environment.task.options.physics_timestep)
 
 
-def test_any_kind_of_shape_is_drawn_and_several_of_one_thing_have_names_of_their_own(tmp_path):
+def test_shapes_of_any_kind_are_drawn_under_names_of_their_own(tmp_path):
     bolted = example("bolted")
 
     def make_task(**options):
@@ -711,7 +711,7 @@ def test_the_viewer_opens_a_file_and_shows_it(tmp_path):
     assert counts[np.linalg.norm(colors, axis=1) > 0][np.linalg.norm(hue, axis=1) < 0.08].sum() > 300
 
 
-def test_an_episode_that_is_watched_live_shows_nothing_hidden_before_it_is_over(tmp_path):
+def test_a_live_episode_shows_nothing_hidden_before_it_is_over(tmp_path):
     environment = suite.load("which_is_heavier", "features", task_kwargs={"random": fresh_seed()})
     recorder = replay.EpisodeRecorder(environment, "which_is_heavier", "features", agent="you")
     paths = [tmp_path / "so_far.rrd", tmp_path / "all.rrd"]
