@@ -59,7 +59,7 @@ class Replay(Generic[options_lib.Options]):
       compare: another one, to be shown side by side on the same instances.
       options: what the agent is to have been trained with.
       episodes: how many.
-      output: the file; by default replay.rrd.
+      output: the file, in a folder that exists; by default replay.rrd.
       interaction: learned, or random: interaction actions are replaced by uniformly drawn ones (paper, Section 5.3).
       select: any, or those that are wrong or right, the longest, or the hardest.
       seed: of the environments and the actions; by default one that training never uses.
