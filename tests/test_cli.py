@@ -237,6 +237,7 @@ def test_tasks_lists_every_task_with_its_numbers_question_and_observations(run):
         rules, spec = environment.task.rules, environment.observation_spec()
         numbers = (rules.num_interactions, rules.num_labels, rules.step_limit)
         assert (row["interactions"], row["labels"], row["step_limit"]) == numbers
+        assert row["discount"] == (0.98 if row["domain"] == "towers" else 0.95)
         assert row["observations"] == {
             name: {"shape": list(array.shape), "dtype": str(array.dtype)} for name, array in spec.items()
         }
@@ -247,7 +248,7 @@ def test_tasks_prints_each_question_and_a_line_for_each_task(run):
     lines = run("tasks").stdout.splitlines()
     assert "towers: How many rigid bodies is the tower made of?" in lines
     (fist,) = [line for line in lines if line.startswith("fist_features")]
-    assert " ".join(fist.split()) == "fist_features 4 5 26 positions float32 [5, 3], fist_position float32 [3]"
+    assert " ".join(fist.split()) == "fist_features 4 5 26 0.98 positions float32 [5, 3], fist_position float32 [3]"
 
 
 def test_a_table_in_a_pipe_has_a_line_for_each_row_however_long(capsys):

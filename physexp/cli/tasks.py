@@ -9,7 +9,7 @@ from physexp.cli.arguments import Switch
 
 @dataclasses.dataclass
 class Tasks:
-    """List the tasks: what each asks, what it shows, and how many actions there are.
+    """List the tasks: the question, the numbers of actions and steps, the discount that is scored, the observations.
 
     Attributes:
       json: print JSON.
@@ -34,6 +34,7 @@ class Tasks:
                     "interactions": task.num_interactions,
                     "labels": task.num_labels,
                     "step_limit": task.rules.step_limit,
+                    "discount": task.discount,
                     "observations": observations,
                     "question": task.question,
                 }
@@ -49,6 +50,7 @@ class Tasks:
                 [
                     {
                         **{name: row[name] for name in shown},
+                        "discount": f"{row['discount']:g}",
                         "observations": ", ".join(
                             f"{key} {array['dtype']} {array['shape']}" for key, array in row["observations"].items()
                         ),

@@ -44,6 +44,7 @@ def test_a_player_who_knows_the_answers_is_counted_right_and_compared_on_the_sam
         "ideal experimenter": 3,
     }
     assert sum(text.startswith("Right!") for text in shown) == 3
+    assert "none in 100 steps -1. Each interaction\nbefore it multiplies that by 0.95." in shown[0]
 
 
 def test_a_wrong_answer_and_the_right_one_are_told():
