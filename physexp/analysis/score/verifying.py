@@ -3,13 +3,14 @@
 from collections.abc import Callable, Mapping, Sequence
 import functools
 import hashlib
-import itertools
 import math
 import os
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pyarrow
+from pyarrow import compute
 
 import physexp
 from physexp import suite
@@ -34,8 +35,8 @@ def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dic
     written, found = scoring.read(folder), log.read(folder)
     questions = protocol.named(written["protocol"]["tasks"])
     path = folder / log.FILE
+    _check_order(path, found, [asked.name for asked in questions])
     columns = {asked.name: log.of_task(found, asked) for asked in questions}
-    _check_order(path, found["domain"].to_numpy(), found["task"].to_numpy(), [asked.name for asked in questions])
     counts = [int((columns[asked.name]["step"] == 0).sum()) for asked in questions]
     _check_counts(folder, written, questions, counts)
     done = 0
@@ -83,15 +84,14 @@ def _digest(parts: Sequence[bytes]) -> bytes:
     return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).digest()
 
 
-def _check_order(path: Path, domains: np.ndarray, tasks: np.ndarray, wanted: Sequence[str]) -> None:
+def _check_order(path: Path, found: pyarrow.Table, wanted: Sequence[str]) -> None:
     """Refuses rows of other tasks, and tasks in another order."""
-    names = domains + "/" + tasks
-    starts = np.flatnonzero([before != name for before, name in itertools.pairwise(["", *names])])
-    for start, name in zip(starts, [*wanted, "no further task"], strict=False):
-        if names[start] != name:
-            raise ValueError(
-                f"{path}: row {start} is of {names[start]}, where {name} is expected; put back what was played"
-            )
+    names = compute.binary_join_element_wise(found["domain"], found["task"], "/").combine_chunks()
+    runs = compute.run_end_encode(names)
+    starts = [0, *runs.run_ends.to_pylist()]
+    for start, its, name in zip(starts, runs.values, [*wanted, "no further task"], strict=False):
+        if its.as_py() != name:
+            raise ValueError(f"{path}: row {start} is of {its}, where {name} is expected; put back what was played")
 
 
 def _check_counts(

@@ -77,6 +77,7 @@ def test_any_bit_of_a_table_counts(tmp_path):
             assert str(path) in str(error) and "\n" not in str(error)
 
 
+TEXT = pyarrow.schema([("text", pyarrow.string())])
 MANY, LARGE = 100_000, 2**24
 OLD = as_before()
 HOSTILE = {
@@ -86,23 +87,26 @@ HOSTILE = {
     "a description without end": (OLD[:-8] + b"\xff\xff\xff\x7fPAR1", "is damaged"),
     "other columns": (as_before(TABLE.rename_columns([*TABLE.column_names[:-1], "a\nb"])), "its columns are frames"),
     "other types": (as_before(TABLE.set_column(0, "frames", pyarrow.array(["5"] * 3))), "frames is string instead"),
-    "many rows": (as_before(pyarrow.table({"a": pyarrow.nulls(MANY)})), f"it says that it has {MANY} rows"),
+    "many rows": (as_before(pyarrow.table({"a": pyarrow.nulls(MANY)})), f"it has {MANY:,} rows, more than any table"),
     "many zeros": (
         as_before(pyarrow.table({"a": pyarrow.array([b"\0" * LARGE])}), compression="zstd", use_dictionary=False),
         "it says that it unpacks to more",
     ),
+    "a list of many": (as_before(TABLE.set_column(7, "actions", [[[0] * MANY, [], []]])), "it has 3 rows, more than"),
+    "long text": (as_before(pyarrow.table({"text": ["a" * 1000] * (MANY // 2)})), "it has more text than"),
 }
 
 
 @pytest.mark.parametrize("case", HOSTILE)
 def test_what_is_no_table_of_ours_is_one_line(case, tmp_path, monkeypatch):
-    monkeypatch.setattr(tables, "_MOST_ROWS", MANY - 1)
+    monkeypatch.setattr(tables, "_MOST_VALUES", MANY - 1)
+    monkeypatch.setattr(tables, "_MOST_TEXT", LARGE - 1)
     monkeypatch.setattr(tables, "_MOST_UNPACKED", LARGE - 1)
     content, message = HOSTILE[case]
     assert len(content) < 10_000  # Little to look at, whatever it would unpack to.
     (tmp_path / "table").write_bytes(content)
     with pytest.raises(ValueError, match=f"^{tmp_path / 'table'} is damaged .*; put back what was written") as refused:
-        tables.read(tmp_path / "table", SCHEMA)
+        tables.read(tmp_path / "table", TEXT if case == "long text" else SCHEMA)
     assert message in str(refused.value) and "\n" not in str(refused.value)
 
 
