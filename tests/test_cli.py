@@ -102,7 +102,7 @@ def test_help_lists_the_commands_and_train_help_the_configuration():
     for command in ("tasks", "train", "evaluate", "bench", "doctor"):
         assert command in text
     text = physexp("train", "--help").stdout
-    for option in ("discount", "frames", "seed", "num-workers", "envs-per-worker", "run-dir", "resume"):
+    for option in ("discount", "frames", "seed", "num-environments", "run-dir", "resume"):
         assert f"--{option}" in text
 
 
@@ -174,10 +174,28 @@ def test_help_without_a_domain_says_how_to_see_its_options(run, command, what):
     ],
 )
 def test_options_of_the_domain_stand_before_or_after_its_name(arguments):
-    train = parsing.parse(["train", *arguments])
+    train = parsing.parse(["train", *arguments, "--agent", "a3c"])
     assert (train.domain, train.task) == ("which_is_heavier", "features")
     assert options.chosen(train.options) == {"difficulty": 3.0}
     assert train.config.trace == 0.98, "and the preset is the task's"
+
+
+@pytest.mark.parametrize(
+    ("one", "two"),
+    [
+        ("train threshold/features --seed 3", "train --seed 3 threshold features"),
+        ("play strings/features", "play strings features"),
+        ("ideal strings/features --json", "ideal strings --task features --json"),
+        ("ideal strings features", "ideal strings --task features"),
+        ("evaluate threshold/features --greedy", "evaluate --greedy threshold features"),
+        ("replay towers/fist_features --view", "replay towers fist_features --view"),
+        ("score silent --tasks towers/fist_features", "score silent --tasks towers fist_features"),
+        ("export threshold/features --episodes 3", "export threshold features --episodes 3"),
+    ],
+)
+def test_a_task_is_given_in_one_word_or_in_two(one, two):
+    first, second = (parsing.parse(words.split()) for words in (one, two))
+    assert repr(first) == repr(second)
 
 
 def test_options_without_a_value_are_known_before_the_domain_is_and_hold_where_they_are_given():
@@ -332,7 +350,7 @@ def test_doctor_ends_with_status_1_only_if_the_core_is_broken(run, monkeypatch):
         ),
         (["train", "towers", "fist_features", "--random", "3"], ["--random is not an option of train"]),
         (
-            ["train", "towers", "fist_features", "--replay-episodes", "9"],
+            ["train", "towers", "fist_features", "--agent", "a3c", "--replay-episodes", "9"],
             ["--replay-episodes is not an option of --agent a3c; leave it out, or train --agent belief"],
         ),
         (
@@ -384,7 +402,7 @@ def test_what_cannot_be_done_is_refused_in_one_line(run, arguments, words):
         (["evaluate", "a", "--episodes", "many"], "--episodes is 'many'; give INT; see physexp evaluate --help"),
         (["ideal", "towers", "--discount=low"], "--discount is 'low'; give FLOAT; see physexp ideal --help"),
         (
-            ["train", "towers", "fist_features", "--max_staleness", "x"],
+            ["train", "towers", "fist_features", "--agent", "a3c", "--max_staleness", "x"],
             "--max-staleness is 'x'; give INT; see physexp train --help",
         ),
         (["evaluate", "a", "--seed"], "--seed needs a value: INT; see physexp evaluate --help"),
@@ -397,7 +415,7 @@ def test_what_cannot_be_done_is_refused_in_one_line(run, arguments, words):
             "discount is 2.0; give a number from 0 to 1 but not 0; see physexp train --help",
         ),
         (
-            ["train", "towers", "fist_features", "--num-workers", "0"],
+            ["train", "towers", "fist_features", "--agent", "a3c", "--num-workers", "0"],
             "num_workers is 0; give an integer >= 1 and <= 10000; see physexp train --help",
         ),
         (

@@ -188,7 +188,7 @@ class _Command:
 
 
 def _with_tasks_apart(arguments: list[str], switches: Collection[str], task_is_option: bool) -> list[str]:
-    """Returns the arguments of a command that takes DOMAIN TASK, or DOMAIN --task TASK, with DOMAIN/TASK taken apart."""
+    """Returns the arguments of a command that takes DOMAIN TASK, or DOMAIN --task TASK, with DOMAIN/TASK apart."""
     places = _places_of_words(arguments, switches)
     if not places:
         return arguments
