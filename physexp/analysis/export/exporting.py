@@ -23,6 +23,7 @@ MINARI = "minari"
 """The folder, among the exported files, that is to be `MINARI_DATASETS_PATH`."""
 
 SEED = 3_000_003  # Of the environments, apart from those of training, of evaluation and of the score.
+_MOST_EPISODES = 100_000  # Of each task.
 _ROWS = 2**12  # Of a part, at least, if it is not the last: so much is held in memory.
 
 
@@ -61,7 +62,7 @@ def export(
     """
     if as_minari:
         extras.require("minari")
-    scoring.check(num_episodes, timeout)
+    scoring.check(num_episodes, _MOST_EPISODES, timeout)
     if seed == protocol.SEED:
         raise ValueError(f"seed is {seed}, whose episodes are scored; give another one")
     minari_name = targets.file_name(target) if as_minari else None

@@ -65,7 +65,7 @@ def score(
       player.PlayerError: if the actor fails.
       ValueError: if the folder holds something else, no ideal experimenter is known, or a number makes no sense.
     """
-    check(num_episodes, timeout)
+    check(num_episodes, protocol.MOST_EPISODES, timeout)
     for asked in questions:
         protocol.ideal(asked)  # Refuses a task without one before anything is played.
     found = targets.find(target, greedy)
@@ -179,8 +179,8 @@ def _check_kinds(path: Path, fields: Mapping[str, Any], kinds: Mapping[str, Any]
             raise ValueError(f"{path} is not what was written: {name} is {fields.get(name)!r}; score again")
 
 
-def check(num_episodes: int, timeout: float) -> None:
+def check(num_episodes: int, most: int, timeout: float) -> None:
     """Refuses numbers that make no sense: raises ValueError."""
-    if not 1 <= num_episodes <= protocol.MOST_EPISODES:
-        raise ValueError(f"episodes is {num_episodes}; give a number from 1 to {protocol.MOST_EPISODES:,}")
+    if not 1 <= num_episodes <= most:
+        raise ValueError(f"episodes is {num_episodes}; give a number from 1 to {most:,}")
     checks.between("timeout", timeout, 0, _MOST_SECONDS, "s", without=0)
