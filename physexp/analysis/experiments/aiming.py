@@ -14,7 +14,7 @@ from physexp.analysis.experiments import claims, conditions, strategy
 from physexp.suite.domains import strike
 
 CONDITION = conditions.with_belief(conditions.STRIKE)
-_NAMES = {"asked": r"$m \sqrt{\mu}$", "mass": "$m$", "friction": r"$\mu$"}
+_NAMES = {"asked": "m √μ", "mass": "m", "friction": "μ"}
 
 
 def logarithms() -> dict[str, np.ndarray]:

@@ -209,4 +209,4 @@ def spelled_out(text: str) -> str:
 
 def tick(name: str) -> str:
     """Returns a condition in words that are short enough for an axis."""
-    return spelled_out(name).replace("difficulty", r"$\beta$ =")
+    return spelled_out(name).replace("difficulty", "β =")

@@ -109,7 +109,7 @@ def draw(frame):
         ends = np.array([0.0, 1.0])
         axes.plot(ends, pokes.mean() + trend.value * (ends - gaps.mean()), color=figures.COLORS[2], label="OLS")
         axes.plot(*_ideal_means(beta), color=figures.COLORS[1], linestyle=figures.DASHES[1], label="ideal")
-        axes.set(xlabel="mass gap", title=rf"$\beta$ = {beta:g}: slope {trend.value:.2f}", xlim=(0, 1), ylim=(0, 15))
+        axes.set(xlabel="mass gap", title=f"β = {beta:g}: slope {trend.value:.2f}", xlim=(0, 1), ylim=(0, 15))
     panels[0, 0].set_ylabel("pokes before the answer")
     panels[0, -1].legend(loc="upper right", fontsize=6)
     return figure

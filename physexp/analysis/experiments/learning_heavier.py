@@ -62,7 +62,7 @@ def draw(frame):
     figure, panels = figures.new(columns=len(kinds), sharey=True, squeeze=False)
     for axes, kind in zip(panels[0], kinds, strict=True):
         chance = conditions.chance("which_is_heavier", kind)
-        labels = [rf"$\beta$ = {beta:g}" for beta in conditions.DIFFICULTIES]
+        labels = [f"β = {beta:g}" for beta in conditions.DIFFICULTIES]
         learning.draw_panel(axes, curves, _names(kind), labels, chance)
         low, high = min(accuracies), max(accuracies)
         figures.reference(axes, high, f"ideal: {low:.3f} to {high:.3f}")

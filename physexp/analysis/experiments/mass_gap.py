@@ -54,7 +54,7 @@ def draw(frame):
             color=figures.COLORS[number],
             linestyle=figures.DASHES[number],
             linewidth=1.4,
-            label=rf"$\beta$ = {difficulty:g}",
+            label=f"β = {difficulty:g}",
         )
     axes.set(xlabel="mass gap (range of masses = 1)", ylabel="density", xlim=(0, 1), ylim=(0, None))
     axes.legend()

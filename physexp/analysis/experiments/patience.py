@@ -53,7 +53,7 @@ def draw(frame):
     for number, (discount, shift) in enumerate(zip(_DISCOUNTS, (-0.2, 0.2), strict=True)):
         color = figures.COLORS[1 + number]
         means = [_means(frame, name, discount) for name in names]
-        axes.bar(places + shift, [mean.mean() for mean in means], 0.36, color=color, label=rf"$\gamma$ = {discount:g}")
+        axes.bar(places + shift, [mean.mean() for mean in means], 0.36, color=color, label=f"γ = {discount:g}")
         for place, mean in zip(places + shift, means, strict=True):
             axes.plot([place] * len(mean), mean, "o", color="black", markersize=1.6, alpha=0.6)
         for place, name in zip(places, names, strict=True):

@@ -77,7 +77,7 @@ def draw(frame):
         best[: len(solution["histogram"])] = list(solution["histogram"].values())
         axes.stairs(best, np.arange(len(bins) + 1) - 0.5, color=figures.GREY, linewidth=1.3, label="ideal")
         figures.reference(axes, _ALL_BLOCKS, "all blocks" if beta == present[-1] else "", vertical=True)
-        axes.set(xlabel="pokes before the answer", title=rf"$\beta$ = {beta:g}", xticks=bins[::2])
+        axes.set(xlabel="pokes before the answer", title=f"β = {beta:g}", xticks=bins[::2])
         axes.set_xticklabels([*bins[:-1:2], f"≥{_LONGEST}"])
     panels[0, 0].set_ylabel("share of episodes")
     panels[0, -1].legend(loc="upper right")
