@@ -71,7 +71,7 @@ class DataSet:
         """Returns an episode of T actions, of its columns [T, ...]."""
 
         def at_all_times(name: str) -> np.ndarray:
-            """Returns what there is before each action and at the end, [T + 1, ...]."""
+            """Returns the values before each action and at the end, [T + 1, ...]."""
             return np.concatenate([columns[name], columns[f"{steps.NEXT}{name}"][-1:]])
 
         infos = None
