@@ -151,6 +151,7 @@ class VectorEnvironment(vector_env.VectorEnv):
         render_mode: str | None = None,
         flat_observation: bool = False,
         autoreset_mode: str | vector_env.AutoresetMode = vector_env.AutoresetMode.NEXT_STEP,
+        max_episode_steps: int | None = None,
         **task_kwargs: Any,
     ):
         """Loads a batch.
@@ -163,6 +164,7 @@ class VectorEnvironment(vector_env.VectorEnv):
             for one image of all, or None.
           flat_observation: observe one vector of all arrays, sorted by name.
           autoreset_mode: `next_step`, `same_step` or `disabled`, or one of Gymnasium's `AutoresetMode`.
+          max_episode_steps: Gymnasium's own limit; episodes end by themselves, so it may not be less than the task's.
 
         Raises:
           TypeError: for an unknown keyword argument.
@@ -174,6 +176,8 @@ class VectorEnvironment(vector_env.VectorEnv):
         self._is_flat = checks.flag("flat_observation", flat_observation)
         adapters.refuse_unknown(VectorEnvironment, domain, task_kwargs)
         self._batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
+        if max_episode_steps is not None:
+            checks.integer("max_episode_steps", max_episode_steps, self._batch.task.rules.step_limit)
         self._observation = self._batch.task.blank_observations(num_envs)
         self._ended = np.zeros(num_envs, bool)
         self._started = False

@@ -303,6 +303,10 @@ def test_an_option_that_makes_no_sense_is_refused_and_changes_nothing(make, opti
     assert environment.reset()[1]["episode_index"] == 0 and environment.np_random_seed == 5
 
 
+def test_a_limit_of_gymnasium_s_own_that_no_episode_reaches_is_accepted():
+    assert gymnasium.make_vec(NAMES[0], num_envs=2, max_episode_steps=600).num_envs == 2
+
+
 def test_a_mask_that_makes_no_sense_is_refused():
     environment = adapter.VectorEnvironment("which_is_heavier", "features", 2, random=5)
     part = np.array([True, False])
@@ -326,6 +330,7 @@ def test_a_mask_that_makes_no_sense_is_refused():
         (lambda: adapter.VectorEnvironment("towers", "fist_features", 2, render_mode=3), "render_mode is 3"),
         (lambda: adapter.VectorEnvironment("towers", "fist_features", autoreset_mode="never"), "_mode is 'never'; cho"),
         (lambda: adapter.Environment("towers", "fist_features", flat_observation=2), "flat_observation is 2"),
+        (lambda: adapter.VectorEnvironment("towers", "fist_features", max_episode_steps=25), "_steps is 25; .*>= 26"),
     ],
 )
 def test_what_makes_no_sense_is_refused(make, message):
