@@ -51,6 +51,12 @@ def unheard_by_children():
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
+def spawning():
+    """Returns the context that spawns processes; the tracker of its semaphores hears no stop signal, as they do not."""
+    with unheard_by_children():
+        return multiprocessing.get_context("spawn")
+
+
 @contextlib.contextmanager
 def without_script():
     """Returns a context in which processes are spawned that do not run this program's script: it needs no guard."""

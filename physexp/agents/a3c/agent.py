@@ -5,8 +5,6 @@ import ctypes
 import dataclasses
 import queue
 
-from torch import multiprocessing
-
 from physexp.agents import core, learning, processes, starting
 from physexp.agents.a3c import config as config_lib
 from physexp.agents.a3c import learning as a3c_learning
@@ -53,7 +51,7 @@ class A3C(core.Agent):
         """
         self._make_environment, self._config = make_environment, config
         self._tell, self._patience = tell, patience
-        self._context = multiprocessing.get_context("spawn")
+        self._context = processes.spawning()
         self._stopping = self._context.RawValue(ctypes.c_bool, False)  # Without a lock, that a worker might keep.
         environment = make_environment(config.seed, 1, 1)
         network = starting.initial_network(environment, config)

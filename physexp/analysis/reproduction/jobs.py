@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from concurrent import futures
 import contextlib
-import multiprocessing
 import threading
 import time
 from typing import Any
@@ -45,7 +44,7 @@ class Processes:
         """
         self._work, self._tell = work, tell
         self._silent_seconds, self._stop_seconds = silent_seconds, stop_seconds
-        self._context = multiprocessing.get_context("spawn")
+        self._context = processes.spawning()
         self._threads = futures.ThreadPoolExecutor(num_processes)
         self._starting = threading.Lock()
         self._stopping = self._killing = False

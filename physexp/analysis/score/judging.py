@@ -87,7 +87,7 @@ def judge(
         ((asked, its),) = played.items()
         done = itertools.count(1)
         return {asked.name: _judged(asked, its, lambda: show(next(done)))}
-    context, others = multiprocessing.get_context("spawn"), set(multiprocessing.active_children())
+    context, others = processes.spawning(), set(multiprocessing.active_children())
     counter = context.Value("q", 0)
     num_workers = min(processes.num_cores(), len(played))
     pool = futures.ProcessPoolExecutor(num_workers, context, initializer=_begin, initargs=(counter,))

@@ -91,7 +91,7 @@ class Player:
 
     def _start(self) -> None:
         self._ours, theirs = socket.socketpair()
-        context = multiprocessing.get_context("spawn")
+        context = processes.spawning()
         name = f"actor {self._target}"
         self._process = context.Process(target=_serve, args=(theirs, self._target), name=name)
         with processes.without_script(), processes.inherited_by_workers():

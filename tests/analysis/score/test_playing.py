@@ -4,6 +4,7 @@ from concurrent import futures
 import contextlib
 import json
 import multiprocessing
+import os
 from pathlib import Path
 import re
 import signal
@@ -319,7 +320,7 @@ def test_of_a_team_in_a_team_each_agent_counts_once():
     [
         (["halving:policy", "--tasks", "threshold/fast"], "task is 'threshold/fast'; choose from which_is_heavier/"),
         (["threshold/features", "--tasks", "strings/features"], "threshold/features does not play strings/features; "),
-        (["halving:policy", "--episodes", "0"], "episodes is 0; give a number from 1 to 100,000"),
+        (["halving:policy", "--episodes", "0"], "episodes is 0; give a number from 1 to 10,000"),
         (["halving:policy", "--timeout", "0"], "timeout is 0.0; give a number from 0 to 1e+06 s but not 0"),
         (["halving:policy", "--timeout", "5e6"], "timeout is 5000000.0; give a number from 0 to 1e+06 s"),
         (["halving:policy", "--minutes", "1e308"], "minutes is 1e+308; give a number from 0 to 1e+09 min"),
@@ -433,6 +434,26 @@ def test_judges_that_are_interrupted_end_at_once():
         with pytest.raises(KeyboardInterrupt):
             judging.judge(tasks, interrupt)
         assert not multiprocessing.active_children()
+
+
+def test_a_terminal_that_is_gone_ends_judges_without_a_word_of_their_own(here):
+    """With real processes of their own, whose tracker of semaphores is in the terminal's group, too."""
+    words = ["score", "random", "--tasks", "sealed_box/features", "threshold/features", "--episodes", "60"]
+    program, played = Path(sys.executable).with_name("physexp"), here / "out" / playing.FILE
+    with subprocess.Popen(
+        [program, *words, "--output", "out"], stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as process:
+        waiting.wait_until(
+            lambda: played.exists() and len(played.read_bytes().splitlines()) == 1 + 2 * 60, "judges", pid=process.pid
+        )
+        waiting.wait_until(
+            lambda: len(psutil.Process(process.pid).children()) == 3, "two judges and the tracker", pid=process.pid
+        )
+        os.killpg(process.pid, signal.SIGHUP)
+        _, errors = process.communicate()
+    assert errors == (
+        "the episodes that were played are in out; the same command goes on after them\nphysexp: interrupted\n"
+    )
 
 
 def test_a_judge_that_is_killed_is_an_error():
