@@ -29,17 +29,23 @@ _STYLE: Any = {
     "lines.linewidth": 1.4,
     "svg.fonttype": "none",
     "svg.hashsalt": "physexp",
-    "text.parse_math": False,  # A dollar sign in a name is a letter.
 }
 
 
 @contextlib.contextmanager
 def style():
-    """The context in which figures are drawn and saved."""
+    """Returns the context in which figures are drawn and saved, whatever style the caller has chosen."""
     import matplotlib
 
-    with matplotlib.rc_context(_STYLE):
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(_STYLE)
         yield
+
+
+def literal(words: str) -> str:
+    """Returns text of others for a figure, in which a dollar sign is a letter and begins no formula."""
+    return words.replace("$", r"\$")
 
 
 def new(columns: int = 1, rows: int = 1, width: float = 3.4, height: float = 2.6, **kwargs: Any):

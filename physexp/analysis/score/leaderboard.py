@@ -243,7 +243,7 @@ def draw(rows: Sequence[Row]):
             linestyle="none",
             label=drawing.words(domain),
         )
-    axes.set_yticks(places, [text.plain(row.name) for row in rows])
+    axes.set_yticks(places, [figures.literal(text.plain(row.name)) for row in rows])
     axes.tick_params(axis="y", length=0)
     axes.set(xlim=(drawing.LEAST - 0.03, 1.04), ylim=(-0.7, len(rows) - 0.3))
     axes.set_xlabel("score: black, over all domains, with its 95 % interval; others, of each domain")

@@ -49,14 +49,14 @@ def _page(found: Mapping[str, Any]):
         _draw_overview(overview, found)
         _draw_information(information, found)
         information.suptitle(_INFORMATION, fontsize=8.5, x=0.01, ha="left")
-        foot.text(0.01, 0.95, told, fontsize=7, color="0.35", va="top", linespacing=1.4)
+        foot.text(0.01, 0.95, figures.literal(told), fontsize=7, color="0.35", va="top", linespacing=1.4)
         return figure
 
 
 def _draw_head(figure, found: Mapping[str, Any]) -> None:
-    whole = found["whole"]
-    figure.text(0.01, 0.92, found["name"], fontsize=17, weight="bold", va="top")
-    figure.text(0.01, 0.42, "\n".join(_subtitle(found)), fontsize=8.5, color="0.3", va="top", linespacing=1.5)
+    whole, subtitle = found["whole"], figures.literal("\n".join(_subtitle(found)))
+    figure.text(0.01, 0.92, figures.literal(found["name"]), fontsize=17, weight="bold", va="top")
+    figure.text(0.01, 0.42, subtitle, fontsize=8.5, color="0.3", va="top", linespacing=1.5)
     figure.text(
         0.99, 0.95, f"{whole['score']:.3f}", fontsize=27, weight="bold", ha="right", va="top", color=drawing.OURS
     )
