@@ -82,8 +82,6 @@ class Domain:
       targets: by the names of the agents that come with the package, what each must reach: a figure of its evaluation
         and the least value.
       ideal: how to find the ideal experimenter; None where none is known.
-      observer: by task, further options of the ideal experimenter that agents are compared with: what it can tell
-        apart.
       baselines: by task, experimenters that nobody trained, by name, as functions that make their actors.
       hidden_columns: returns columns for tables of episodes, by name, [N, ...], of hidden properties, [N, ...].
     """
@@ -94,7 +92,6 @@ class Domain:
     labels: Mapping[str, str] = dataclasses.field(default_factory=dict)
     targets: Mapping[str, tuple[str, float]] = dataclasses.field(default_factory=dict)
     ideal: Ideal | None = None
-    observer: Mapping[str, Mapping[str, Any]] = dataclasses.field(default_factory=dict)
     baselines: "Mapping[str, Mapping[str, Callable[[], core.Actor]]]" = dataclasses.field(default_factory=dict)
     hidden_columns: "Callable[[np.ndarray], Mapping[str, np.ndarray]]" = nothing
 

@@ -79,7 +79,7 @@ _PPO = {
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class IdealOptions:
-    """What can be chosen of the ideal experimenter, who knows the physics.
+    """Options of the ideal experimenter, which knows the physics.
 
     Attributes:
       resolution: the smallest difference that can be observed: in metres for features, in differing pixels for images;
@@ -103,8 +103,8 @@ def hypotheses(task: str, task_kwargs: Mapping[str, Any] | None = None, nuisance
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolution: float = IdealOptions.resolution):
     """Returns the ideal experimenter, an observer of some resolution.
 
-    With noise or variation, it is what the rule earns; and nobody earns more than one who is told what an episode
-    differs in and reads without noise, which is averaged over some episodes.
+    With noise or variation, the value is that of a rule, and the bound that of experimenters of this resolution that
+    know everything in which an episode differs except the glue, and read without noise.
     """
     from physexp.analysis.ideal import bounds, search
 
@@ -122,24 +122,25 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolu
 
 
 def _drawn_nuisances(task: str, task_kwargs: Mapping[str, Any]):
-    """Returns what some episodes differ in, [_NUM_NUISANCES, number of them]; None once where there is no variation."""
+    """Returns the circumstances of episodes of `bounds`, [_NUM_NUISANCES, number of them]; [None] without variation."""
     import numpy as np
 
     from physexp import suite
+    from physexp.analysis.ideal import bounds
     from physexp.suite.engine import seeding
 
     if not task_kwargs.get("variation"):
         return [None]
     count = suite.load_task(_NAME, task, dict(task_kwargs)).num_nuisances
-    episodes = np.arange(_NUM_NUISANCES)
-    return task_kwargs["variation"] * seeding.variations(np.zeros_like(episodes), episodes, count)
+    seeds = np.array([suite.environment_seed(bounds.SEED, number) for number in range(_NUM_NUISANCES)])
+    return task_kwargs["variation"] * seeding.variations(seeds, np.zeros_like(seeds), count)
 
 
 _NUM_NUISANCES = 16
 # m and m/s: a fist that wanders may stand at any of countless places, so when somebody's play is judged, situations are
 # taken for one that differ by less than half of what it moves in a control step.
 _TOLERANCES = dict.fromkeys(("fist_features", "fist_pixels"), 0.05)
-_FINE = 0.001  # m, the least that agents from features are taken to tell apart.
+_COARSE = 0.001  # m, the resolution of an observer that is compared with the ideal one.
 _RULES = {
     "direct_features": (4, 14),  # Push cube 1 to +x, and cube 3 to +y.
     "fist_features": (0,),  # Move the fist to +x, where the tower is.
@@ -147,7 +148,7 @@ _RULES = {
 
 
 def rule(task: str, noise: float = 0.0, wait: int | None = None) -> "core.Actor":
-    """Returns an actor that holds cubes for glued while their distance has not changed; see `glue.GlueRule`."""
+    """Returns an actor that takes cubes for glued while their distance has not changed; see `glue.GlueRule`."""
     from physexp.analysis.domains import glue
 
     return glue.GlueRule(_RULES[task], _num_interactions(task), noise, wait)
@@ -155,7 +156,7 @@ def rule(task: str, noise: float = 0.0, wait: int | None = None) -> "core.Actor"
 
 @functools.cache
 def _num_interactions(task: str) -> int:
-    """Returns the number of interactions of a task, which to load takes longer than a rule plays an episode."""
+    """Returns the number of interactions of a task, which takes longer to load than an episode of a rule."""
     from physexp import suite
 
     return suite.load_task(_NAME, task).num_interactions
@@ -163,12 +164,12 @@ def _num_interactions(task: str) -> int:
 
 @functools.cache
 def _seen(task: str):
-    """Returns the ideal experimenter of a task without variation, to whom a millimetre is a difference."""
-    return _solve(task, {}, DOMAIN.discount, resolution=_FINE)
+    """Returns the best policy of an observer of 1 mm, in a task without variation."""
+    return _solve(task, {}, DOMAIN.discount, resolution=_COARSE)
 
 
 def _lookup(task: str) -> "core.Actor":
-    """Returns an actor that plays the ideal policy, and takes each tower for the nearest of the 16 there are."""
+    """Returns an actor that plays that policy, and takes each tower for the nearest of the 16."""
     return _seen(task).actor()
 
 
@@ -189,7 +190,6 @@ DOMAIN = base.Domain(
         "towers-fist_pixels": ("mean_return", 0.93),
     },
     ideal=base.Ideal(_NAME, _solve, IdealOptions),
-    observer=dict.fromkeys(_RULES, {"resolution": _FINE}),
     baselines=_BASELINES,
     hidden_columns=lambda hidden: {"pattern": hidden},  # An index in `tower.PATTERNS`.
 )

@@ -219,8 +219,7 @@ EXPERIMENT = base.Experiment(
     "machines, not all equally fast, with other agents beside), averaged over the last 2000 episodes. Belief: the "
     "quarter of the episodes that are played greedily; A3C and PPO: all, with drawn actions. Light: from the worst "
     "agent to the best; dark: their median. With answers revealed the learner is told more than the others, who know "
-    "the reward alone. The paper's own: A3C with one episode an update, raw observations and no hint. With the fist "
-    "from features, the ideal is the one to whom readings that differ by less than 1 mm are alike.",
+    "the reward alone. The paper's own: A3C with one episode an update, raw observations and no hint.",
     conditions=CONDITIONS,
     trials=(base.EVALUATION,),
     prepare=ideal_towers.prepare,

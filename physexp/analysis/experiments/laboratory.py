@@ -29,7 +29,6 @@ LEARNERS = {
 CONDITIONS = conditions.with_each_learner(TASKS)
 LEAST_SHARE = 0.95  # Of the ideal's return, that an agent who has learned a domain earns.
 FLOOR = -0.1  # Of the figure; what is less is drawn there.
-_CLEAR = 0.8  # Of agents; a line above has no name in the figure, which would cover them.
 _CLAIMS = {
     "a3c": "A3C learns every domain from the reward alone",
     "ppo": "PPO learns every domain from the reward alone",
@@ -54,8 +53,7 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
         report(f"searching for the ideal experimenter of {task.task_name}")
         known = domains.find(task.domain)
         assert known.ideal is not None
-        observer = known.observer.get(task.task, {})
-        summary = known.ideal(task.task, task.task_kwargs, task.agent.discount, **observer).summary()
+        summary = known.ideal(task.task, task.task_kwargs, task.agent.discount).summary()
         found[task.label] = {name: summary[name] for name in _UNTRAINED}
         base.keep_made(path, found)
 
@@ -147,7 +145,7 @@ def draw(frame):
         row = frame.attrs["untrained"][task.label]
         by_chance = row["random_value"] / row["value"]
         figures.reference(axes, 1.0, "")
-        figures.reference(axes, max(FLOOR, by_chance), "random interactions" if by_chance < _CLEAR else "")
+        axes.axhline(max(FLOOR, by_chance), color="0.85", linewidth=3, zorder=-1)
         for number, learner in enumerate(LEARNERS):
             shares = _agents(frame, task.label, learner).share.clip(lower=FLOOR)
             spread = np.linspace(-0.15, 0.15, len(shares)) if len(shares) > 1 else np.zeros(len(shares))
@@ -161,6 +159,8 @@ def draw(frame):
         axes.set_ylabel("share of the ideal's return")
     for axes in panels[-1]:
         axes.set_xlabel("learner")
+    lines = [*panels[0, 0].lines[:2]]  # Of the ideal and of random interactions, in every panel.
+    figure.legend(lines, ["ideal", "random interactions"], loc="outside lower center", ncols=2)
     return figure
 
 
@@ -174,12 +174,11 @@ EXPERIMENT = base.Experiment(
     title="The laboratory",
     section=claims.OURS,
     caption="What agents earn in every domain, features, as a share of the ideal experimenter's return, actions "
-    "drawn. Dots: agents; lines: their median; dotted: the ideal, and random interactions with the best answers at the "
-    f"best moment. What is less than {FLOOR:g} is drawn there. The belief learner has one configuration for all "
+    "drawn. Dots: agents; lines: their median; dotted: the ideal; grey: random interactions with the best answers at "
+    f"the best moment. What is less than {FLOOR:g} is drawn there. The belief learner has one configuration for all "
     "domains; the other two have one that was chosen for each, and in Towers a hint of how to begin. Below: the median "
     "share of the ideal's return, with how many agents, environment steps and minutes (on several machines, "
-    "not all equally fast, with other agents beside). With the fist, the ideal is the one to whom readings that differ "
-    "by less than 1 mm are alike; who sees finer can earn 1.3 % more.",
+    "not all equally fast, with other agents beside).",
     conditions=CONDITIONS,
     trials=(base.EVALUATION,),
     prepare=prepare,

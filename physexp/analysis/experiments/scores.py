@@ -5,7 +5,6 @@ from typing import Any
 
 import numpy as np
 
-from physexp.analysis import domains
 from physexp.analysis.data import estimates
 from physexp.analysis.evaluation import records
 from physexp.analysis.experiments import base, claims, conditions, ideal_towers, learning
@@ -68,10 +67,9 @@ def final(results: base.Results, wanted: Sequence[config_lib.TrainConfig], known
 
 
 def ideal_return(task: config_lib.TrainConfig, results: base.Results) -> float:
-    """Returns what the ideal experimenter earns whom agents are compared with: the domain's `observer`."""
+    """Returns the ideal experimenter's return in a task."""
     if task in conditions.TOWERS:
-        observer = domains.find(task.domain).observer.get(task.task, {})
-        return ideal_towers.best(ideal_towers.read(results)[task.task], **observer)["value"]
+        return ideal_towers.best(ideal_towers.read(results)[task.task])["value"]
     return conditions.ideal(task).value
 
 

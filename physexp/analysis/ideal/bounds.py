@@ -1,7 +1,7 @@
-"""Bounds on what an ideal experimenter earns where readings are noisy, or episodes differ in what cannot be seen.
+"""Bounds on the ideal experimenter's return where readings are noisy, or episodes differ in ways that cannot be seen.
 
-A policy that is played earns no more than the best one. Nobody earns more than one who is told what an episode differs
-in and reads without noise, whose best policy another family finds.
+A policy that is played earns no more than the best one. No experimenter earns more than an informed one, which knows
+everything in which an episode differs except the hidden property, and reads without noise; another family solves it.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -17,7 +17,7 @@ from physexp.analysis.ideal import base, rollouts
 
 NUM_EPISODES = 6400  # Played; their mean is known to 0.005 or better.
 _NUM_ACTORS = 64  # Side by side.
-_SEED = 1  # Of the episodes.
+SEED = 1  # Of the environments, one for each actor.
 
 
 def is_certain(task_kwargs: Mapping[str, Any]) -> bool:
@@ -31,7 +31,7 @@ def made_certain(task_kwargs: Mapping[str, Any]) -> dict[str, Any]:
 
 
 class Solution:
-    """A policy, what it earns on average in episodes that are played, and a bound on what anybody does."""
+    """A policy, its mean return in episodes that are played, and a bound on any experimenter's expected return."""
 
     def __init__(
         self,
@@ -42,14 +42,14 @@ class Solution:
         make_actor: Callable[[], core.Actor],
         find_bounds: Callable[[], Sequence[float]],
     ):
-        """Prepares the episodes, which are played when something is first asked that they tell.
+        """Prepares the episodes, which are played on first use.
 
         Args:
-          domain, task, task_kwargs: what is played, as for `suite.load`.
+          domain, task, task_kwargs: as for `suite.load`.
           discount: the agent's gamma, above 0 and at most 1.
           make_actor: makes an actor that plays the policy.
-          find_bounds: finds the values of ideal experimenters who are told all that episodes differ in, one for each of
-            some episodes that are drawn at random; one alone where it is the same in all.
+          find_bounds: finds the values of informed experimenters, one for the first episode of each of the first
+            environments of `SEED`; a single one if it is the same in all episodes.
 
         Raises:
           ValueError: for a value that makes no sense.
@@ -62,13 +62,19 @@ class Solution:
 
     @functools.cached_property
     def _bounds(self) -> np.ndarray:
-        return np.asarray(self._find_bounds(), float)
+        """Estimates of the bound, one or more, whose mean is the bound.
+
+        An informed experimenter earns more in some episodes than in others, as does the policy. The bound is therefore
+        the policy's mean return in all episodes, plus what informed experimenters earn beyond the policy in some.
+        """
+        found = np.asarray(self._find_bounds(), float)
+        return found if len(found) == 1 else self.value + found - self._returns[: len(found)]
 
     @functools.cached_property
     def _episodes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Final rewards and numbers of actions."""
+        """Final rewards and numbers of actions, the first episodes of all actors before their second ones."""
         actors = [self._make_actor() for _ in range(_NUM_ACTORS)]
-        rewards, lengths = rollouts.play(actors, *self._played, NUM_EPISODES // _NUM_ACTORS, _SEED)
+        rewards, lengths = rollouts.play(actors, *self._played, NUM_EPISODES // _NUM_ACTORS, SEED)
         return rewards.ravel(), lengths.ravel()
 
     @property
@@ -83,7 +89,7 @@ class Solution:
 
     @property
     def bound(self) -> float:
-        """Returns what nobody's expected return exceeds, but for `bound_error`."""
+        """Returns the upper bound on any experimenter's expected return; its standard error is in the summary."""
         return float(self._bounds.mean())
 
     def actor(self) -> core.Actor:
@@ -91,7 +97,7 @@ class Solution:
         return self._make_actor()
 
     def beliefs(self, episode: base.Episode) -> np.ndarray:
-        """Raises ValueError: of what the policy does not see it believes nothing."""
+        """Raises ValueError: the best possible beliefs are not known."""
         raise ValueError("beliefs are known where there is neither noise nor variation")
 
     def judge(self, episode: base.Episode) -> base.Judgement:
@@ -105,6 +111,11 @@ class Solution:
 
     def summary(self) -> dict[str, Any]:
         """Returns the figures, and the standard errors of value and bound: `value_error`, `bound_error`."""
-        spread = self._bounds.std(ddof=1) / math.sqrt(len(self._bounds)) if len(self._bounds) > 1 else 0.0
-        error = self._returns.std(ddof=1) / math.sqrt(len(self._returns))
-        return {**self.figures(), "value_error": float(error), "bound_error": float(spread)}
+        value_error = _standard_error(self._returns)
+        bound_error = math.hypot(value_error, _standard_error(self._bounds)) if len(self._bounds) > 1 else 0.0
+        return {**self.figures(), "value_error": value_error, "bound_error": bound_error}
+
+
+def _standard_error(values: np.ndarray) -> float:
+    """Returns the standard error of the mean of values, [N]."""
+    return float(values.std(ddof=1)) / math.sqrt(len(values))

@@ -118,7 +118,7 @@ class Search:
         low = high = 0.0
         parts, following = self.situations.follow(situation, group, action)
         for chance, part in parts:
-            least, most = self._bounds(following, part, left - 1)
+            least, most = self._bounds(following.like, part, left - 1)
             low, high = low + chance * least, high + chance * most
         return self._objective.act(low), self._objective.act(high)
 
@@ -182,4 +182,4 @@ class Search:
             if highs[action] > low + PRECISION:
                 parts, following = self.situations.follow(situation, group, int(action))
                 for _, part in parts:
-                    self._collect(following, part, left - 1, least_left, passed)
+                    self._collect(following.like, part, left - 1, least_left, passed)

@@ -118,8 +118,8 @@ class Solution:
     def judge(self, episode: base.Episode) -> base.Judgement:
         """Returns what could be known in an episode, and what its actions were worth.
 
-        Of an interaction that was neither taken nor best it is a lower bound. Where situations are alike within the
-        tolerance, what is known in one is said of all.
+        The worth of an interaction that was neither taken nor best is a lower bound. Situations that are alike within
+        the tolerance have the same worth.
 
         Raises:
           ValueError: if the hidden property of the episode is none of the hypotheses, or the objective is not the
@@ -152,12 +152,13 @@ class Solution:
             return np.full(count, float(rules.WRONG))
         if self.situations.is_known(group):
             return np.full(count, self.discount * rules.RIGHT)
-        search.run(situation, group, left)
+        search.run(situation.like, group, left)
         if action < count:
             parts, following = search.situations.follow(situation, group, action)
             for _, part in parts:
-                search.run(following, part, left - 1)
-        return np.array([search.acting(situation, group, left, other)[0] for other in range(count)])
+                search.run(following.like, part, left - 1)
+        places = [situation if other == action else situation.like for other in range(count)]
+        return np.array([search.acting(place, group, left, other)[0] for other, place in enumerate(places)])
 
     @functools.cached_property
     def _judging(self) -> branch_and_bound.Search:

@@ -64,12 +64,17 @@ class Situation:
       groups: those that are followed.
       linked: which of their n members, in increasing order, have looked alike so far, bool [n, n].
       after: by action, what its groups split into, and the situation that follows; of actions looked at.
+      like: the situation that stands for it in searches: itself, or one that is the same within the tolerance.
     """
 
     moment: batch.Moment
     groups: tuple[Group, ...]
     linked: np.ndarray
     after: "dict[int, tuple[dict[Group, Parts], Situation]]" = dataclasses.field(default_factory=dict)
+    like: "Situation" = dataclasses.field(init=False)
+
+    def __post_init__(self):
+        self.like = self
 
 
 class Situations:
@@ -95,8 +100,8 @@ class Situations:
         Args:
           hypotheses: what is simulated.
           resolution: of the observer, in the readings' unit for features, in pixels for images.
-          tolerance: where an action tells nothing, its situation is taken for an earlier one whose positions and
-            velocities differ by no more than this, in m and m/s; by default it never is.
+          tolerance: after an action that tells nothing, an earlier situation stands for the one that follows if
+            positions and velocities differ by no more than this, in m and m/s; by default none does.
           wholly: whether groups are followed also where their label is known.
         """
         self.hypotheses, self.resolution, self.count = hypotheses, resolution, 0
@@ -108,7 +113,7 @@ class Situations:
         self._likeliest: dict[Group, float] = {}
         self._untold: dict[tuple[tuple[Group, ...], bytes], list[Situation]] = {}
         if tolerance is not None:
-            self._merged(self.start)
+            self._alike(self.start)
 
     def chances(self, group: Group) -> np.ndarray:
         """Returns the probabilities of the labels, float64 [L], given a group."""
@@ -170,10 +175,11 @@ class Situations:
         groups = tuple(part for part in parts if self._wholly or not self.is_known(part))
         rows = np.searchsorted(members, sorted(itertools.chain(*groups)))
         following = Situation(moment, groups, linked[np.ix_(rows, rows)])
-        tells_nothing = len(groups) == 1 and groups == situation.groups
-        return found, self._merged(following) if tells_nothing and self._tolerance is not None else following
+        if self._tolerance is not None and len(groups) == 1 and groups == situation.groups:  # It told nothing.
+            following.like = self._alike(following)
+        return found, following
 
-    def _merged(self, situation: Situation) -> Situation:
+    def _alike(self, situation: Situation) -> Situation:
         """Returns the first situation that was looked at and is the same within the tolerance, or this one."""
         alike = self._untold.setdefault((situation.groups, situation.linked.tobytes()), [])
         for other in alike:

@@ -12,8 +12,8 @@ from seeds import fresh_seed
 from physexp import suite
 from physexp.agents import environment_loop
 from physexp.analysis import domains
-from physexp.analysis.domains import towers
-from physexp.analysis.ideal import hypotheses, search, situations
+from physexp.analysis.domains import glue, towers
+from physexp.analysis.ideal import hypotheses, mistakes, rollouts, search, situations
 from physexp.suite.domains.towers import PRIOR
 from physexp.suite.engine import declarations
 
@@ -137,6 +137,34 @@ def test_what_is_kept_to_judge_others_is_bounded_and_judgements_stay_the_same(mo
     monkeypatch.setattr(search, "_MOST_SITUATIONS", 3)
     np.testing.assert_array_equal(judged(solve(world)), everything)
     assert world.steps > all_steps  # It was simulated again.
+
+
+def test_luck_is_zero_on_average_for_a_fist_that_wanders_and_reads_every_bit():
+    """The fist moves at random, mostly to +x, and the answer is given as soon as a cube has moved."""
+    solution = domains.find("towers").ideal("fist_features", {}, 0.98)
+    generator, size = np.random.default_rng(fresh_seed()), 48
+    moves = generator.choice(4, (size, 25), p=[0.55, 0.15, 0.15, 0.15])
+    actors = [glue.GlueRule(row, 4) for row in moves]
+    batch = suite.load_batch("towers", "fist_features", size, {"random": fresh_seed()})
+    taken: list[list[int]] = [[] for _ in range(size)]
+    returns = np.zeros(size)
+    for step in rollouts.play_round(actors, batch, 0):
+        for row, action in zip(step.rows, step.actions, strict=True):
+            taken[row].append(action)
+        returns[step.rows] = step.after.reward * 0.98 ** len(taken[step.rows[0]]) / 0.98
+    actions = [np.array(each) for each in taken]
+    episodes = [
+        types.SimpleNamespace(hidden=one, actions=each) for one, each in zip(batch.hidden, actions, strict=True)
+    ]
+    judged = [solution.judge(episode) for episode in episodes]
+    luck = returns + sum(mistakes.of_episodes(judged, actions, 0.98).values()) - solution.value
+    assert abs(luck.mean()) < 4.5 * luck.std() / math.sqrt(size) + 1e-3
+
+
+def test_beliefs_of_judged_actions_are_exact_wherever_the_fist_has_wandered():
+    wandering = types.SimpleNamespace(hidden=np.array(6), actions=np.array([3, 2, 2, 1, 1, 0, 0, 0, 0]))
+    solution = domains.find("towers").ideal("fist_features", {}, 0.98)
+    np.testing.assert_allclose(solution.judge(wandering).beliefs, solution.beliefs(wandering))
 
 
 def test_a_place_that_is_near_to_another_is_worth_about_as_much():

@@ -44,6 +44,12 @@ def test_the_floor_is_the_better_of_the_likeliest_answer_and_of_no_answer(asked)
     np.testing.assert_allclose(at_once.scores, (at_once.at_once - at_once.floor) / (at_once.ideal - at_once.floor))
 
 
+@pytest.mark.parametrize("task", ["direct_features", "fist_features"])
+def test_a_rule_that_reads_every_bit_of_a_tower_scores_1(task):
+    found = play("rule", protocol.question("towers", task), 16)
+    np.testing.assert_allclose([found.scores, found.raw], 1, atol=0.01)
+
+
 def test_the_scores_of_guesses_are_those_of_their_chances():
     (threshold,) = protocol.named(["threshold/features"])
     found = play("at_once", threshold)
