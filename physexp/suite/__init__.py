@@ -2,10 +2,14 @@
 
 from collections.abc import Mapping
 import inspect
+import warnings
 
 from physexp.suite.engine import gl
 
 gl.prepare()
+
+with warnings.catch_warnings():  # dm_control shows all deprecations in its caller's program.
+    from dm_control import composer as _  # noqa: F401
 
 from physexp import checks
 from physexp.suite.domains import DOMAINS as _DOMAINS
