@@ -223,7 +223,8 @@ class RecurrentActorCritic(RecurrentNetwork):
     def initial_state(self, batch_size: int) -> lstm.State:
         """Returns the state at an episode's start: zeros, hidden and cell each [1, batch_size, units]."""
         shape = (1, batch_size, self.lstm.hidden_size)
-        return torch.zeros(shape, device=self.device), torch.zeros(shape, device=self.device)
+        hidden, cell = (torch.zeros(shape, dtype=torch.float32, device=self.device) for _ in range(2))
+        return hidden, cell
 
     def calibrate(self, first: Observation) -> None:
         """Tells the torso what an episode's first observation looks like, arrays [N, ...]; see `PixelTorso`."""

@@ -14,7 +14,7 @@ import numpy as np
 import torch
 
 from physexp import checks
-from physexp.agents import acting, checkpointing, config, files, networks, registry
+from physexp.agents import acting, checkpointing, config, files, guests, networks, registry
 
 FOLDER = Path(__file__).with_name("pretrained_agents")
 """The best agent of each task; those of other learners are in a folder of the learner's name."""
@@ -178,6 +178,7 @@ def _read_card(path: Path) -> dict[str, Any]:
     return card
 
 
+@guests.own_torch()
 def _network(facts: dict[str, Any]) -> networks.RecurrentNetwork:
     """Returns the network that the facts on a card describe, with some weights."""
     observation_spec = {

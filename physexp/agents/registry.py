@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 
 from physexp.agents import config as config_lib
-from physexp.agents import core, networks, starting
+from physexp.agents import core, guests, networks, starting
 from physexp.agents.a3c import agent as a3c
 from physexp.agents.belief import agent as belief
 from physexp.agents.belief import networks as belief_networks
@@ -25,6 +25,7 @@ def make_network(environment: core.Batch, config: config_lib.AgentConfig) -> net
     return starting.make_network(NETWORKS[config.algorithm], environment, config)
 
 
+@guests.own_torch()
 def make(
     make_environment: core.EnvironmentFactory, config: config_lib.AgentConfig, tell: Callable[[str], None]
 ) -> core.Agent:

@@ -5,7 +5,7 @@ from typing import TypeVar
 import numpy as np
 import torch
 
-from physexp.agents import acting, core, networks
+from physexp.agents import acting, core, guests, networks
 from physexp.agents import config as config_lib
 
 Network = TypeVar("Network", bound=networks.RecurrentNetwork)
@@ -13,8 +13,8 @@ Network = TypeVar("Network", bound=networks.RecurrentNetwork)
 
 def make_network(kind: type[Network], environment: core.Batch, config: config_lib.AgentConfig) -> Network:
     """Returns a network of a kind for an environment's specs, its weights drawn from the configuration's seed."""
-    with torch.random.fork_rng():
-        torch.manual_seed(config.seed)
+    with guests.own_torch():
+        torch.default_generator.manual_seed(config.seed)
         return kind(
             environment.observation_spec(),
             environment.action_spec().num_values,

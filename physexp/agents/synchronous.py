@@ -2,7 +2,7 @@
 
 import torch
 
-from physexp.agents import core, learning, rounds
+from physexp.agents import core, guests, learning, rounds
 
 
 class SynchronousLearner(core.Learner):
@@ -52,10 +52,11 @@ class SynchronousAgent(core.Agent):
 
     def updates(self, poll_seconds=0.5):
         # More of them than the images' convolutions can use only wait for each other.
-        torch.set_num_threads(self._num_threads if self._learner.variables.network.sees_images else 1)
+        num_threads = self._num_threads if self._learner.variables.network.sees_images else 1
         while not self._stopping and self.frames < self._most_frames:
             episode = self._learner.next_episode
-            metrics = self._learner.step()
+            with guests.own_torch(num_threads):
+                metrics = self._learner.step()
             yield core.Update(self._seed, episode, metrics, self._learner.last_round.record())
 
     def stop(self):

@@ -91,7 +91,7 @@ class BeliefLearner(synchronous.SynchronousLearner):
         generator = np.random.default_rng([config.seed, number])
         figures = []
         with torch.random.fork_rng(devices=[]):  # Which draws what drops out.
-            torch.manual_seed(int(generator.integers(2**63)))
+            torch.default_generator.manual_seed(int(generator.integers(2**63)))
             for _ in range(int(variables.frames) // config.frames_per_step - steps_before):
                 drawn = variables.episodes.sample(generator, config.batch_size, config.num_members, number + 1)
                 figures.append(self._learn(drawn, learning_rate))

@@ -101,8 +101,9 @@ class BeliefNetwork(networks.RecurrentNetwork):
 
     def initial_state(self, batch_size):
         """Returns the state at the start of episodes: all that was seen, and what was done before each of it."""
-        seen = torch.zeros(1, batch_size, 0, self._num_seen, device=self.device)
-        return seen, torch.zeros(1, batch_size, 1, self.num_interactions, device=self.device)
+        shapes = (1, batch_size, 0, self._num_seen), (1, batch_size, 1, self.num_interactions)
+        seen, done = (torch.zeros(shape, dtype=torch.float32, device=self.device) for shape in shapes)
+        return seen, done
 
     def calibrate(self, first: networks.Observation) -> None:
         """Tells the torso what an episode's first observation looks like, arrays [N, ...]."""
@@ -183,7 +184,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         first, unit = seen[:, :1], torch.exp(self.log_scale)
         change, moved = (seen - first) / unit, torch.diff(seen, dim=1, prepend=first) / unit
         direction = moved / (moved.norm(dim=-1, keepdim=True) + _STILL)
-        times = torch.arange(seen.shape[1], device=seen.device)[:, None] / self.most_interactions
+        times = torch.arange(seen.shape[1], dtype=seen.dtype, device=seen.device)[:, None] / self.most_interactions
         return torch.cat([change, moved, direction, done, times.expand(len(seen), -1, -1)], dim=-1)
 
     def _one_hot(self, actions):

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import torch
 
-from physexp.agents import acting, devices, networks
+from physexp.agents import acting, devices, guests, networks
 from physexp.analysis.data.episodes import Episodes
 from physexp.analysis.evaluation import finding
 from physexp.analysis.training import config as config_lib
@@ -23,6 +23,7 @@ def evaluate(run: run_lib.Run, num_episodes: int, interaction: str = "learned", 
     return play(network, run.config, num_episodes, interaction, seed=seed)
 
 
+@guests.own_torch()
 def play(
     network: networks.RecurrentNetwork,
     config: config_lib.TrainConfig,
@@ -57,7 +58,6 @@ def play(
         raise ValueError(f"interaction is {interaction!r}; choose from {', '.join(INTERACTIONS)}")
     if num_episodes < 1:
         raise ValueError(f"episodes is {num_episodes}; give a number >= 1")
-    torch.set_num_threads(1)
     network.to(devices.choose(device, network.sees_images))
     environment = trainer.make_environment(
         config, seed, _BATCH if num_steps else min(num_episodes, _BATCH), num_threads

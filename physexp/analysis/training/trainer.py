@@ -5,7 +5,7 @@ import functools
 import shutil
 
 from physexp import suite
-from physexp.agents import core, devices, processes, registry
+from physexp.agents import core, devices, guests, processes, registry
 from physexp.analysis import callbacks
 from physexp.analysis.data import provenance
 from physexp.analysis.training import config as config_lib
@@ -69,6 +69,7 @@ def make_agent(
     return registry.make(environments, config.agent, tell)
 
 
+@guests.own_torch()
 def train(
     run: run_lib.Run,
     report: callbacks.Report = callbacks.ignore,

@@ -1,0 +1,121 @@
+"""Physexp is a guest in its caller's process: settings stay the caller's, and results do not depend on them."""
+
+import interpreters
+import pytest
+
+ODD = """
+import random, signal, warnings
+import matplotlib.style, numpy as np, rerun, torch
+matplotlib.use("svg")
+matplotlib.style.use("dark_background")
+matplotlib.rcParams["font.size"] = 23
+torch.set_default_dtype(torch.float64)
+torch.set_num_threads(3)
+torch.set_grad_enabled(False)
+torch.manual_seed(7), np.random.seed(7), random.seed(7)
+rerun.set_strict_mode(False)
+warnings.filterwarnings("ignore", "a warning of the caller's")
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1):
+    signal.signal(number, lambda *_: None)
+"""
+
+# Some libraries change settings when they are imported, which is theirs to answer for.
+SETTINGS = """
+import hashlib, random, signal, sys, warnings
+from pathlib import Path
+import matplotlib, numpy as np, rerun, torch
+import rich.progress, scipy.sparse, scipy.special, stable_baselines3, torch._dynamo
+def settings():
+    return {
+        "torch's random state": hashlib.sha256(torch.get_rng_state().numpy().tobytes()).hexdigest(),
+        "numpy's random state": hashlib.sha256(repr(np.random.get_state()).encode()).hexdigest(),
+        "Python's random state": hashlib.sha256(repr(random.getstate()).encode()).hexdigest(),
+        "threads": torch.get_num_threads(),
+        "type": str(torch.get_default_dtype()),
+        "gradients": torch.is_grad_enabled(),
+        "matplotlib": {name: str(value) for name, value in dict.items(matplotlib.rcParams)},
+        "strict": rerun.strict_mode(),
+        "numpy's errors": np.geterr(),
+        "warnings": [str(entry) for entry in warnings.filters],
+        "signals": [str(signal.getsignal(number)) for number in sorted(signal.valid_signals())],
+    }
+before = settings()
+"""
+
+ACTS = {
+    "import": """
+import physexp.cli.commands, physexp.suite.gymnasium, physexp.suite.stable_baselines
+from physexp.agents import pretrained, registry
+from physexp.analysis import replay
+from physexp.analysis.reproduction import report
+from physexp.analysis.training import trainer
+""",
+    "play": """
+from physexp import suite
+for task in ("features", "pixels"):
+    environment = suite.load("threshold", task, {"random": 0})
+    timestep = environment.reset()
+    environment.render()
+    result.append(hashlib.sha256(b"".join(value.tobytes() for value in timestep.observation.values())).hexdigest())
+    environment.close()
+""",
+    "load_pretrained": """
+from physexp import agents, suite
+from physexp.agents import environment_loop
+for learner in ("a3c", "belief"):
+    environment = suite.load("towers", "fist_features", {"random": 0})
+    actor = agents.load_pretrained("towers", "fist_features", agent=learner, seed=1)
+    result.append(environment_loop.EnvironmentLoop(environment, actor).run(3))
+    result.append(actor.policy.tolist())
+    environment.close()
+""",
+    "train": """
+from physexp.agents.a3c import config as a3c
+from physexp.agents.belief import config as belief
+from physexp.agents.ppo import config as ppo
+from physexp.analysis.evaluation import playing
+from physexp.analysis.training import config as config_lib, run as run_lib, trainer
+agents = [
+    ppo.PPOConfig(num_threads=1, num_environments=16, num_minibatches=2, frames=500),
+    belief.BeliefConfig(num_environments=16, frames_per_step=64, frames=500),
+    a3c.A3CConfig(num_workers=1, envs_per_worker=16, frames=500),
+]
+if __name__ == "__main__":
+    for agent in agents:
+        run = run_lib.Run(Path(agent.algorithm))
+        run.create(config_lib.TrainConfig(domain="which_is_heavier", task="features", agent=agent))
+        trainer.train(run)
+        tensors, _ = run.checkpointer.latest()
+        result.append({name: hashlib.sha256(value.numpy().tobytes()).hexdigest() for name, value in tensors.items()})
+        result.append(playing.evaluate(run, 50).summary(0.95))
+""",
+    "draw": """
+from physexp.analysis.evaluation import figures
+with figures.style():
+    figure, axes = figures.new()
+    axes.plot([1, 2, 3], label="a line")
+    axes.legend()
+result.append(hashlib.sha256(figures.svg(figure) + figures.png(figure)).hexdigest())
+""",
+    "replay": """
+from physexp.analysis import replay
+path = replay.replay(["threshold/features"], 1, Path("replay.rrd"))
+result.append(path.stat().st_size > 0)
+""",
+}
+
+
+def run(act, odd, folder):
+    code = f"import os\nos.chdir({str(folder)!r})\nresult = []\n{ODD if odd else ''}{SETTINGS}{ACTS[act]}"
+    found, _ = interpreters.run(f"{code}\nfound.update(result=result, before=before, after=settings())")
+    return found
+
+
+@pytest.mark.parametrize("act", ACTS)
+def test_settings_stay_the_callers_and_results_do_not_depend_on_them(act, tmp_path):
+    (tmp_path / "usual").mkdir(), (tmp_path / "odd").mkdir()
+    usual, odd = run(act, False, tmp_path / "usual"), run(act, True, tmp_path / "odd")
+    for found in (usual, odd):
+        for name, value in found["before"].items():
+            assert found["after"][name] == value, name
+    assert odd["result"] == usual["result"]
