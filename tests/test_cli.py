@@ -582,6 +582,13 @@ def test_a_domain_without_an_ideal_is_told_so(monkeypatch):
         command.run()
 
 
+def test_the_return_of_an_ideal_is_told_in_a_sentence_with_its_unit(run):
+    done = run("ideal", "threshold")
+    # Three pushes halve eight levels three times: 0.95^3.
+    sentence = "The ideal experimenter of threshold/features earns 0.8574 (discounted return, gamma 0.95)."
+    assert done.stdout.startswith(sentence) and "An answer without any interaction earns -0.7500." in done.stdout
+
+
 def test_an_ideal_is_kept_where_that_is_asked_for(run, monkeypatch):
     keeping = []
     monkeypatch.setattr(kept, "keep", keeping.append)

@@ -1,7 +1,10 @@
 """The command that prints what an ideal experimenter achieves."""
 
+from collections.abc import Iterator, Mapping
+import contextlib
 import dataclasses
-from typing import ClassVar, Generic
+import sys
+from typing import Any, ClassVar, Generic
 
 from tyro.conf import OmitArgPrefixes
 
@@ -62,10 +65,55 @@ class Ideal(Generic[options_lib.Options]):
         solution = ideal(task, chosen, discount, **own)
         if self.keep:
             kept.check(solution)  # Before what takes minutes.
-        with printing.warned_if_slow(
-            f"searching for the ideal experimenter of {self.domain}/{task}; that can take minutes"
-        ):
+        with _waiting(f"searching for the ideal experimenter of {self.domain}/{task}"):
+            figures = solution.figures()
+        if not self.json:
+            printing.tell(*_earned(f"{self.domain}/{task}", discount, figures))
+        with _waiting("playing at random, for comparison"):
             summary = solution.summary()
-        printing.show(summary, self.json)
+        if self.json:
+            printing.show(summary, as_json=True)
+        else:
+            printing.tell(*_compared(summary))
         if self.keep:
             kept.keep(solution)
+
+
+@contextlib.contextmanager
+def _waiting(line: str) -> Iterator[None]:
+    """Returns a context that tells what is going on: with a clock on a terminal, elsewhere once if it takes long."""
+    if not sys.stderr.isatty():
+        with printing.warned_if_slow(f"{line}; that can take minutes"):
+            yield
+        return
+    from rich import console, progress
+
+    columns = progress.SpinnerColumn(), progress.TextColumn("{task.description}"), progress.TimeElapsedColumn()
+    with progress.Progress(*columns, console=console.Console(stderr=True), transient=True) as shown:
+        shown.add_task(line, total=None)
+        yield
+
+
+def _earned(name: str, discount: float, figures: Mapping[str, Any]) -> Iterator[str]:
+    """Yields sentences about the policy of a task."""
+    value, bound = (round(figures[name], 4) for name in ("value", "bound"))
+    unit = f"(discounted return, gamma {discount:g})"
+    if value == bound:
+        yield f"The ideal experimenter of {name} earns {value:.4f} {unit}."
+    else:
+        yield f"The ideal experimenter of {name} earns between {value:.4f} and {bound:.4f} {unit}."
+    shares = [f"{number} in {share:.1%}" for number, share in figures["histogram"].items() if share >= 5e-4]
+    yield (
+        f"{'It' if value == bound else 'The policy that earns the lower figure'} is right in {figures['accuracy']:.2%} "
+        f"of the episodes, after {figures['mean_interactions']:.2f} interactions on average: {', '.join(shares)}."
+    )
+
+
+def _compared(summary: Mapping[str, Any]) -> Iterator[str]:
+    """Yields sentences about the accuracy of bounds, and about policies for comparison."""
+    if "value_error" in summary:
+        yield "The standard errors of the two bounds are {value_error:.4f} and {bound_error:.4f}.".format(**summary)
+    if "at_once" in summary:
+        random = [f"{summary[name]:.4f}" for name in ("random_value", "random_bound") if name in summary]
+        yield f"An answer without any interaction earns {summary['at_once']:.4f}."
+        yield f"Random interactions with the best answers at the best moment earn {' to '.join(random)}."
