@@ -152,8 +152,8 @@ def test_behaviour_data_give_back_the_probabilities_and_values_of_acting(domain,
     with torch.no_grad():
         logits, values = network.unroll(network.encode(some.behaviour.observation), some.batch_sizes)
     taken = torch.log_softmax(logits, -1).gather(1, some.packed(some.actions)[:, None])[:, 0]
-    torch.testing.assert_close(taken, some.behaviour.log_probabilities, atol=1e-5, rtol=1e-5)
-    torch.testing.assert_close(values, some.behaviour.values, atol=1e-5, rtol=1e-5)
+    for found, expected in ((taken, some.behaviour.log_probabilities), (values, some.behaviour.values)):
+        torch.testing.assert_close(found, expected, atol=1e-3, rtol=1e-3)  # Convolutions add up in another order.
 
 
 def test_draws_follow_the_softmax_of_the_logits():
