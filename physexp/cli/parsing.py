@@ -31,8 +31,7 @@ def main() -> None:
     printing.prepare()
     try:
         try:
-            with stopping.raised():
-                _run(sys.argv[1:])
+            _run(sys.argv[1:])
         finally:
             sys.stdout.flush()
     except KeyboardInterrupt as error:
@@ -48,7 +47,8 @@ def _run(arguments: list[str]) -> None:
         printing.tell(f"physexp {__version__}")
         return
     try:
-        parse(arguments).run()
+        with stopping.raised():
+            parse(arguments).run()
     except BrokenPipeError:
         raise
     except (ValueError, OSError, extras.MissingExtraError) as error:

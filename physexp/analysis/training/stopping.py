@@ -36,9 +36,24 @@ def exit_status(error: KeyboardInterrupt) -> int:
 
 @contextlib.contextmanager
 def raised() -> Iterator[None]:
-    """A context in which a request to end raises Interrupted, in the main thread."""
-    with _heard(_raise, TOGETHER_SECONDS):
-        yield
+    """A context in which a request to end raises Interrupted, in the main thread.
+
+    Code that it comes upon, such as the import of a library, may turn it into an error of its own: an error that
+    leaves the context after a request is raised as Interrupted, too.
+    """
+    heard: list[int] = []
+
+    def hear(number: int) -> None:
+        heard.append(number)
+        _raise(number)
+
+    with _heard(hear, TOGETHER_SECONDS):
+        try:
+            yield
+        except Exception as error:
+            if heard:
+                raise Interrupted(heard[0]) from error
+            raise
 
 
 class Interruption:
