@@ -13,6 +13,7 @@ import stat
 from typing import IO, Any
 
 _MOST_JSON = 1_000_000  # Bytes; an agent's card has two thousand.
+_LONGEST = 50  # Letters of a file's name in that of its temporary file, which may have 255 bytes.
 _LITTER = re.compile(r"\..+\.[0-9a-f]{16}\.tmp")  # The names of `_temporary`.
 
 
@@ -163,7 +164,7 @@ def _refusal(path: Path, kind: str) -> str:
 def _temporary(folder: int, name: str) -> tuple[str, int]:
     """Returns the name and descriptor of a new file beside `name`, which is locked as long as its writer lives."""
     while True:
-        temporary = f".{name}.{secrets.token_hex(8)}.tmp"
+        temporary = f".{name[:_LONGEST]}.{secrets.token_hex(8)}.tmp"
         flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW
         opened = os.open(temporary, flags, 0o666, dir_fd=folder)
         if _lock(opened) and os.fstat(opened).st_nlink:

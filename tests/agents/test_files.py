@@ -62,6 +62,12 @@ STOPPED_WRITER = """
 """
 
 
+def test_a_file_may_have_the_longest_name_that_there_is(tmp_path):
+    name = "\N{GREEK SMALL LETTER MU}" * 127  # 254 bytes of the 255 that file systems allow.
+    files.write_atomically(tmp_path / name, b"1")
+    assert names(tmp_path) == [name]
+
+
 def test_what_a_killed_writer_leaves_is_removed_by_the_next_and_that_of_a_living_one_is_not(tmp_path):
     script = textwrap.dedent(STOPPED_WRITER)
     with subprocess.Popen([sys.executable, "-c", script, tmp_path / "one"], stdout=subprocess.PIPE) as writer:

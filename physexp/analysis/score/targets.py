@@ -21,7 +21,7 @@ SHIPPED = "shipped"
 """The team of the best agents that come with the package; a learner's name stands for those of the learner."""
 
 _METHODS = ("select_action", "observe_first", "observe", "update")
-_LONGEST = 100  # Letters of a file's name: file systems allow 255 bytes.
+_LONGEST = 60  # Letters of a file's name; file systems allow 255 bytes.
 
 
 class TargetError(ValueError):
