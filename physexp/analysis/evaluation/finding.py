@@ -60,10 +60,10 @@ def find_agent(
         return load_network(run), run.config
     if (domain, task) in suite.ALL_TASKS:
         return shipped_agent(domain, task, wanted)
-    choices = difflib.get_close_matches(target, pretrained.names()) or ["/".join(name) for name in suite.ALL_TASKS]
+    close = difflib.get_close_matches(target, [*pretrained.names(), *map("/".join, suite.ALL_TASKS)])
     raise ValueError(
         f"{target} holds no run (no config.json); give the folder of a run, the card of a published agent (NAME.json), "
-        f"or a trained agent: {', '.join(choices)}"
+        f"or a trained agent: {', '.join(close) or 'DOMAIN/TASK, as `physexp tasks` lists them'}"
     )
 
 

@@ -186,7 +186,7 @@ THERE = "which_is_heavier-features-difficulty10, which_is_heavier-features-diffi
             "or a trained agent: (which_is_heavier-features[^,]*(, )?){3}$",
         ),
         ("towres/fist_features", None, "or a trained agent: towers-fist_features, "),
-        ("fly", None, "holds no run .* or a trained agent: which_is_heavier/features, .*, strike/pixels$"),
+        ("fly", None, "holds no run .* or a trained agent: DOMAIN/TASK, as `physexp tasks` lists them$"),
     ],
 )
 def test_an_agent_that_there_is_not_is_refused_with_a_list_of_those_there_are(target, options, message):
