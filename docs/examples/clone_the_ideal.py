@@ -5,10 +5,10 @@ python clone_the_ideal.py exports/ideal strings/features
 physexp score clone_the_ideal:make --tasks strings/features
 """
 
+import argparse
 import json
 import math
 from pathlib import Path
-import sys
 
 import numpy as np
 from pyarrow import parquet
@@ -63,7 +63,7 @@ def file_of(task):
 
 
 def train(folder, task, updates=1_000, batch_size=256, learning_rate=3e-3):
-    """Trains a clone of who played a task, DOMAIN/TASK, in an exported folder, and keeps it."""
+    """Trains a clone of the player of a task, DOMAIN/TASK, in an exported folder, and keeps it."""
     torch.manual_seed(0)
     torch.set_num_threads(1)
     facts = json.loads((Path(folder) / "export.json").read_text(encoding="utf-8"))["tasks"][task]
@@ -107,4 +107,8 @@ def make(question):
 
 
 if __name__ == "__main__":
-    train(*sys.argv[1:])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", help="the exported episodes")
+    parser.add_argument("task", help="DOMAIN/TASK")
+    arguments = parser.parse_args()
+    train(arguments.folder, arguments.task)

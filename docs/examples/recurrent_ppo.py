@@ -47,7 +47,8 @@ class Watch(callbacks.BaseCallback):
         self._look()
 
     def _on_training_end(self):
-        self._look()
+        if self.num_timesteps not in self._curve:  # Its time was over within a rollout.
+            self._look()
 
     def _look(self):
         passed, frames = time.process_time() - self._start, self.num_timesteps
