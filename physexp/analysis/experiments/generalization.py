@@ -14,7 +14,12 @@ from physexp.analysis.ideal import rollouts
 
 USUAL, VARIED = "trained as usual", "trained with variation"
 RULE, LOOKUP = "rule", "lookup"
-_WORDS = {USUAL: USUAL, VARIED: VARIED, RULE: "rule: what changes its distance is not glued", LOOKUP: "nearest of 16"}
+_WORDS = {
+    USUAL: USUAL,
+    VARIED: VARIED,
+    RULE: "rule: cubes whose distance changes are not glued",
+    LOOKUP: "observer of 1 mm: the nearest of 16",
+}
 CONDITIONS = {
     USUAL: tuple(conditions.with_belief(task) for task in conditions.TOWERS),
     VARIED: tuple(conditions.with_variation(conditions.with_belief(task)) for task in conditions.TOWERS),
@@ -245,9 +250,9 @@ EXPERIMENT = base.Experiment(
     section=claims.OURS,
     caption="Share of right answers of agents that were trained as usual, where a tower with given actions plays one "
     "of 16 trajectories, and of agents that were trained with variation: of the tower's place and yaw, of where the "
-    "fist starts, of forces or speed, friction and mass. Beside them two experimenters that nobody trained: one counts "
-    "the neighbours whose distance has changed by a millimetre; the other is the ideal experimenter without variation, "
-    "who takes each tower for the nearest of 16. Points are medians of agents, bars go from the worst to the best.",
+    "fist starts, of forces or speed, friction and mass. Beside them two experimenters without training: a rule, which "
+    "counts the neighbours whose distance has changed, and the best policy of an observer of 1 mm without variation, "
+    "which takes each tower for the nearest of 16. Points are medians of agents, bars go from the worst to the best.",
     conditions=tuple(config for configs in CONDITIONS.values() for config in configs),
     trials=tuple(TRIALS.values()),
     prepare=prepare,
