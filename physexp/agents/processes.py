@@ -1,6 +1,8 @@
 """Processes: how many at a time, in how much memory, what children inherit, and that none outlives its parent."""
 
+from collections.abc import Iterator
 import contextlib
+import math
 import multiprocessing
 from multiprocessing import resource_tracker
 import os
@@ -14,25 +16,46 @@ STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 """Requests to end, from Ctrl-C, from schedulers and containers, and from a terminal that is gone."""
 
 _DEATH_SECONDS = 5.0  # For the system to take away what was killed.
-_QUOTA = Path("/sys/fs/cgroup/cpu.max")  # Of a container: processor time in each period, and the period, us.
-_MOST_MEMORY = Path("/sys/fs/cgroup/memory.max")  # Of a container, bytes.
+_OWN_GROUPS = Path("/proc/self/cgroup")
+_GROUPS = Path("/sys/fs/cgroup")  # Where control groups are mounted: all of version 2, a folder for each kind of 1.
 
 
 def num_cores() -> int:
-    """Returns how many cores this process may use: those that it may run on, or fewer by a container's quota."""
-    cores = len(os.sched_getaffinity(0))
-    if _QUOTA.exists():
-        quota, period = _QUOTA.read_text(encoding="utf-8").split()
-        if quota != "max":
-            cores = min(cores, max(1, int(quota) // int(period)))
+    """Returns how many cores this process may use: those that it may run on, or fewer by a control group's quota."""
+    has_affinity = hasattr(os, "sched_getaffinity")  # macOS has none.
+    cores = len(os.sched_getaffinity(0)) if has_affinity else os.cpu_count() or 1
+    for group in _groups("cpu"):
+        # Processor time in each period, -1 or infinite without a quota, and the period, us.
+        match _read(group, "cpu.max") or _read(group, "cpu.cfs_quota_us", "cpu.cfs_period_us"):
+            case [quota, period] if quota > 0:
+                cores = int(min(cores, max(1, quota / period)))
     return cores
 
 
 def memory() -> int:
-    """Returns how much memory this process may use, bytes: the machine's, or less by a container's limit."""
+    """Returns how much memory this process may use, bytes: the machine's, or less by a control group's limit."""
     installed = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    most = _MOST_MEMORY.read_text(encoding="utf-8").strip() if _MOST_MEMORY.exists() else "max"
-    return installed if most == "max" else min(installed, int(most))
+    names = "memory.max", "memory.limit_in_bytes"
+    limits = [limit for group in _groups("memory") for name in names for limit in _read(group, name)]
+    return int(min(installed, *limits, math.inf))
+
+
+def _groups(kind: str) -> Iterator[Path]:
+    """Yields the control groups of a kind, of either version, that this process is in, and those around them."""
+    for line in _OWN_GROUPS.read_text(encoding="utf-8").splitlines() if _OWN_GROUPS.exists() else ():
+        _, kinds, path = line.split(":", 2)
+        if kind in kinds.split(",") or not kinds:
+            root = _GROUPS / kind if kinds else _GROUPS
+            own = root / path.lstrip("/")
+            yield from (own, *(folder for folder in own.parents if folder.is_relative_to(root)))
+
+
+def _read(group: Path, *names: str) -> list[float]:
+    """Returns the numbers in files of a control group; none where it has no such file."""
+    if not (group / names[0]).exists():
+        return []
+    words = " ".join((group / name).read_text(encoding="utf-8") for name in names).split()
+    return [float(word.replace("max", "inf")) for word in words]
 
 
 @contextlib.contextmanager

@@ -7,33 +7,62 @@ import pytest
 
 from physexp.agents import processes
 
+INSTALLED = psutil.virtual_memory().total
+BOTH = "4:cpu,cpuacct:{0}\n3:memory:{0}\n0::/elsewhere\n"  # Version 1, and a version 2 that has no controllers.
+
+
+@pytest.fixture
+def groups(tmp_path, monkeypatch):
+    """Returns a function that makes control groups: what /proc says of the process, and files with their content."""
+    monkeypatch.setattr(processes, "_OWN_GROUPS", tmp_path / "cgroup")
+    monkeypatch.setattr(processes, "_GROUPS", tmp_path / "mounted")
+    monkeypatch.setattr(os, "sched_getaffinity", lambda pid: set(range(64)))
+
+    def make(own, files):
+        (tmp_path / "cgroup").write_text(own)
+        for name, content in files.items():
+            path = tmp_path / "mounted" / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(f"{content}\n")
+
+    return make
+
 
 @pytest.mark.parametrize(
-    ("quota", "cores"),
+    ("own", "files", "cores"),
     [
-        ("max 100000", 64),
-        ("200000 100000", 2),
-        ("250000 100000", 2),
-        ("50000 100000", 1),  # Half a core's time: one process is the least.
-        ("9900000 100000", 64),  # More than there are.
+        ("0::/\n", {"cpu.max": "max 100000"}, 64),
+        ("0::/\n", {"cpu.max": "250000 100000"}, 2),
+        ("0::/\n", {"cpu.max": "50000 100000"}, 1),  # Half a core's time: one process is the least.
+        ("0::/\n", {"cpu.max": "9900000 100000"}, 64),  # More than there are.
+        ("0::/a/b\n", {"a/b/cpu.max": "max 100000", "a/cpu.max": "300000 100000"}, 3),
+        (BOTH.format("/a/b"), {"cpu/a/b/cpu.cfs_quota_us": -1, "cpu/a/b/cpu.cfs_period_us": 100_000}, 64),
+        (BOTH.format("/a/b"), {"cpu/a/cpu.cfs_quota_us": 400_000, "cpu/a/cpu.cfs_period_us": 100_000}, 4),
+        # A container that sees its own group mounted as the outermost, and its path as the host has it.
+        (BOTH.format("/docker/7"), {"cpu/cpu.cfs_quota_us": 200_000, "cpu/cpu.cfs_period_us": 100_000}, 2),
     ],
 )
-def test_a_containers_quota_counts_beside_the_cores_that_there_are(quota, cores, tmp_path, monkeypatch):
-    (tmp_path / "cpu.max").write_text(f"{quota}\n")
-    monkeypatch.setattr(processes, "_QUOTA", tmp_path / "cpu.max")
-    monkeypatch.setattr(os, "sched_getaffinity", lambda pid: set(range(64)))
+def test_quotas_of_control_groups_count_beside_the_cores_that_there_are(own, files, cores, groups):
+    groups(own, files)
     assert processes.num_cores() == cores
 
 
-def test_without_a_container_all_cores_count(tmp_path, monkeypatch):
-    monkeypatch.setattr(processes, "_QUOTA", tmp_path / "none")
-    assert processes.num_cores() == len(os.sched_getaffinity(0))
+@pytest.mark.parametrize(
+    ("own", "files", "memory"),
+    [
+        ("0::/\n", {"memory.max": "max"}, INSTALLED),
+        ("0::/\n", {"memory.max": 2**62}, INSTALLED),
+        ("0::/a/b\n", {"a/b/memory.max": 2_000_000, "a/memory.max": 1_000_000}, 1_000_000),
+        (BOTH.format("/a"), {"memory/a/memory.limit_in_bytes": 1_000_000}, 1_000_000),
+        (BOTH.format("/docker/7"), {"memory/memory.limit_in_bytes": 1_000_000}, 1_000_000),
+    ],
+)
+def test_memory_is_what_the_limits_of_control_groups_leave(own, files, memory, groups):
+    groups(own, files)
+    assert processes.memory() == pytest.approx(memory, rel=1e-3)
 
 
-@pytest.mark.parametrize("limit, memory", [("1000000\n", 1_000_000), ("max\n", None), (f"{2**62}\n", None)])
-def test_memory_is_what_a_containers_limit_leaves_of_the_machines(tmp_path, monkeypatch, limit, memory):
-    monkeypatch.setattr(processes, "_MOST_MEMORY", tmp_path / "memory.max")
-    installed = psutil.virtual_memory().total
-    assert processes.memory() == pytest.approx(installed, rel=1e-3)
-    (tmp_path / "memory.max").write_text(limit)
-    assert processes.memory() == pytest.approx(memory or installed, rel=1e-3)
+def test_a_system_without_control_groups_and_affinity_has_all_its_cores(groups, monkeypatch):
+    monkeypatch.delattr(os, "sched_getaffinity")  # As on macOS.
+    assert processes.num_cores() == os.cpu_count()
+    assert processes.memory() == pytest.approx(INSTALLED, rel=1e-3)
