@@ -221,10 +221,10 @@ train towers features
 train which_is_heavier features --max-farmes 3
 train which_is_heavier features --frames 0
 train which_is_heavier features --frames many
-train which_is_heavier features --num-workers 0
-train which_is_heavier features --num-workers 1000000
-train which_is_heavier features --num-workers 9999
-train which_is_heavier features --envs-per-worker 1000000000000
+train which_is_heavier features --agent a3c --num-workers 0
+train which_is_heavier features --agent a3c --num-workers 1000000
+train which_is_heavier features --agent a3c --num-workers 9999
+train which_is_heavier features --agent a3c --envs-per-worker 1000000000000
 train which_is_heavier features --learning-rate nan
 train which_is_heavier features --learning-rate inf
 train which_is_heavier features --seed -1

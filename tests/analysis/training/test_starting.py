@@ -77,7 +77,7 @@ def test_a_run_dir_that_is_a_file_or_below_one_is_told(place, tmp_path, capsys):
 def test_a_disk_without_room_for_checkpoints_is_told_before_training(tmp_path, monkeypatch, capsys):
     usage = shutil.disk_usage(tmp_path)
     monkeypatch.setattr(shutil, "disk_usage", lambda path: usage._replace(free=1_000_000))
-    line = refusal(capsys, "train", *TASK, "--run-dir", tmp_path / "run", "--num-workers", 1)
+    line = refusal(capsys, "train", *TASK, "--run-dir", tmp_path / "run", "--agent", "a3c")
     # Its LSTM alone, 4 x 100 x 200 weights of 4 bytes with two statistics of each, takes 0.96 MB, thrice 2.9 MB.
     assert "has 1.0 MB of free space, and checkpoints need" in line and "make room, or choose another folder" in line
     assert os.listdir(tmp_path) == []
@@ -92,7 +92,18 @@ def starting(tmp_path):
 
     Many more than by default: what takes the test a moment to see takes the worker much longer.
     """
-    options = ["--num-workers", 1, "--frames", 10**9, "--run-dir", tmp_path / "a" / "run", "--envs-per-worker", 3000]
+    options = [
+        "--agent",
+        "a3c",
+        "--num-workers",
+        1,
+        "--frames",
+        10**9,
+        "--run-dir",
+        tmp_path / "a" / "run",
+        "--envs-per-worker",
+        3000,
+    ]
     with commands.start("train", *TASK, *options) as process:
         (worker,) = wait_until(lambda: trainers.workers(process), "a worker")
         yield process, worker
@@ -120,7 +131,7 @@ def test_ctrl_c_before_anything_was_learned_leaves_no_folder(starting, tmp_path)
     "option, said",
     [
         (["--frames", 9000], "frames is 9000, and in {} it is 2000; leave it out"),
-        (["--agent", "belief"], "agent is belief, and in {} it is ppo; leave it out"),
+        (["--agent", "a3c"], "agent is a3c, and in {} it is ppo; leave it out"),
         (["--replay-every", 9000], "replay_every is 9000, and in {} it is 0; leave it out"),
         (["--difficulty", 3], "difficulty is 3, and in {} it is 10; leave it out"),
         (["--variation", 0.5], "variation is 0.5, and in {} it is not chosen; leave it out"),
