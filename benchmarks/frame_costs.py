@@ -1,4 +1,4 @@
-"""What each part of drawing a frame costs, and what each choice of the scene saves: ratios to the frame as it is.
+"""Measures the cost of each part of a frame, and of each choice of the scene, as ratios to the frame as it is.
 
     python benchmarks/frame_costs.py
 
@@ -7,20 +7,21 @@ what Mesa's own threads do to frames this small.
 """
 
 from collections.abc import Callable
+import functools
 import statistics
 import time
 
 import numpy as np
 
 from physexp import suite
-from physexp.suite.engine import rendering
+from physexp.suite.engine import gl, rendering
 
 import mujoco  # isort: skip
 
 REPETITIONS, FRAMES = 7, 100
 
 
-def model(**visual):
+def apparatus(**visual):
     """The fist's scene, with attributes of its MJCF's visual/quality or visual/global changed."""
     task = suite.load_task("towers", "fist_features", {"random": 0})
     root = task.root_entity.mjcf_model
@@ -42,35 +43,35 @@ def model(**visual):
             root.find("light", "lamp").castshadow = value
         else:
             root.visual.quality.set_attributes(**{name: value})
-    return task.build_apparatus(0).model
+    return task.build_apparatus(0)
 
 
 def drawing(
     drawn, size=rendering.SIZE, buffer=rendering.SIZE, flags=(), num_geoms=None, read=True
 ) -> Callable[[], None]:
     """A function that draws a frame, and reads it back."""
-    renderer = rendering.Renderer(drawn, size=buffer)
+    renderer = rendering.Renderer(drawn.model, drawn.moving_geoms, size=buffer)
     renderer.scene.ngeom = renderer.scene.ngeom if num_geoms is None else num_geoms
     for flag in flags:
         renderer.scene.flags[flag] = True
     image, rectangle = np.zeros((size, size, 3), np.uint8), mujoco.MjrRect(0, 0, size, size)
 
     def draw() -> None:
-        renderer.context.make_current()
-        for _ in range(FRAMES):
-            mujoco.mjr_render(rectangle, renderer.scene, renderer.buffers)
-            if read:
+        with gl.current(renderer.context):
+            for _ in range(FRAMES):
+                mujoco.mjr_render(rectangle, renderer.scene, renderer.buffers)
+                if read:
+                    mujoco.mjr_readPixels(image, None, rectangle, renderer.buffers)
+            if not read:  # Waits for the frames to be drawn.
                 mujoco.mjr_readPixels(image, None, rectangle, renderer.buffers)
-        if not read:  # Waits for what has been asked for.
-            mujoco.mjr_readPixels(image, None, rectangle, renderer.buffers)
 
-    return draw
+    return functools.partial(gl.draw, draw)
 
 
 def main() -> None:
     """Prints the cost of each variant."""
     flag = mujoco.mjtRndFlag
-    ours = model()
+    ours = apparatus()
     variants = {
         "as it is": drawing(ours),
         "without read-back": drawing(ours, read=False),
@@ -78,15 +79,15 @@ def main() -> None:
         "the floor alone (fragments)": drawing(ours, num_geoms=1),
         "all geoms in 8 x 8 pixels (vertices and state)": drawing(ours, size=8),
         "off-screen buffer of 640 x 640": drawing(ours, buffer=640),
-        "4 samples a pixel": drawing(model(offsamples=4)),
-        "8 samples a pixel": drawing(model(offsamples=8)),
-        "a plane as floor": drawing(model(floor="plane")),
-        "4 x 4 quads a box side": drawing(model(numquads=4)),
-        "28 slices a sphere": drawing(model(numslices=28, numstacks=16)),
+        "4 samples a pixel": drawing(apparatus(offsamples=4)),
+        "8 samples a pixel": drawing(apparatus(offsamples=8)),
+        "a plane as floor": drawing(apparatus(floor="plane")),
+        "4 x 4 quads a box side": drawing(apparatus(numquads=4)),
+        "28 slices a sphere": drawing(apparatus(numslices=28, numstacks=16)),
         "reflections": drawing(ours, flags=[flag.mjRND_REFLECTION]),
-        "a skybox": drawing(model(skybox=True), flags=[flag.mjRND_SKYBOX]),
-        "a shadow, map of 1024": drawing(model(lamp=True, shadowsize=1024), flags=[flag.mjRND_SHADOW]),
-        "a shadow, map of 4096": drawing(model(lamp=True, shadowsize=4096), flags=[flag.mjRND_SHADOW]),
+        "a skybox": drawing(apparatus(skybox=True), flags=[flag.mjRND_SKYBOX]),
+        "a shadow, map of 1024": drawing(apparatus(lamp=True, shadowsize=1024), flags=[flag.mjRND_SHADOW]),
+        "a shadow, map of 4096": drawing(apparatus(lamp=True, shadowsize=4096), flags=[flag.mjRND_SHADOW]),
     }
     costs: dict[str, list[float]] = {name: [] for name in variants}
     for repetition in range(REPETITIONS + 1):
