@@ -30,7 +30,7 @@ class Ideal(Generic[options_lib.Options]):
     """Print what the ideal experimenter achieves: no agent's expected return is larger.
 
     Attributes:
-      options: what can be chosen of the task, and of what the ideal experimenter can tell apart.
+      options: options of the task and of the ideal experimenter.
       task: the task; by default the domain's first.
       discount: the agent's gamma; by default the domain's.
       json: print JSON.

@@ -137,8 +137,8 @@ def _drawn_nuisances(task: str, task_kwargs: Mapping[str, Any]):
 
 
 _NUM_NUISANCES = 16
-# m and m/s: a fist that wanders may stand at any of countless places, so when somebody's play is judged, situations are
-# taken for one that differ by less than half of what it moves in a control step.
+# m and m/s: a fist that wanders may stand at any of countless places, so when actions are judged, one search stands for
+# all situations that differ by less than half of the fist's move in a control step.
 _TOLERANCES = dict.fromkeys(("fist_features", "fist_pixels"), 0.05)
 _COARSE = 0.001  # m, the resolution of an observer that is compared with the ideal one.
 _RULES = {

@@ -114,7 +114,7 @@ class Search:
                 self.situations.expand(leaf)
 
     def acting(self, situation: Situation, group: Group, left: int, action: int) -> tuple[float, float]:
-        """Returns what is earned by an interaction at least and at most, as far as it has been found out."""
+        """Returns the lower and the upper bound on the worth of an interaction that follow from the search so far."""
         low = high = 0.0
         parts, following = self.situations.follow(situation, group, action)
         for chance, part in parts:

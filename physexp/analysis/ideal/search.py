@@ -116,7 +116,7 @@ class Solution:
         return groups
 
     def judge(self, episode: base.Episode) -> base.Judgement:
-        """Returns what could be known in an episode, and what its actions were worth.
+        """Returns the best possible beliefs in an episode, and the worth of its actions.
 
         The worth of an interaction that was neither taken nor best is a lower bound. Situations that are alike within
         the tolerance have the same worth.
@@ -146,7 +146,7 @@ class Solution:
         return base.Judgement(np.array(beliefs), np.array(values), np.array(tells))
 
     def _worth_of_interactions(self, situation, group, left: int, action: int) -> np.ndarray:
-        """Returns what interactions are worth, float64 [number of them], exactly of the best and of the one taken."""
+        """Returns the worth of all interactions, float64 [number of them]; exact for the best one and the one taken."""
         count, search = self.hypotheses.task.num_interactions, self._judging
         if left == 1:
             return np.full(count, float(rules.WRONG))

@@ -57,11 +57,11 @@ def label_chances(group: Group, prior: np.ndarray, answers: np.ndarray, num_labe
 
 @dataclasses.dataclass(eq=False)
 class Situation:
-    """Where hypotheses stand after a sequence of actions, and what can be known there.
+    """The states of all hypotheses after a sequence of actions, and the groups that can be told apart.
 
     Attributes:
-      moment: of the simulations.
-      groups: those that are followed.
+      moment: the states of the simulations.
+      groups: the groups that are followed.
       linked: which of their n members, in increasing order, have looked alike so far, bool [n, n].
       after: by action, what its groups split into, and the situation that follows; of actions looked at.
       like: the situation that stands for it in searches: itself, or one that is the same within the tolerance.
@@ -133,7 +133,7 @@ class Situations:
         return self.likeliest(group) == 1
 
     def follow(self, situation: Situation, group: Group, action: int) -> tuple[Parts, Situation]:
-        """Returns what a group splits into with an action, and the situation that follows."""
+        """Returns the parts into which an action splits a group, and the situation that follows."""
         if not self._wholly and self.is_known(group):
             return [(1.0, group)], situation
         self._look_at(situation, [action])
@@ -160,13 +160,13 @@ class Situations:
     def _following(
         self, situation: Situation, members: list[int], apart: np.ndarray, moment: batch.Moment
     ) -> tuple[dict[Group, Parts], Situation]:
-        """Returns what the groups of a situation, with these members, split into, and the situation that follows.
+        """Returns the parts into which an action splits the groups of a situation, and the situation that follows.
 
         Args:
-          situation: before the action.
-          members: of its groups.
-          apart: how far apart they look after it.
-          moment: where they stand after it.
+          situation: the situation before the action.
+          members: the members of its groups.
+          apart: distances of their observations after it, [n, n].
+          moment: their states after it.
         """
         self.count += 1
         linked = situation.linked & (apart <= self.resolution)

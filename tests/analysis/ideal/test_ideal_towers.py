@@ -139,7 +139,7 @@ def test_what_is_kept_to_judge_others_is_bounded_and_judgements_stay_the_same(mo
     assert world.steps > all_steps  # It was simulated again.
 
 
-def test_luck_is_zero_on_average_for_a_fist_that_wanders_and_reads_every_bit():
+def test_luck_is_zero_on_average_for_a_wandering_fist_that_reads_every_bit():
     """The fist moves at random, mostly to +x, and the answer is given as soon as a cube has moved."""
     solution = domains.find("towers").ideal("fist_features", {}, 0.98)
     generator, size = np.random.default_rng(fresh_seed()), 48
@@ -161,7 +161,7 @@ def test_luck_is_zero_on_average_for_a_fist_that_wanders_and_reads_every_bit():
     assert abs(luck.mean()) < 4.5 * luck.std() / math.sqrt(size) + 1e-3
 
 
-def test_beliefs_of_judged_actions_are_exact_wherever_the_fist_has_wandered():
+def test_judged_beliefs_are_exact_wherever_the_fist_has_wandered():
     wandering = types.SimpleNamespace(hidden=np.array(6), actions=np.array([3, 2, 2, 1, 1, 0, 0, 0, 0]))
     solution = domains.find("towers").ideal("fist_features", {}, 0.98)
     np.testing.assert_allclose(solution.judge(wandering).beliefs, solution.beliefs(wandering))
