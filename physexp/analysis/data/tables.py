@@ -37,7 +37,7 @@ def write(path: Path, table: pyarrow.Table, **options: Any) -> None:
     sink = io.BytesIO()
     parquet.write_table(table, sink, write_page_checksum=True, **options)
     content = sink.getvalue()
-    end = len(content) - 8 - int.from_bytes(content[-8:-4], "little")  # Where the description starts.
+    end = len(content) - 8 - int.from_bytes(content[-8:-4], "little")  # The start of the description.
     mark = _MARK + hashlib.sha256(content).hexdigest().encode()
     files.write_atomically(path, content[:end] + mark + content[end:])
 

@@ -9,21 +9,22 @@ from pathlib import Path
 
 from physexp.agents import files
 from physexp.analysis import callbacks
-from physexp.analysis.data import provenance
+from physexp.analysis.data import provenance, text
 from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions
 from physexp.analysis.experiments import claims as claims_lib
-from physexp.analysis.reproduction import sweep
+from physexp.analysis.reproduction import summary, sweep
 from physexp.analysis.training import run as run_lib
 
 _INTRODUCTION = (
-    "What *Learning to Perform Physics Experiments via Deep Reinforcement Learning* (Denil et al., ICLR 2017) reports, "
-    "made again from stored data. A claim holds where its statistic lies inside the range wanted, fails where it lies "
-    "outside, and is undecided where the data, or too few agents, cannot tell at a level of 5 %, corrected for the "
-    "number of conditions in which the same claim is tested (Holm, 1979); the 95 % intervals shown are not corrected. "
-    "Sanity checks, which could fail only if something were broken, are not counted. What each claim wants, and when "
-    "that was written down, is in docs/plan.md; a statistic that was found in these data says so, and its verdict "
-    "describes them. Of the agents planned, those that are not trained yet are named below their figure."
+    "The paper is *Learning to Perform Physics Experiments via Deep Reinforcement Learning* (Denil et al., ICLR "
+    "2017); its claims and ours are tested on stored data. A claim holds where its statistic lies inside the range "
+    "wanted, fails where it lies outside, and is undecided where the data, or too few agents, cannot tell at a level "
+    "of 5 %, corrected for the number of conditions in which the same claim is tested (Holm, 1979); the 95 % "
+    "intervals shown are not corrected. Sanity checks, which could fail only if something were broken, are not "
+    "counted. The ranges of all claims, and when each was written down, are in docs/plan.md; a statistic that was "
+    "found in these data says so, and its verdict describes them. Of the agents planned, those that are not trained "
+    "yet are named below their figure."
 )
 
 
@@ -86,9 +87,9 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
         verdicts = claims_lib.corrected(found)
         tested += [_Tested(claim, verdict, experiment) for claim, verdict in zip(found, verdicts, strict=True)]
         tell(f"drew {experiment.name}")
-    markdown = results.path / "report.md"
-    files.write_atomically(markdown, _markdown(shown, tested, missing, results).encode())
-    files.write_atomically(results.path / "report.html", _page(shown, tested, missing, results).encode())
+    markdown, runs = results.path / "report.md", _finished(results)
+    files.write_atomically(markdown, _markdown(shown, tested, missing, runs).encode())
+    files.write_atomically(results.path / "report.html", _page(shown, tested, missing, runs, results).encode())
     return markdown
 
 
@@ -103,18 +104,26 @@ def _missing(experiment: base.Experiment, results: base.Results) -> str:
     return f"Planned, and not trained yet (seeds): {words}." if words else ""
 
 
-def _provenance(results: base.Results) -> list[str]:
-    """Which commits made the agents and how many there are; those that are still in training are left out."""
-    counts: dict[str, int] = {}
-    for folder in sorted(path.parent for path in (results.path / "runs").glob("*/config.json")):
-        run = run_lib.Run(folder)
-        if not run.is_finished:
-            continue
-        commit = provenance.shortened(run.facts.get("commit", "unknown"))
-        counts[commit] = counts.get(commit, 0) + 1
-    made = ", ".join(f"{number} by {commit}" for commit, number in counts.items())
+def _finished(results: base.Results) -> list[run_lib.Run]:
+    """Returns the runs of all agents; those that are still in training are left out."""
+    runs = [run_lib.Run(path.parent) for path in sorted((results.path / "runs").glob("*/config.json"))]
+    return [run for run in runs if run.is_finished]
+
+
+def _summary(tested: list[_Tested], runs: list[run_lib.Run]) -> dict[str, list[str]]:
+    """Returns the paragraphs at the beginning, and the points below each."""
+    claims = [(one.claim, one.verdict) for one in tested if one.claim.section != claims_lib.OURS]
+    counted = [(claim, verdict) for claim, verdict in claims if not claim.is_sanity_check]
+    sentences = " ".join(filter(None, [summary.in_numbers(counted), summary.of_workers(runs)]))
+    return {sentences: [], **summary.of_claims(counted), _INTRODUCTION: []}
+
+
+def _provenance(runs: list[run_lib.Run]) -> list[str]:
+    """Returns how many agents each commit has made, and the commit that has made the report."""
+    commits = (text.escaped(provenance.shortened(str(run.facts.get("commit", "unknown")))) for run in runs)
+    made = ", ".join(f"{number} by {commit}" for commit, number in collections.Counter(commits).items())
     return [
-        f"Agents: {sum(counts.values())}, trained by the source of these commits: {made}.",
+        f"Agents: {len(runs)}, trained by the source of these commits: {made}.",
         f"Figures and verdicts: made by {provenance.shortened(provenance.commit())}.",
     ]
 
@@ -167,8 +176,10 @@ def _anchor(experiment: base.Experiment) -> str:
     return experiment.name.replace("_", "-")
 
 
-def _markdown(shown, tested, missing, results) -> str:
-    lines = ["# Results", "", _INTRODUCTION, "", *_provenance(results), ""]
+def _markdown(shown, tested, missing, runs) -> str:
+    lines = ["# Results", ""]
+    for paragraph, points in _summary(tested, runs).items():
+        lines += [paragraph, "", *(f"- {point}" for point in points), ""] if points else [paragraph, ""]
     for title, rows in _tables(tested).items():
         lines += [f"## {title}", "", f"{_tally(rows)}.", ""]
         lines += _header(_HEADER)
@@ -176,7 +187,7 @@ def _markdown(shown, tested, missing, results) -> str:
             " | ".join((f"| **{one.words}**", *_row(one), f"[{one.experiment.name}](#{_anchor(one.experiment)}) |"))
             for one in rows
         ]
-        lines += [""] + [text for reason in _reasons(rows) for text in (reason, "")]
+        lines += [""] + [part for reason in _reasons(rows) for part in (reason, "")]
     for one in shown:
         experiment, table = one.experiment, one.table
         lines += [
@@ -193,7 +204,8 @@ def _markdown(shown, tested, missing, results) -> str:
             lines += [*_header(table[0]), *("| " + " | ".join(row) + " |" for row in table[1:]), ""]
         if one.missing:
             lines += [one.missing, ""]
-    lines += [text for line in missing for text in (f"Left out: {line}", "")]
+    lines += [part for line in missing for part in (f"Left out: {line}", "")]
+    lines += ["## Provenance", "", *(part for line in _provenance(runs) for part in (line, ""))]
     return "\n".join(lines).rstrip() + "\n"
 
 
@@ -202,8 +214,11 @@ def _header(names) -> list[str]:
     return ["| " + " | ".join(names) + " |", "|" + "---|" * len(names)]
 
 
-def _page(shown, tested, missing, results) -> str:
-    parts = [f"<p>{html.escape(text).replace('*', '')}</p>" for text in (_INTRODUCTION, *_provenance(results))]
+def _page(shown, tested, missing, runs, results) -> str:
+    parts = []
+    for paragraph, points in _summary(tested, runs).items():
+        parts.append(f"<p>{html.escape(paragraph).replace('*', '')}</p>")
+        parts += [f"<ul>{''.join(f'<li>{html.escape(point)}</li>' for point in points)}</ul>"] if points else []
     head = "".join(f"<th>{name}</th>" for name in _HEADER)
     for title, rows in _tables(tested).items():
         body = "".join(
@@ -232,6 +247,7 @@ def _page(shown, tested, missing, results) -> str:
         if one.missing:
             parts.append(f"<p>{html.escape(one.missing)}</p>")
     parts += [f"<p>Left out: {html.escape(line)}</p>" for line in missing]
+    parts += ["<h2>Provenance</h2>", *(f"<p>{line}</p>" for line in _provenance(runs))]
     return f"<!doctype html><meta charset=utf-8><title>physexp: results</title><style>{_STYLE}</style>" + (
         "<h1>Results</h1>" + "\n".join(parts) + "\n"
     )

@@ -122,9 +122,9 @@ def _interval(row: Mapping[str, Any]) -> str:
 
 
 def facts(found: Mapping[str, Any]) -> dict[str, str]:
-    """Returns how an agent was made, and how it was scored, in words, of what `score.json` holds."""
+    """Returns how an agent was made and how it was scored, in words, from the content of `score.json`."""
     agent, versions = found["agent"], found["versions"]
-    is_trained = "seed" in agent or "agents" in agent  # Of any other, what is said is what its owner says.
+    is_trained = "seed" in agent or "agents" in agent  # The facts of any other are its owner's words.
     how = ["takes its likeliest actions" if found["greedy"] else "draws its actions"] if is_trained else []
     used = ", ".join(f"{name} {version}" for name, version in versions.items())
     return {

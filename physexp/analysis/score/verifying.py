@@ -18,7 +18,7 @@ from physexp.agents import files
 from physexp.analysis.data import provenance, tables
 from physexp.analysis.score import episodes, judging, log, protocol, reference, scoring
 
-_TOLERANCE = 1e-9  # Of what is computed in floating point, on whatever machine.
+_TOLERANCE = 1e-9  # Of floating-point numbers, on any machine.
 
 
 def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dict[str, Any]:

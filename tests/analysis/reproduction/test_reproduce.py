@@ -1,6 +1,7 @@
 """Reproducing experiments, as a user does it: resumable, complete, and readable at the end."""
 
 from concurrent import futures
+import html
 import json
 import re
 import shutil
@@ -16,7 +17,7 @@ from waiting import wait_until
 
 from physexp.analysis.data import provenance
 from physexp.analysis.evaluation import records
-from physexp.analysis.experiments import EXPERIMENTS, base, conditions
+from physexp.analysis.experiments import EXPERIMENTS, base, claims, conditions
 from physexp.analysis.reproduction import report, reproduce, sweep
 from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
@@ -210,6 +211,27 @@ def test_the_report_begins_with_the_claims_of_the_paper_failures_first_and_sanit
     assert page.index("Claims of the paper") < page.index("<img")
     for name in set(re.findall(r"\]\(#([\w-]+)\)", markdown)):
         assert f'<a id="{name}">' in markdown and f'<h2 id="{name}">' in page
+
+
+def test_the_report_begins_with_a_summary_of_its_verdicts(rehearsed, reported):
+    (results, _), (markdown, page) = rehearsed, reported
+    its = {}
+    for name in re.findall(r"!\[[^]]*\]\(figures/(\w+).png\)", markdown):
+        found = EXPERIMENTS[name].claims(EXPERIMENTS[name].load(results))
+        for claim, verdict in zip(found, claims.corrected(found), strict=True):
+            if claim.section != claims.OURS and not claim.is_sanity_check:
+                its.setdefault((claim.text, claim.section), set()).add(verdict)
+    held = sum(verdicts == {"holds"} for verdicts in its.values())
+    failed = sum("fails" in verdicts for verdicts in its.values())
+    first = markdown.splitlines()[2]
+    assert first.startswith(f"Claims of the paper: {len(its)}. Held in every condition")
+    assert f" in which they were tested: {held}. " in first
+    assert f"Failed in at least one: {failed}. Undecided in at least one, and failed in none: " in first
+    assert html.escape(first) in page
+    # The configurations that were rehearsed have a worker each.
+    assert f"All {len(NAMES)} A3C agents of these data were trained by a single worker" in first
+    summary, table = markdown.index("Undecided:"), markdown.index("## Claims of the paper")
+    assert summary < table < markdown.index("## Provenance") < markdown.index("trained by the source of these commits")
 
 
 def test_a_report_of_nothing_says_what_to_do(tmp_path):

@@ -101,7 +101,7 @@ def test_the_page_its_figure_and_its_part_of_the_readme_are_written(results, mon
     assert readme.read_text() == written
 
 
-def test_a_readme_in_which_the_end_of_the_leaderboard_is_lost_is_left_alone(results):
+def test_a_readme_without_the_end_of_the_leaderboard_is_left_alone(results):
     readme = results.parent / "README.md"
     readme.write_text(f"before\n{leaderboard.MARKS[0]}\nafter\n")
     with pytest.raises(ValueError, match="put that where the leaderboard ends"):
