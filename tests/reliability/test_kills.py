@@ -16,6 +16,7 @@ from physexp.analysis.evaluation import finding, records
 from physexp.analysis.experiments import base
 from physexp.analysis.replay import recording, writing
 from physexp.analysis.reproduction import sweep
+from physexp.analysis.score import log, playing, protocol, scoring
 from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import recorder
 from physexp.analysis.training import run as run_lib
@@ -190,6 +191,32 @@ def test_training_that_was_killed_goes_on_to_the_same_variables_bit_for_bit(unin
             assert subjects.contents(run) == expected, death
             assert attacks.litter(run.path) == [], death
             tally["not killed" if not end.was_killed else "from a checkpoint" if reached else "from the start"] += 1
+
+
+# A score: playing, judging and writing.
+
+
+def score(folder):
+    scoring.score("random", protocol.named(["threshold/features", "strings/features"]), 6, folder)
+
+
+def test_a_score_that_was_killed_goes_on_to_the_same_log(tmp_path):
+    extent = attacks.measure(score, tmp_path / "whole")
+    expected = log.read(tmp_path / "whole")
+    generator = attacks.generator()
+    with attacks.Tally("kill, score") as tally:
+        for attack in range(attacks.repetitions(4, share=0.1)):
+            folder = tmp_path / str(attack)
+            death = extent.draw(generator)
+            end = attacks.run(score, folder, first=death)
+            assert end.was_killed or end.code == 0, (death, end.said)
+            is_complete = (folder / scoring.FILE).exists() and not (folder / playing.FILE).exists()
+            if not is_complete:
+                resumed = attacks.run(score, folder)
+                assert resumed.code == 0, (death, resumed.said)
+            assert log.read(folder).equals(expected), death
+            assert attacks.litter(folder) == [], death
+            tally["complete" if is_complete else "gone on with"] += 1
 
 
 # A sweep's agent: training, keeping the network alone, playing.
