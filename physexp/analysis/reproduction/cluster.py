@@ -8,6 +8,7 @@ import os
 import socket
 import subprocess
 import sys
+import tempfile
 
 import ray
 from ray._private import ray_constants
@@ -27,7 +28,8 @@ _LOOPBACK_VARIABLE = "RAY_ENABLE_WINDOWS_OR_OSX_CLUSTER"  # What Ray calls it; 0
 def joined(address: str) -> Iterator[None]:
     """Returns a context in which this process belongs to a cluster.
 
-    A cluster that is started here listens on the loopback only, has no dashboard, and demands Ray's token.
+    A cluster that is started here listens on the loopback only, has no dashboard, demands Ray's token, and keeps its
+    files in a folder of this user's.
 
     Args:
       address: of the cluster's head, `HOST:PORT`; `local` for a new one of this machine alone; `auto` for the one that
@@ -54,11 +56,21 @@ def _join(address: str, stack: contextlib.ExitStack) -> None:
         except ConnectionError:
             address = LOCAL
     if address == LOCAL:
+        # Ray opens its folder to all users: it lies in one of this user's, which is removed after the cluster has ended.
+        private = tempfile.TemporaryDirectory(prefix="ray-", ignore_cleanup_errors=True)
+        folder = stack.enter_context(private)
+        stack.callback(ray.shutdown)
         stack.enter_context(_on_the_loopback())
         mask = os.umask(0o077)  # The token is for this user.
         try:
             with processes.unheard_by_children():
-                ray.init(LOCAL, logging_level=logging.ERROR, include_dashboard=False, _system_config=_RECOMMENDED)
+                ray.init(
+                    LOCAL,
+                    logging_level=logging.ERROR,
+                    include_dashboard=False,
+                    _system_config=_RECOMMENDED,
+                    _temp_dir=os.path.join(folder, "r"),
+                )
         finally:
             os.umask(mask)
         return

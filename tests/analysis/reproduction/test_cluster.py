@@ -8,6 +8,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import types
@@ -351,6 +352,8 @@ def test_the_command_trains_on_a_cluster_that_it_starts_itself_and_that_only_thi
         "train",
         "which_is_heavier",
         "features",
+        "--agent",
+        "a3c",
         "--frames",
         "2000",
         "--envs-per-worker",
@@ -360,13 +363,17 @@ def test_the_command_trains_on_a_cluster_that_it_starts_itself_and_that_only_thi
         "--cluster",
         "local",
     ]
-    addresses = set()
-    environment = {**os.environ, "HOME": str(tmp_path)}
-    with subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, text=True, env=environment) as process:
-        while process.poll() is None:
-            addresses |= {address for address, _ in commands.listening(process.pid)}
-            time.sleep(0.1)
-        output = process.stdout.read()
+    addresses, modes = set(), set()
+    with tempfile.TemporaryDirectory(prefix="T") as short:  # Names of sockets have at most 107 letters.
+        environment = {**os.environ, "HOME": str(tmp_path), "TMPDIR": short}
+        with subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, text=True, env=environment) as process:
+            while process.poll() is None:
+                addresses |= {address for address, _ in commands.listening(process.pid)}
+                modes |= {folder.stat().st_mode & 0o777 for folder in Path(short).glob("ray*")}
+                time.sleep(0.1)
+            output = process.stdout.read()
+        assert modes == {0o700}, "no other user reaches its sockets"
+        assert not list(Path(short).glob("ray*"))
     assert process.returncode == 0
     assert output.splitlines()[-1] == str(tmp_path / "run")
     assert run_lib.Run(tmp_path / "run").is_finished
@@ -385,7 +392,7 @@ def test_a_head_that_does_not_answer_is_one_readable_line(monkeypatch):
 
 @pytest.mark.parametrize("address, words", [("127.0.0.1:1", "refused"), ("nowhere", "give HOST:PORT, auto or local")])
 def test_a_cluster_that_is_not_there_is_one_readable_line(address, words, tmp_path):
-    options = ["--run-dir", tmp_path / "run", "--cluster", address]
+    options = ["--agent", "a3c", "--run-dir", tmp_path / "run", "--cluster", address]
     done = commands.run("train", "which_is_heavier", "features", *options)
     assert done.returncode == 2, done.stderr
     assert done.stderr.count("\n") == 1
