@@ -154,13 +154,12 @@ def _hardware(facts: dict) -> Iterator[dict]:
 
 
 def _available_memory() -> float:
-    """Returns the memory that programs can have, GiB; on Linux with what caches would give back."""
-    path = Path("/proc/meminfo")
+    """Returns the memory that programs can have, GiB; on Linux without what other programs have now."""
+    path, most = Path("/proc/meminfo"), processes.memory()
     if path.exists():
         kibibytes = dict(line.split()[:2] for line in path.read_text(encoding="utf-8").splitlines())
-        if "MemAvailable:" in kibibytes:
-            return int(kibibytes["MemAvailable:"]) / 2**20
-    return os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") / 2**30
+        most = min(most, 2**10 * int(kibibytes.get("MemAvailable:", most)))
+    return most / 2**30
 
 
 def _at_least(name: str, value: float, least: float, unit: str, advice: str) -> dict:
