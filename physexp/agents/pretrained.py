@@ -73,7 +73,7 @@ def load(
       OSError: if its files cannot be read.
       ValueError: where there is no such agent, and it lists those that there are; or if its files are damaged.
     """
-    folder = Path(folder)
+    folder = Path(folder).expanduser()
     for what, value in (("domain", domain), ("task", task), ("agent", agent)):
         if not isinstance(value, str) and (what, value) != ("agent", None):
             raise ValueError(f"{what} is {value!r}; give a name")

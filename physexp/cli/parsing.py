@@ -37,7 +37,7 @@ def main() -> None:
     except KeyboardInterrupt as error:
         printing.warn("physexp: interrupted")
         sys.exit(stopping.exit_status(error))
-    except BrokenPipeError:  # Who read the output, `head` for one, has seen enough.
+    except BrokenPipeError:  # The reader of the output, `head` for one, has seen enough.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(1)
 
@@ -60,7 +60,7 @@ def _run(arguments: list[str]) -> None:
 
 
 def parse(arguments: list[str]) -> Any:
-    """Returns the command that the arguments describe, with the options of what they name.
+    """Returns the command that the arguments describe, with the options of its domain and learner.
 
     Raises:
       SystemExit: after printing help, where that is asked for.
@@ -68,6 +68,7 @@ def parse(arguments: list[str]) -> Any:
     """
     if "" in arguments:
         raise ValueError("an argument is empty, as an unset variable of the shell is; give a value or leave it out")
+    arguments = [_with_home(argument) for argument in arguments]
     command = _Command(arguments)
 
     def refuse(event: tyro_errors.ParseErrorEvent) -> NoReturn:
@@ -77,6 +78,12 @@ def parse(arguments: list[str]) -> Any:
 
     with tyro_errors.on_parse_error(refuse):
         return tyro.cli(Union[command.kinds()], prog="physexp", description=_DESCRIPTION, args=command.arguments)  # type: ignore[call-overload] # noqa: UP007
+
+
+def _with_home(argument: str) -> str:
+    """Returns an argument with the home folder for a `~` at its beginning; shells leave that of `--option=~/path`."""
+    option, equals, value = argument.partition("=") if argument.startswith("--") else ("", "", argument)
+    return option + equals + os.path.expanduser(value)
 
 
 class _Command:
@@ -114,7 +121,7 @@ class _Command:
             self._words, self.domains, self.options = [], [], options_lib.NoOptions
 
     def kinds(self) -> tuple[Any, ...]:
-        """Returns what tyro chooses from, a type for each command; `train` has the defaults of its task and agent."""
+        """Returns the types of all commands, for tyro to choose from; `train` has the defaults of its task and agent."""
         return tuple(self._kind(name) for name in COMMANDS)
 
     def _kind(self, name: str) -> Any:
@@ -137,7 +144,7 @@ class _Command:
         return named if named in config_lib.ALGORITHMS else config_lib.DEFAULT_ALGORITHM
 
     def value(self, flag: str) -> str:
-        """Returns what an option was given, the last time."""
+        """Returns the value of an option, the last one that was given."""
         parts = [
             part
             for argument in self.arguments
@@ -260,7 +267,7 @@ def _learners_with(flag: str) -> list[str]:
 
 
 def _problem(event: tyro_errors.ParseErrorEvent, command: _Command) -> str:
-    """Returns what is wrong with the arguments of a command, and what they may be."""
+    """Returns the fault in the arguments of a command, and the arguments that are allowed."""
     match event:
         case tyro_errors.UnrecognizedArgs(tokens=tokens) if not command.name:
             return f"{tokens[0]!r} is no command; choose from {', '.join(COMMANDS)}"

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import contextlib
 import io
 import json
+import os
 import sys
 import threading
 
@@ -17,7 +18,16 @@ _PATIENCE = 2.0  # Seconds that people wait before they wonder.
 
 
 def prepare() -> None:
-    """Has letters that standard output cannot encode replaced, as in a Latin-1 terminal, instead of refused."""
+    """Makes the standard streams take all that is printed.
+
+    A stream that the caller has closed goes nowhere: work is done all the same, and no file that is opened later takes
+    its number. Letters that standard output cannot encode, as in a Latin-1 terminal, are replaced.
+    """
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:
+            null = os.open(os.devnull, os.O_RDWR)
+            os.set_inheritable(null, True)
+            setattr(sys, name, os.fdopen(null, mode, encoding="utf-8"))
     if isinstance(sys.stdout, io.TextIOWrapper):  # Other streams, of a caller from Python, take any letter.
         sys.stdout.reconfigure(errors="replace")
 

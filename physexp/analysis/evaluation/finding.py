@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 import difflib
+import os
 from pathlib import Path
 from typing import Any
 
@@ -47,7 +48,7 @@ def find_agent(
     Raises:
       ValueError: if there is no such agent, or none with these options; it lists those that come with the package.
     """
-    wanted = task_kwargs or {}
+    target, wanted = os.path.expanduser(target), task_kwargs or {}
     domain, _, task = target.partition("/")
     if agent := published(target):
         _check_options(target, config_of(agent.card), wanted)

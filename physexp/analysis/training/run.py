@@ -66,7 +66,7 @@ class Run:
 
     def __init__(self, path: Path):
         """Names a folder, in which there need be nothing yet."""
-        self.path = Path(path)
+        self.path = Path(path).expanduser()
         self._metrics = metrics.MetricsFile(self.path / "metrics.csv")
         self._lock_is_in_place: Callable[[], bool] | None = None
 
