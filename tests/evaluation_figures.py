@@ -1,4 +1,4 @@
-"""What an evaluation tells, in its order."""
+"""Names of the figures of an evaluation, in their order."""
 
 NAMES = [
     "episodes",
@@ -9,3 +9,6 @@ NAMES = [
     "median_interactions",
     "timeouts",
 ]
+
+IDEAL = ["ideal_return", "share_of_ideal"]
+"""Those of `physexp evaluate` where an ideal experimenter is known."""

@@ -502,8 +502,9 @@ def test_evaluate_prints_exactly_its_figures_as_json(run, untrained):
         done = run("evaluate", untrained.path, "--episodes", 40, "--json", *extra)
         assert done.returncode == 0, done.stderr
         figures = json.loads(done.stdout)
-        assert set(figures) == set(evaluation_figures.NAMES)
+        assert list(figures) == [*evaluation_figures.NAMES, *evaluation_figures.IDEAL]
         assert figures["episodes"] == 40
+        assert figures["share_of_ideal"] == figures["mean_return"] / figures["ideal_return"]
         low, high = figures["success_interval"]
         assert 0 <= low <= figures["success_rate"] <= high <= 1
         outputs.append(figures)
@@ -513,7 +514,7 @@ def test_evaluate_prints_exactly_its_figures_as_json(run, untrained):
 
 def test_evaluate_without_json_prints_the_same_names(run, untrained):
     lines = run("evaluate", untrained.path, "--episodes", 20).stdout.splitlines()
-    assert [line.split()[0] for line in lines] == evaluation_figures.NAMES
+    assert [line.split()[0] for line in lines] == [*evaluation_figures.NAMES, *evaluation_figures.IDEAL]
 
 
 def test_evaluate_finds_the_agents_of_each_difficulty(run):

@@ -10,12 +10,12 @@ from tyro.conf import OmitArgPrefixes, Positional
 from physexp.agents import config as agent_config
 from physexp.cli import options as options_lib
 from physexp.cli import printing
-from physexp.cli.arguments import Agent, Domain, OptionalAgent, OptionalInt, OptionalPath, Switch, Task
+from physexp.cli.arguments import Agent, Domain, OptionalAgent, OptionalInt, Switch, Task
 
 
 @dataclasses.dataclass
 class Evaluate(Generic[options_lib.Options]):
-    """Play episodes with a trained agent and measure how well it answers.
+    """Play episodes with a trained agent and measure how well it answers, beside the ideal experimenter.
 
     Attributes:
       options: what the agent is to have been trained with.
@@ -48,7 +48,16 @@ class Evaluate(Generic[options_lib.Options]):
             played = playing.play(
                 network, config, self.episodes, self.interaction, self.greedy, seed, device=self.device, show=show
             )
-        printing.show(played.summary(config.agent.discount), self.json)
+        figures = played.summary(config.agent.discount)
+        if not self.json:
+            printing.show(figures, as_json=False)  # Before a search that may take minutes.
+        with printing.warned_if_slow(f"searching for the ideal experimenter of {config.task_name}"):
+            best = playing.ideal_return(config)
+        share = {} if best is None else {"ideal_return": best, "share_of_ideal": figures["mean_return"] / best}
+        if self.json:
+            printing.show(figures | share, as_json=True)
+        elif share:
+            printing.show(share, as_json=False)
 
 
 @dataclasses.dataclass
@@ -127,20 +136,19 @@ class Publish:
 
     Attributes:
       run_dir: the folder of a run.
-      output_dir: where the agent and its model card go; by default into the package.
+      output_dir: the folder for the agent and its model card.
       episodes: how many to play for the evaluation on the card.
       replace: put the agent in the place of the one that may be there.
     """
 
     run_dir: Annotated[Positional[Path], tyro.conf.arg(metavar="RUN")]
-    output_dir: OptionalPath = None
+    output_dir: Path = Path("agents")
     episodes: int = 10_000
     replace: Switch = False
 
     def run(self) -> None:
-        from physexp.agents import pretrained
         from physexp.analysis.evaluation import publishing
         from physexp.analysis.training import run as run_lib
 
-        folder = self.output_dir or pretrained.FOLDER
-        printing.tell(str(publishing.publish(run_lib.Run(self.run_dir), folder, self.episodes, self.replace)))
+        card = publishing.publish(run_lib.Run(self.run_dir), self.output_dir, self.episodes, self.replace)
+        printing.tell(str(card))

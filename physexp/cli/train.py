@@ -50,6 +50,7 @@ class Train(Generic[Config, options_lib.Options]):
     def run(self) -> None:
         needed = {"ray": self.cluster is not None, "tensorboard": self.tensorboard}
         extras.require(*(module for module, is_needed in needed.items() if is_needed))
+        from physexp.analysis.evaluation import publishing
         from physexp.analysis.training import run as run_lib
         from physexp.analysis.training import trainer, verdict
 
@@ -93,6 +94,9 @@ class Train(Generic[Config, options_lib.Options]):
         if problem := verdict.of_run(run):
             printing.warn(problem, verdict.advice(config))
         printing.tell(str(run.path))
+        commands = ["evaluate {}", *(["score {}"] if publishing.is_default(config) else []), "replay {} --view"]
+        words = [f"physexp {command.format(shlex.quote(str(run.path)))}" for command in commands]
+        printing.warn(f"the agent is in that folder; next: {'; '.join(words)}")
 
     def _reports(self, stack: contextlib.ExitStack, run, config: config_lib.TrainConfig) -> callbacks.Report:
         """Returns a call that passes rows of metrics on to all that show them; a failure of one leaves the others."""

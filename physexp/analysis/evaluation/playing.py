@@ -6,6 +6,7 @@ import numpy as np
 import torch
 
 from physexp.agents import acting, devices, guests, networks
+from physexp.analysis import domains
 from physexp.analysis.data.episodes import Episodes
 from physexp.analysis.evaluation import finding
 from physexp.analysis.training import config as config_lib
@@ -79,6 +80,15 @@ def play(
     environment.close()
     joined = Episodes.joined(rounds)
     return joined if num_steps else joined.first(num_episodes)
+
+
+def ideal_return(config: config_lib.TrainConfig) -> float | None:
+    """Returns the return that the ideal experimenter expects in an agent's task; None where it is not known."""
+    find = domains.find(config.domain).ideal_with(config.task_kwargs)
+    try:
+        return None if find is None else find(config.task, config.task_kwargs, config.agent.discount).value
+    except ValueError:  # These options are outside of its own.
+        return None
 
 
 def randomized(choose: acting.Choose, num_interactions: int, generator: np.random.Generator) -> acting.Choose:
