@@ -56,7 +56,7 @@ def _join(address: str, stack: contextlib.ExitStack) -> None:
         except ConnectionError:
             address = LOCAL
     if address == LOCAL:
-        # Ray opens its folder to all users: it lies in one of this user's, which is removed after the cluster has ended.
+        # Ray opens its folder to all users: it lies in a private one, which is removed after the cluster has ended.
         private = tempfile.TemporaryDirectory(prefix="ray-", ignore_cleanup_errors=True)
         folder = stack.enter_context(private)
         stack.callback(ray.shutdown)
