@@ -50,7 +50,7 @@ def raised() -> Iterator[None]:
     with _heard(hear, TOGETHER_SECONDS):
         try:
             yield
-        except Exception as error:
+        except (Exception, KeyboardInterrupt) as error:  # Of the kind, too, but without its number.
             if heard:
                 raise Interrupted(heard[0]) from error
             raise

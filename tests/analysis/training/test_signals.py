@@ -38,12 +38,13 @@ def test_requests_that_come_together_are_one():
     assert stopped == [1]
 
 
-def test_a_request_that_a_library_turns_into_its_own_error_is_a_request():
+@pytest.mark.parametrize("kind", [ImportError, stopping.Interrupted])  # As MuJoCo and dm_control do.
+def test_a_request_that_a_library_turns_into_its_own_error_is_a_request(kind):
     with pytest.raises(stopping.Interrupted) as caught, stopping.raised():
         try:
             os.kill(os.getpid(), signal.SIGTERM)
-        except KeyboardInterrupt:  # As the import of MuJoCo does.
-            raise ImportError("initialization failed") from None
+        except KeyboardInterrupt:
+            raise kind("initialization failed") from None
     assert stopping.exit_status(caught.value) == 128 + signal.SIGTERM
     with pytest.raises(ImportError), stopping.raised():
         raise ImportError("nothing was asked for")
