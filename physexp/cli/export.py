@@ -14,7 +14,7 @@ from physexp.cli.score import playing_in
 
 @dataclasses.dataclass
 class Export:
-    """Play episodes and write all of them, what is hidden and what the ideal knew and would have done, to learn from.
+    """Play episodes and write all of them, with hidden properties and the ideal's beliefs and values, to learn from.
 
     Attributes:
       episodes: of each task.

@@ -109,7 +109,7 @@ class _Writer:
         """Prepares to write.
 
         Args:
-          folder: of what is exported.
+          folder: of all exported files.
           asked: the task.
           seed: of the environments.
           minari_name: of the data set of Minari; None for none.

@@ -68,7 +68,7 @@ class Steps:
 
         Args:
           number: its index.
-          episode: what was played.
+          episode: the played one.
         """
         count = len(episode.actions)
         last = np.arange(count) == count - 1

@@ -79,7 +79,7 @@ def ideal(asked: protocol.Question, first: int = 0) -> core.Actor:
 
 
 class Network(core.Actor):
-    """Plays a trained network; the index of an episode is the seed of what is drawn in it."""
+    """Plays a trained network; the index of an episode is the seed of its draws."""
 
     def __init__(self, network, greedy: bool, first: int = 0):
         self._network, self._greedy, self._number = network, greedy, first - 1

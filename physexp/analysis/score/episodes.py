@@ -22,7 +22,7 @@ class Episode:
       actions: int64 [T].
       rewards: float64 [T].
       timesteps: before each action and at the end, T + 1 of them.
-      observations: empty, since ideal experimenters judge an episode by what is hidden and was done.
+      observations: empty, since ideal experimenters judge an episode by its hidden property and actions.
     """
 
     hidden: np.ndarray

@@ -71,7 +71,7 @@ class Judged:
 def judge(
     played: Mapping[protocol.Question, Sequence[episodes.Episode]], show: Callable[[int], None] = lambda done: None
 ) -> dict[str, Judged]:
-    """Judges the episodes of tasks, by what is hidden in them and their actions; leaves no process behind.
+    """Judges the episodes of tasks by their hidden properties and actions; leaves no process behind.
 
     Args:
       played: the episodes of each task.
@@ -96,6 +96,7 @@ def judge(
             begun = {asked.name: pool.submit(_judged_by_worker, asked.name, its) for asked, its in played.items()}
         while futures.wait(begun.values(), _WAIT_SECONDS).not_done:
             show(counter.get_obj().value)  # Without its lock, which a worker that was killed may hold.
+        show(counter.get_obj().value)
         return {name: judged.result() for name, judged in begun.items()}
     except BaseException:
         for worker in set(multiprocessing.active_children()) - others:

@@ -1,4 +1,4 @@
-"""The protocol of the score: what is played, how often, and which ideal experimenter it is compared with.
+"""The protocol of the score: the tasks, their instances and episodes, and the ideal experimenters to compare with.
 
 Everybody plays the same instances: episode e of a task is that of index e in the environment of one seed.
 """
@@ -23,7 +23,7 @@ MOST_EPISODES = 10_000
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Question:
-    """What an agent is told of a task before it plays: what is written in the documentation, and nothing of an episode.
+    """The facts of a task that an agent has before it plays: those of the documentation, and none of an episode.
 
     Attributes:
       domain, task: as for `suite.load`.

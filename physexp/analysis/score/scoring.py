@@ -148,7 +148,7 @@ def played(
 
 
 def read(folder: Path) -> dict[str, Any]:
-    """Returns what `score.json` holds, of this version of the protocol.
+    """Returns the content of `score.json`, of this version of the protocol.
 
     Raises:
       OSError: if it cannot be read.

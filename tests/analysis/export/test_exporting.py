@@ -1,4 +1,4 @@
-"""Exported trajectories are what was played, whole, in tables and in data sets of Minari alike."""
+"""Exported trajectories are whole, and equal to the play, in tables and in data sets of Minari alike."""
 
 import json
 from pathlib import Path

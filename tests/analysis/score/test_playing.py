@@ -1,4 +1,4 @@
-"""Anything that acts is scored; what fails is told in one line, and what was played before is kept."""
+"""Anything that acts is scored; a failure is one line, and the episodes before are kept."""
 
 from concurrent import futures
 import contextlib
@@ -39,7 +39,7 @@ def score(target, questions=THRESHOLD, count=4, folder="scored", **options):
 
 
 def failure_of(target, **options):
-    """What is said of an agent that fails in its third episode; checks that two were kept."""
+    """Returns the message about an agent that fails in its third episode; checks that two were kept."""
     with pytest.raises(player.PlayerError) as error:
         score(target, **options)
     assert str(error.value).endswith("; the episodes before it are in scored, and the same command goes on after them")
