@@ -152,7 +152,7 @@ class Learner(abc.ABC):
 
 @dataclasses.dataclass(frozen=True)
 class Update:
-    """What one update did.
+    """The result of one update.
 
     Attributes:
       seed: of the batch of environments that it learned from.

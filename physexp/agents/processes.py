@@ -17,7 +17,7 @@ STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 _DEATH_SECONDS = 5.0  # For the system to take away what was killed.
 _OWN_GROUPS = Path("/proc/self/cgroup")
-_GROUPS = Path("/sys/fs/cgroup")  # Where control groups are mounted: all of version 2, a folder for each kind of 1.
+_GROUPS = Path("/sys/fs/cgroup")  # Mounted control groups: those of version 2, or a folder for each kind of 1.
 
 
 def num_cores() -> int:

@@ -1,4 +1,4 @@
-"""What long work calls to say how it goes: `tell` with a line of text, `report` with a row of metrics."""
+"""Callbacks of long work, which show its progress: `tell` takes a line of text, `report` a row of metrics."""
 
 from collections.abc import Callable
 import contextlib

@@ -185,7 +185,7 @@ THERE = "which_is_heavier-features-difficulty10, which_is_heavier-features-diffi
             None,
             "or a trained agent: (which_is_heavier-features[^,]*(, )?){3}$",
         ),
-        ("towres/fist_features", None, "or a trained agent: towers-fist_features, "),
+        ("towres/fist_features", None, "or a trained agent: towers/fist_features, towers-fist_features"),
         ("fly", None, "holds no run .* or a trained agent: DOMAIN/TASK, as `physexp tasks` lists them$"),
     ],
 )

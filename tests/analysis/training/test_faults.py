@@ -209,7 +209,7 @@ def test_a_folder_that_may_not_be_written_any_more_ends_training_in_one_line_aft
 
 
 def trained_until(path, happens):
-    """A run during which something happens to its folder, with its second row of metrics; what training raised."""
+    """Returns a run during which something happens to its folder after its second checkpoint, and the error."""
     run = trainers.create(path, "ppo", frames=10**9, checkpoint_seconds=0.01, seed=fresh_seed())
 
     def report(row):
@@ -232,9 +232,8 @@ def test_a_trainer_whose_lock_file_is_removed_stops_before_it_writes_into_the_ne
     run, message = trained_until(tmp_path / "run", remove)
     assert ".lock was removed, or the folder moved; its last checkpoint is as it was" in message
     assert {path: path.read_bytes() for path in run.path.rglob("*") if path.is_file()} == seen
-    assert len(run.checkpointer.paths()) == 1  # Of the first row; that of the second was not written any more.
-    run.rewind(int(run.checkpointer.latest()[0]["frames"]))
-    assert len(run.metrics()) == 1
+    assert int(run.checkpointer.latest()[0]["frames"]) == run.metrics()[-1]["frames"]
+    assert len(run.metrics()) == 2
 
 
 def test_a_trainer_whose_folder_is_moved_stops_and_the_run_can_be_resumed_where_it_is(tmp_path):
@@ -243,7 +242,7 @@ def test_a_trainer_whose_folder_is_moved_stops_and_the_run_can_be_resumed_where_
     assert os.listdir(tmp_path) == ["moved"], "nothing is made where it was"
     moved = run_lib.Run(tmp_path / "moved")
     moved.check_resumable()
-    assert int(moved.checkpointer.latest()[0]["frames"]) == moved.metrics()[0]["frames"]
+    assert int(moved.checkpointer.latest()[0]["frames"]) == moved.metrics()[1]["frames"]
 
 
 def test_a_batch_that_cannot_be_saved_does_not_hide_why_training_stopped(tmp_path):
