@@ -76,7 +76,8 @@ def play(
         for name, actor in others.items():
             length, reward = _replay(environment, domain, task, kwargs, actor)
             scores[name].add(length, reward, discount)
-            show(f"  the {name} was {'right' if reward > 0 else 'wrong'} after {length - 1} interactions")
+            count = f"{length - 1} interaction{'' if length == 2 else 's'}"
+            show(f"  the {name} was {'right' if reward > 0 else 'wrong'} after {count}")
         show("\n".join(f"{name:20} {score}" for name, score in scores.items()) + "\n")
 
 
@@ -169,7 +170,8 @@ def _ask(environment: suite.Environment, rules: str, read, show) -> int | None:
             continue
         if text.isdecimal() and len(text) < 10 and int(text) < count:
             return int(text)
-        show(f"{text[:40]!r} is no action; type a number from 0 to {count - 1}, {_HELP} or {_QUIT}")
+        refusal = f"{text[:40]!r} is no action; " if text else ""
+        show(f"{refusal}type a number from 0 to {count - 1}, {_HELP} or {_QUIT}")
 
 
 def _replay(environment: suite.Environment, domain, task, kwargs, actor: core.Actor) -> tuple[int, float]:
