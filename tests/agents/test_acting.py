@@ -152,8 +152,10 @@ def test_behaviour_data_give_back_the_probabilities_and_values_of_acting(domain,
     with torch.no_grad():
         logits, values = network.unroll(network.encode(some.behaviour.observation), some.batch_sizes)
     taken = torch.log_softmax(logits, -1).gather(1, some.packed(some.actions)[:, None])[:, 0]
+    # Convolutions add up in another order for another number of images: 9e-5 were seen.
+    tolerance = 1e-3 if "pixels" in suite.tags(domain, task) else 1e-5
     for found, expected in ((taken, some.behaviour.log_probabilities), (values, some.behaviour.values)):
-        torch.testing.assert_close(found, expected, atol=1e-3, rtol=1e-3)  # Convolutions add up in another order.
+        torch.testing.assert_close(found, expected, atol=tolerance, rtol=tolerance)
 
 
 def test_draws_follow_the_softmax_of_the_logits():
