@@ -112,7 +112,8 @@ def _earned(name: str, discount: float, figures: Mapping[str, Any]) -> Iterator[
 def _compared(summary: Mapping[str, Any]) -> Iterator[str]:
     """Yields sentences about the accuracy of bounds, and about policies for comparison."""
     if "value_error" in summary:
-        yield "The standard errors of the two bounds are {value_error:.4f} and {bound_error:.4f}.".format(**summary)
+        errors = (f"{summary[name]:.4f}" for name in ("value_error", "bound_error"))
+        yield f"This is known from below and from above with standard errors of {' and '.join(errors)}."
     if "at_once" in summary:
         random = [f"{summary[name]:.4f}" for name in ("random_value", "random_bound") if name in summary]
         yield f"An answer without any interaction earns {summary['at_once']:.4f}."
