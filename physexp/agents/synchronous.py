@@ -1,6 +1,5 @@
 """What agents of one process have in common: they play a round of whole episodes, learn from it, and so on."""
 
-
 from physexp.agents import core, guests, learning, rounds
 
 

@@ -121,7 +121,7 @@ class _Command:
             self._words, self.domains, self.options = [], [], options_lib.NoOptions
 
     def kinds(self) -> tuple[Any, ...]:
-        """Returns the types of all commands, for tyro to choose from; `train` has the defaults of its task and agent."""
+        """Returns the types of all commands, for tyro; `train` has the defaults of its task and agent."""
         return tuple(self._kind(name) for name in COMMANDS)
 
     def _kind(self, name: str) -> Any:
