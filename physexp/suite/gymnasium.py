@@ -123,6 +123,9 @@ class Environment(gymnasium.Env):
     def close(self) -> None:
         self._environment.close()
 
+    def __reduce__(self):  # Of copies and of pickles.
+        return self._environment.__reduce__()
+
     def _shown(self, observation):
         return adapters.flattened(observation) if self._is_flat else dict(observation)
 
@@ -261,6 +264,9 @@ class VectorEnvironment(vector_env.VectorEnv):
 
     def close_extras(self, **kwargs: Any) -> None:
         self._batch.close()
+
+    def __reduce__(self):  # Of copies and of pickles.
+        return self._batch.__reduce__()
 
     def _begin(self, mask: np.ndarray, episode: int | None = None) -> dict[str, Any]:
         """Starts episodes in some environments, bool [num_envs]; returns the infos."""

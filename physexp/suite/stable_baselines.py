@@ -118,6 +118,9 @@ class VecEnv(base_vec_env.VecEnv):
     def close(self) -> None:
         self._batch.close()
 
+    def __reduce__(self):  # Of copies and of pickles.
+        return self._batch.__reduce__()
+
     def get_attr(self, attr_name: str, indices=None) -> list[Any]:
         return [getattr(self, attr_name)] * len(list(self._get_indices(indices)))
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from physexp import suite
+from physexp.suite import gymnasium, stable_baselines
 
 TASK = ("towers", "fist_features")
 
@@ -96,6 +97,15 @@ def test_a_copy_is_refused_with_what_to_do_instead(which, duplicate):
     environment, _ = _environments()[which]
     with pytest.raises(TypeError, match="neither copied nor pickled; load another"):
         duplicate(environment)
+
+
+@pytest.mark.parametrize("make", [gymnasium.Environment, gymnasium.VectorEnvironment, stable_baselines.VecEnv])
+@pytest.mark.parametrize("duplicate", [copy.copy, copy.deepcopy, pickle.dumps])
+def test_a_copy_of_an_adapter_is_refused_as_that_of_its_environment(make, duplicate):
+    environment = make(*TASK, **({} if make is gymnasium.Environment else {"num_envs": 2}))
+    with pytest.raises(TypeError, match="neither copied nor pickled; load another"):
+        duplicate(environment)
+    environment.close()
 
 
 FORK = """
