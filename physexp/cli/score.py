@@ -69,9 +69,16 @@ class Score:
         made = self._made()
         with playing_in(folder), progress.bar("episodes", count * len(chosen)) as show:
             found = scoring.score(
-                self.target, chosen, count, folder, greedy=self.greedy, timeout=self.timeout, made=made, show=show
+                self.target,
+                chosen,
+                count,
+                folder,
+                greedy=self.greedy,
+                timeout=self.timeout,
+                made=made,
+                show=show,
+                finish=_write_report,
             )
-        _write_report(folder)
         if self.json:
             printing.show(found, as_json=True)
             return

@@ -50,7 +50,7 @@ class Session:
           ValueError: if an episode that was kept differs by now.
         """
         environment, kept = protocol.load(asked, seed), self._kept.get(asked.name, ())
-        for number, actions in enumerate(kept):
+        for number, actions in enumerate(kept[:num_episodes]):
             try:
                 yield episodes.again(environment, number, actions)
             except ValueError as error:
@@ -134,7 +134,7 @@ def _read(file: IO[bytes], folder: Path, facts: Mapping[str, Any]) -> dict[str, 
     """Returns the actions of the episodes in an open file, by task; begins it with the facts if it is new.
 
     Raises:
-      ValueError: if it begins with other facts.
+      ValueError: if it begins with other facts, or a line is no episode.
     """
     file.seek(0)
     lines, size = [], 0
@@ -152,8 +152,12 @@ def _read(file: IO[bytes], folder: Path, facts: Mapping[str, Any]) -> dict[str, 
     elif difference := _difference(lines[0], facts):
         raise ValueError(f"{folder} was begun with {difference}; give the same, or another --output")
     kept = defaultdict(list)
-    for task, actions in lines[1:]:
-        kept[task].append(actions)
+    for number, line in enumerate(lines[1:], 2):
+        match line:
+            case [str(task), [*actions]] if all(type(action) is int for action in actions):
+                kept[task].append(actions)
+            case _:
+                raise ValueError(f"{file.name}: line {number} is no episode; remove the folder to play everything anew")
     return kept
 
 

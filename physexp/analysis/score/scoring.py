@@ -45,6 +45,7 @@ def score(
     timeout: float = 60.0,
     made: Mapping[str, Any] | None = None,
     show: Callable[[int], None] = lambda done: None,
+    finish: Callable[[Path], None] = lambda folder: None,
 ) -> dict[str, Any]:
     """Plays the protocol with a target, judges its actions and writes both; returns the content of `score.json`.
 
@@ -59,6 +60,7 @@ def score(
       timeout: for each call of a user's function, s.
       made: further facts of how the target was made: `algorithm`, `frames`, `seconds`.
       show: called with how many episodes are done; one that has been played, but not been judged, counts half.
+      finish: called with the folder once the score is written; until it returns, the folder is not complete.
 
     Raises:
       OSError: if it cannot be written.
@@ -82,6 +84,7 @@ def score(
             written = _write(folder, rows, judged, begun, facts)
         if problem:
             raise player.PlayerError(f"{problem}{session.kept_in(folder)}")
+        finish(folder)
     return written
 
 

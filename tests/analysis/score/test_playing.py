@@ -364,6 +364,28 @@ def test_a_score_that_is_ended_goes_on_and_plays_nothing_twice(here, number):
     assert sorted(path.name for path in (here / "whole").iterdir()) == ["actions.parquet", "score.json"]
 
 
+def test_a_score_that_is_killed_before_its_report_is_there_draws_it_next_time(here):
+    words = ["score", "random", "--tasks", "threshold/features", "--episodes", "2"]
+    folder = here / "scores" / "random"
+    with commands.start(*words, cwd=here) as process:
+        waiting.wait_until((folder / scoring.FILE).exists, "a score", pid=process.pid)
+        process.kill()
+    assert not (folder / "report.html").exists()
+    commands.run(*words, cwd=here, check=True)
+    assert (folder / "report.html").exists() and not (folder / playing.FILE).exists()
+    assert list((here / "scores").iterdir()) == [folder]
+
+
+@pytest.mark.parametrize("line", [b"5", b"null", b'[["strings/features"], [0]]', b'["strings/features", [0.0]]'])
+def test_a_line_that_is_no_episode_is_refused_in_one_line(line):
+    with pytest.raises(ZeroDivisionError):
+        score("random", finish=lambda folder: 1 // 0)
+    played = Path("scored") / playing.FILE
+    played.write_bytes(played.read_bytes() + line + b"\n")
+    with pytest.raises(ValueError, match="^scored/played.jsonl: line 6 is no episode; remove the folder"):
+        score("random")
+
+
 def test_a_score_goes_on_with_the_episodes_that_were_written_whole():
     class Ended(Exception):
         """As a kill would: nothing catches it."""
