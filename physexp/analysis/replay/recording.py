@@ -76,8 +76,9 @@ class Episode:
       values: the return that the actor expected before each action, float64 [T], or of no length.
       beliefs: its probabilities of the labels before each action, float64 [T, L]; of no length where it has none.
       shapes: what is in the scene.
-      control_timestep: time between its actions, s.
-      times: of the physics steps, and of those that play out the answer where a task does that, s, float64 [F].
+      control_timestep: time between its actions, s: the task's, also where `step_variation` hides the episode's own.
+      times: of the physics steps, and of those that play out the answer where a task does that, s, float64 [F]; with
+        `step_variation` stretched, so that an action takes `control_timestep`.
       num_played: physics steps before the answer; the later ones play it out.
       positions, rotations: poses that follow from the observations alone, see `observed.film`; true ones in the steps
         that play out the answer; float64 [F, K, 3] and [F, K, 3, 3].
@@ -243,7 +244,7 @@ class _Rebuilder:
             "declared": task,
             "hidden": np.array(task.hidden),
             "answer": task.correct_answer,
-            "control_timestep": task.control_timestep,
+            "control_timestep": task.options.control_timestep,
             "num_played": ends[-1],
             **self._films(observations, ends),
         }
@@ -255,6 +256,7 @@ class _Rebuilder:
         floor = [model.geom(geom.full_identifier).id for geom in (room.floor, room.mat)]
         geoms = _geoms(model, floor)
         times, positions, rotations, controls = (np.array(values) for values in zip(*self._poses, strict=True))
+        times *= task.options.control_timestep / task.control_timestep
         positions, rotations = positions[:, geoms], rotations[:, geoms]
         seen_positions, seen_rotations, are_placed = observed.film(task, geoms, observations, ends)
         return {

@@ -133,3 +133,21 @@ def test_arrows_do_not_tell_how_strong_an_action_is_where_strength_varies(tmp_pa
         recorder.close()
         environment.close()
     assert lengths[0] == lengths[1] > 0
+
+
+def test_no_time_tells_how_long_the_control_steps_of_an_episode_are(tmp_path):
+    lengths, shown = set(), set()
+    for seed in (1, 2):
+        options = {"random": seed, "control_timestep": 0.12, "step_variation": 0.3}
+        environment = suite.load("threshold", "features", task_kwargs=options)
+        environment.reset()
+        lengths.add(environment.control_timestep())
+        environment.close()
+        hidden = environment.task.draw(np.array([0]), np.array([0]))[0]
+        rows, episode = watch("threshold", "features", hidden, [2, 3], tmp_path / f"{seed}.rrd", options)
+        seen = [row for name in sorted(rows) if name.startswith("/seen/") for row in rows[name]]
+        readings = [row["time"] for row in seen if "time" in row]
+        shown.add((str(readings), episode.times[episode.num_played].round(9)))
+    assert len(lengths) == 2
+    assert len(shown) == 1
+    np.testing.assert_allclose([end for _, end in shown], 2 * 0.12)
