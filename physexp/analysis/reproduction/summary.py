@@ -20,9 +20,9 @@ def of_claims(tested: Sequence[Tested]) -> dict[str, list[str]]:
     """
     held, failed, is_open = _groups(tested)
     points = {
-        "Replicated:": [f"{its[0][0].text} ({_count(len(its), 'condition')})." for its in held],
+        "Replicated:": [f"{_named(its)} ({_count(len(its), 'condition')})." for its in held],
         "Not replicated:": [" ".join([_failure(its), *_openings(its)]) for its in failed],
-        "Undecided:": [" ".join([f"{its[0][0].text}.", *_openings(its)]) for its in is_open],
+        "Undecided:": [" ".join([f"{_named(its)}.", *_openings(its)]) for its in is_open],
     }
     return {heading: its for heading, its in points.items() if its}
 
@@ -65,12 +65,17 @@ def _count(number: int, noun: str) -> str:
     return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
+def _named(its: Sequence[Tested]) -> str:
+    """Returns a claim, with the section of the paper, which may claim the same of another task elsewhere."""
+    return f"Section {its[0][0].section}: {its[0][0].text}"
+
+
 def _failure(its: Sequence[Tested]) -> str:
     """Returns a sentence on a claim and its failures, with our explanation."""
     failing = [claim for claim, verdict in its if verdict == claims_lib.FAILS]
     where = "; ".join(conditions.spelled_out(claim.condition) for claim in failing)
     reasons = dict.fromkeys(claim.reason for claim in failing if claim.reason)
-    return " ".join([f"{its[0][0].text}: fails in {len(failing)} of {len(its)} ({where}).", *reasons])
+    return " ".join([f"{_named(its)}: fails in {len(failing)} of {len(its)} ({where}).", *reasons])
 
 
 def _openings(its: Sequence[Tested]) -> list[str]:

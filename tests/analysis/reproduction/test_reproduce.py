@@ -230,6 +230,8 @@ def test_the_report_begins_with_a_summary_of_its_verdicts(rehearsed, reported):
     assert html.escape(first) in page
     # The configurations that were rehearsed have a worker each.
     assert f"All {len(NAMES)} A3C agents of these data were trained by a single worker" in first
+    # The paper claims the same of several tasks, in sections of their own.
+    assert all(f"\n- Section {section}: {text}" in markdown for text, section in its)
     summary, table = markdown.index("Undecided:"), markdown.index("## Claims of the paper")
     assert summary < table < markdown.index("## Provenance") < markdown.index("trained by the source of these commits")
 
