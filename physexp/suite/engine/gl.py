@@ -111,22 +111,32 @@ def _egl_works(library: str) -> bool:
     return any(initialize(display(_PLATFORM_DEVICE, device, None), None, None) for device in devices[: count.value])
 
 
-@functools.cache
+_DRAWING = threading.Lock()
+"""Held while a job is done and while this process is forked: a fork must not find the driver's own locks taken."""
+os.register_at_fork(before=_DRAWING.acquire, after_in_parent=_DRAWING.release, after_in_child=_DRAWING.release)
+
+_QUEUES: dict[int, queue.SimpleQueue] = {}  # By process: a fork has no thread of its parent's.
+
+
 def _jobs(process: int) -> queue.SimpleQueue:
-    """Starts the drawing thread of a process, and returns the queue of its jobs: futures, and functions to call."""
-    jobs: queue.SimpleQueue = queue.SimpleQueue()
+    """Returns the queue of a process's drawing thread, which the first call starts: futures, and functions to call."""
+    new: queue.SimpleQueue = queue.SimpleQueue()
+    jobs = _QUEUES.setdefault(process, new)  # Of several threads that come first, one starts it.
 
     def work() -> None:
         while True:
             _do(*jobs.get())
 
-    threading.Thread(target=work, name="physexp drawing", daemon=True).start()  # It outlives the hooks of `atexit`.
+    if jobs is new:
+        threading.Thread(target=work, name="physexp drawing", daemon=True).start()  # It outlives the hooks of `atexit`.
     return jobs
 
 
 def _do(future: futures.Future, function: Callable[[], Any]) -> None:
     try:
-        future.set_result(function())
+        with _DRAWING:
+            result = function()
+        future.set_result(result)
     except BaseException as error:  # The thread that waits raises it.
         future.set_exception(error)
 

@@ -272,3 +272,38 @@ def test_forked_workers_of_a_pool_draw_with_environments_of_their_parent(backend
     if not ctypes.util.find_library({"egl": "EGL", "osmesa": "OSMesa"}[backend]):
         pytest.skip("needs a library of GL: apt-get install libegl1 libgl1-mesa-dri libosmesa6")
     assert interpreters.run(POOL, MUJOCO_GL=backend) == ({"same": [True] * 6}, "")
+
+
+AT_ONCE = """
+import os, signal, sys, threading
+from physexp import suite
+
+sys.setswitchinterval(1e-6)
+drawn = [suite.load("strike", "features", {"random": 0}) for _ in range(8)]
+for environment in drawn:
+    environment.reset()
+begin, is_over = threading.Barrier(8), threading.Event()
+
+def draw(environment):
+    begin.wait()
+    while not is_over.is_set():
+        environment.render()
+
+threads = [threading.Thread(target=draw, args=[environment]) for environment in drawn[1:]]
+for thread in threads:
+    thread.start()
+begin.wait()
+image = drawn[0].render()
+found["drawing threads"] = sum(thread.name == "physexp drawing" for thread in threading.enumerate())
+found["forks"] = []
+for _ in range(20):
+    if not (child := os.fork()):
+        signal.alarm(30)
+        os._exit(0 if (drawn[0].render() == image).all() else 1)
+    found["forks"].append(os.waitpid(child, 0)[1])
+is_over.set()
+"""
+
+
+def test_one_thread_draws_for_all_and_a_fork_waits_for_its_image():
+    assert interpreters.run(AT_ONCE) == ({"drawing threads": 1, "forks": [0] * 20}, "")
