@@ -76,6 +76,8 @@ def refuse_unknown(kind: type, domain: str, task_kwargs: Mapping[str, Any]) -> N
 
 def check_options(options: Mapping[str, Any] | None, *allowed: str) -> dict[str, Any]:
     """Returns the options of a reset; raises ValueError for an unknown one, or an index that no episode has."""
+    if not isinstance(options, Mapping | None):
+        raise ValueError(f"options is {checks.shown(options)}; give a dictionary with {', '.join(allowed)}, or None")
     found = dict(options or {})
     for name in found:
         if name not in allowed:

@@ -292,6 +292,7 @@ def test_a_seed_that_is_none_is_refused_and_changes_nothing(make, seed):
     [
         ({"episodes": 1}, "^options has 'episodes'; allowed: episode(, reset_mask)?$"),
         ({"episode": -1}, "^episode is -1; give an integer"),
+        (5, r"^options is 5; give a dictionary with episode(, reset_mask)?, or None$"),
         ({"episode": [1, 2]}, r"^episode is \[1, 2\]; give an integer"),
     ],
 )
