@@ -383,6 +383,10 @@ def test_what_cannot_be_done_is_refused_in_one_line(run, arguments, words):
         (["train"], "train needs DOMAIN TASK; see physexp train --help"),
         (["train", "towers"], "train needs TASK; see physexp train --help"),
         (["evaluate", "a", "b"], "evaluate does not take 'b'; see physexp evaluate --help"),
+        (
+            ["evaluate", "threshold", "fist"],
+            "threshold has no task 'fist'; choose from features, pixels; see physexp evaluate --help",
+        ),
         # What is close to it, `target`, has no name on a command line.
         (["evaluate", "a", "--targe=3"], "--targe=3 is not an option of evaluate; see physexp evaluate --help"),
         (

@@ -143,6 +143,14 @@ class _Command:
         named = self.value("--agent")
         return named if named in config_lib.ALGORITHMS else config_lib.DEFAULT_ALGORITHM
 
+    def unknown_task(self, word: str) -> str:
+        """Returns the fault in a word that stands in the place of a domain's task; empty if it stands elsewhere."""
+        from physexp import suite
+
+        domain = self.arguments[self.arguments.index(word) - 1]
+        tasks = suite.TASKS_BY_DOMAIN.get(domain)
+        return f"{domain} has no task {word!r}; choose from {', '.join(tasks)}" if tasks else ""
+
     def value(self, flag: str) -> str:
         """Returns the value of an option, the last one that was given."""
         parts = [
@@ -274,7 +282,7 @@ def _problem(event: tyro_errors.ParseErrorEvent, command: _Command) -> str:
         case tyro_errors.UnrecognizedArgs(tokens=tokens):
             given = [token for token in tokens if token.startswith("-")]
             if not given:
-                return f"{command.name} does not take {tokens[0]!r}"
+                return command.unknown_task(tokens[0]) or f"{command.name} does not take {tokens[0]!r}"
             close = difflib.get_close_matches(_flags(given)[0], command.option_names(), n=2)
             perhaps = f"; perhaps {' or '.join(f'--{name}' for name in close)}" if close else ""
             return f"{given[0]} is not an option of {command.name}{perhaps}"
