@@ -1,6 +1,7 @@
 """An experimenter for Towers that nobody trained: cubes whose distance changes are not glued."""
 
 from collections.abc import Sequence
+import math
 
 import numpy as np
 
@@ -16,10 +17,17 @@ class GlueRule(core.EpisodicActor):
     """Takes neighbours for glued while their distance has not changed.
 
     It repeats its interactions until a cube has moved. Then it answers with the number of bodies that it has seen; with
-    noise, as soon as a control step has separated no more neighbours.
+    noise, as soon as a control step has separated no more neighbours. In the last step in time it answers in any case.
     """
 
-    def __init__(self, interactions: Sequence[int], num_interactions: int, noise: float = 0.0, wait: int | None = None):
+    def __init__(
+        self,
+        interactions: Sequence[int],
+        num_interactions: int,
+        noise: float = 0.0,
+        wait: int | None = None,
+        step_limit: float = math.inf,
+    ):
         """Makes the rule.
 
         Args:
@@ -27,8 +35,9 @@ class GlueRule(core.EpisodicActor):
           num_interactions: number of interactions of the task.
           noise: standard deviation of readings, m.
           wait: number of interactions before the answer; by default the rule decides that as above.
+          step_limit: most actions in an episode, the answer included.
         """
-        self._wait, self._is_noisy = wait, noise > 0
+        self._wait, self._is_noisy, self._step_limit = wait, noise > 0, step_limit
         self._interactions, self._num_interactions = tuple(interactions), num_interactions
         self._change = _CHANGE + _DEVIATIONS * noise
 
@@ -39,7 +48,7 @@ class GlueRule(core.EpisodicActor):
         self._step = 0
 
     def _choose(self, observation) -> int:
-        if self._is_settled:
+        if self._is_settled or self._step + 1 >= self._step_limit:
             return self._num_interactions + int(self._are_apart.sum())
         return self._interactions[self._step % len(self._interactions)]
 

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 import dataclasses
 import functools
+import math
 from typing import TYPE_CHECKING, Any
 
 from physexp.agents.a3c import config as a3c
@@ -106,6 +107,7 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolu
     With noise or variation, the value is that of a rule, and the bound that of experimenters of this resolution that
     know everything in which an episode differs except the glue, and read without noise.
     """
+    from physexp import suite
     from physexp.analysis.ideal import bounds, search
 
     if bounds.is_certain(task_kwargs):
@@ -117,7 +119,8 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolu
         search.solve(hypotheses(task, told, nuisances), resolution, discount)
         for nuisances in _drawn_nuisances(task, told)
     ]
-    play = functools.partial(rule, task, task_kwargs.get("noise") or 0.0)
+    step_limit = suite.load_task(_NAME, task, dict(task_kwargs)).rules.step_limit
+    play = functools.partial(rule, task, task_kwargs.get("noise") or 0.0, step_limit=step_limit)
     return bounds.Solution(_NAME, task, task_kwargs, discount, play, lambda: [each.bound for each in upper])
 
 
@@ -147,11 +150,11 @@ _RULES = {
 }
 
 
-def rule(task: str, noise: float = 0.0, wait: int | None = None) -> "core.Actor":
+def rule(task: str, noise: float = 0.0, wait: int | None = None, step_limit: float = math.inf) -> "core.Actor":
     """Returns an actor that takes cubes for glued while their distance has not changed; see `glue.GlueRule`."""
     from physexp.analysis.domains import glue
 
-    return glue.GlueRule(_RULES[task], _num_interactions(task), noise, wait)
+    return glue.GlueRule(_RULES[task], _num_interactions(task), noise, wait, step_limit)
 
 
 @functools.cache

@@ -313,3 +313,11 @@ def test_an_episode_with_something_else_hidden_is_refused():
     solution = search.solve(MadeWorld(1, lambda sequence: COUNTS), 0.5, 0.98)
     with pytest.raises(ValueError, match="hidden is 16, which is none of the hypotheses"):
         solution.beliefs(types.SimpleNamespace(hidden=16, actions=np.zeros(0, int)))
+
+
+def test_the_rule_of_noisy_towers_answers_in_the_last_step_in_time():
+    only_step = {"noise": 0.001, "time_limit": 0.1}
+    solution = domains.find("towers").ideal("direct_features", only_step, discount=0.98)
+    summary = solution.summary()
+    assert summary["mean_interactions"] == 0
+    assert abs(solution.value - (2 / 5 - 1)) < 4 * summary["value_error"]  # One of five answers is right.
