@@ -2,7 +2,7 @@
 
 import re
 
-_MARKUP = re.compile(r"""[&<>"'`*\[\]|\\~$#@:]|(?<!\w)_|_(?!\w)""")
+_MARKUP = re.compile(r"""[&<>"'`*\[\]|\\~$#@:]|(?<!\w)_|_(?!\w)|(?<=www)\.""", re.IGNORECASE)  # A page may link www.
 
 
 def plain(text: str) -> str:
