@@ -85,25 +85,32 @@ class Actor(abc.ABC):
 
 
 class EpisodicActor(Actor):
-    """An actor that remembers an episode, and refuses a loop that leaves out `observe_first`."""
+    """An actor that remembers an episode, and refuses a loop that leaves out `observe_first` or `observe`."""
 
     _is_playing = False
+    _has_chosen = False  # An action of which it has observed nothing yet.
 
     def observe_first(self, timestep: dm_env.TimeStep) -> None:
         """Begins an episode."""
         self._begin(timestep)
-        self._is_playing = True
+        self._is_playing, self._has_chosen = True, False
 
     def select_action(self, observation: Mapping[str, Any]) -> int:
-        """Returns an action; raises RuntimeError if the episode was not begun."""
+        """Returns an action; raises RuntimeError if the episode was not begun, or the last action not observed."""
         self._check(self._is_playing)
-        return self._choose(observation)
+        if self._has_chosen:
+            raise RuntimeError(
+                "the actor does not know how its last action ended; call observe(action, timestep) after each step"
+            )
+        action = self._choose(observation)
+        self._has_chosen = True
+        return action
 
     def observe(self, action: int, next_timestep: dm_env.TimeStep) -> None:
         """Notes an action and the timestep that followed; raises RuntimeError if the episode was not begun."""
         self._check(self._is_playing and not next_timestep.first())
         self._note(action, next_timestep)
-        self._is_playing = not next_timestep.last()
+        self._is_playing, self._has_chosen = not next_timestep.last(), False
 
     @staticmethod
     def _check(has_begun: bool) -> None:

@@ -1,6 +1,7 @@
 """What an actor does is what a learner thinks it did; draws follow the policy; rounds depend on nothing but seeds."""
 
 from chance import P_VALUE
+import dm_env
 import numpy as np
 import pytest
 from scipy import stats
@@ -228,10 +229,11 @@ def test_the_lstm_starts_every_episode_from_zero():
     network = make_network(environment, seed, Recording)
     actor = acting.RecurrentActor(network, seed=seed)
     timestep = environment.reset()
+    later = timestep._replace(step_type=dm_env.StepType.MID)
     for _ in range(2):
         actor.observe_first(timestep)
         for _ in range(4):
-            actor.select_action(timestep.observation)
+            actor.observe(actor.select_action(timestep.observation), later)
     environment.close()
     logits = torch.cat([seen[0] for seen in network.seen])
     torch.testing.assert_close(logits[:4], logits[4:], atol=0, rtol=0)
@@ -275,6 +277,7 @@ def test_a_greedy_actor_takes_the_likeliest_action_whatever_its_seed():
         while not timestep.last():
             actions.append(actor.select_action(timestep.observation))
             timestep = environment.step(actions[-1])
+            actor.observe(actions[-1], timestep)
         taken.append(actions)
     environment.close()
     assert taken[0] == taken[1] == [int(logits.argmax()) for logits, _ in network.seen[: len(taken[0])]]
@@ -289,7 +292,11 @@ def test_actors_of_one_seed_draw_the_same_actions_and_of_two_seeds_others():
     def draws(seed):
         actor = acting.RecurrentActor(network, seed=seed)
         actor.observe_first(timestep)
-        return [actor.select_action(timestep.observation) for _ in range(200)]
+        actions = []
+        for _ in range(200):
+            actions.append(actor.select_action(timestep.observation))
+            actor.observe(actions[-1], timestep._replace(step_type=dm_env.StepType.MID))
+        return actions
 
     assert draws(5) == draws(5)
     assert draws(5) != draws(6)
@@ -313,6 +320,18 @@ def test_a_loop_that_forgets_observe_first_is_told_so(made, first):
     for act in (lambda: actor.select_action(timestep.observation), lambda: actor.observe(0, timestep)):
         with pytest.raises(RuntimeError, match=r"call observe_first\(timestep\) after each reset"):
             act()
+    environment.close()
+
+
+def test_a_loop_that_forgets_observe_is_told_so():
+    environment = suite.load("threshold", "features", {"random": 0})
+    actor = acting.RecurrentActor(make_network(environment, 0))
+    timestep = environment.reset()
+    for _ in range(2):
+        actor.observe_first(timestep)
+        actor.select_action(timestep.observation)
+        with pytest.raises(RuntimeError, match=r"call observe\(action, timestep\) after each step"):
+            actor.select_action(timestep.observation)
     environment.close()
 
 
