@@ -55,12 +55,13 @@ def test_an_unanswered_episode_has_as_many_control_steps_as_without(seed):
     assert batch.step(np.ones(8, np.int64)).last().all()
 
 
-def test_a_replay_shows_actions_when_they_were_taken(seed):
+def test_a_replay_shows_control_steps_of_the_task_s_length(seed):
+    """An agent does not observe the length of an episode's control steps, so no clock may show it."""
     options = {"step_variation": 0.5}
     environment = suite.load(*TOWER, {"random": seed, **options})
     recorder = replay.EpisodeRecorder(environment, *TOWER, options)
     recorder.observe_first(environment, environment.reset())
-    lasts = environment.control_timestep()
+    lasts = environment.task.options.control_timestep
     for action in (0, 1, 4):
         recorder.observe(environment, environment.step(action), action)
     assert recorder.episode.control_timestep == lasts
