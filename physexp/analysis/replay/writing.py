@@ -76,8 +76,11 @@ def check_output(path: Path) -> None:
 
     Raises:
       OSError: if the file cannot be written.
-      ValueError: if its name does not end in .rrd, something else than a regular file is there, or its folder is none.
+      ValueError: if its name does not end in .rrd, something else than a regular file is there, its folder is none, or
+        rerun is switched off.
     """
+    if not rr.is_enabled():
+        raise ValueError("RERUN in the environment switches rerun off, so no replay can be written; unset it")
     if path.is_symlink():
         raise ValueError(f"{path} is a symbolic link; name a file")
     if path.is_dir():
