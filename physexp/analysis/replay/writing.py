@@ -37,6 +37,7 @@ _FLOOR_THICKNESS, _FLOOR_COLOR = 0.01, (190, 190, 185)  # m
 _BAND_RADIUS = 0.004  # m
 _TEXT_ABOVE = (0.05, 0.11)  # m, of a mark above its thing: neighbours' texts at two heights.
 _MERGE_SECONDS = 300.0  # A few hundred times what it takes.
+_OFF = ("off", "false", "0")  # Values of RERUN with which rerun drops all data.
 
 
 def write(
@@ -79,7 +80,7 @@ def check_output(path: Path) -> None:
       ValueError: if its name does not end in .rrd, something else than a regular file is there, its folder is none, or
         rerun is switched off.
     """
-    if not rr.is_enabled():
+    if os.environ.get("RERUN", "on").lower() in _OFF:
         raise ValueError("RERUN in the environment switches rerun off, so no replay can be written; unset it")
     if path.is_symlink():
         raise ValueError(f"{path} is a symbolic link; name a file")
