@@ -112,7 +112,7 @@ def _egl_works(library: str) -> bool:
 
 
 _DRAWING = threading.Lock()
-"""Held while a job is done and while this process is forked: a fork must not find the driver's own locks taken."""
+"""Held while a job is done and while this process is forked, so that no fork finds the driver's own locks taken."""
 os.register_at_fork(before=_DRAWING.acquire, after_in_parent=_DRAWING.release, after_in_child=_DRAWING.release)
 
 _QUEUES: dict[int, queue.SimpleQueue] = {}  # By process: a fork has no thread of its parent's.
