@@ -1,11 +1,14 @@
 """Drawing, and opening and closing what draws, leaves memory and open files as they are."""
 
+import gc
+
 from images import EDGE, HEAVIER, MARKS, image_of, load_shared
 import memory
 import numpy as np
 import pytest
 
 from physexp import suite
+from physexp.suite.engine import gl
 
 pytestmark = MARKS
 
@@ -35,6 +38,9 @@ def test_environments_that_are_gone_give_their_memory_back(end):
             env.reset()
             if end == "closed":
                 env.close()
+        del env
+        gc.collect()
+        gl.draw(lambda: None)  # The drawing thread has freed all that it was given before.
 
     grown = memory.growth(play, 3, num_warm_up=3)
     assert grown < 7_000_000, f"{grown} bytes"
