@@ -58,7 +58,7 @@ def _take(lock: filelock.BaseFileLock, path: Path, busy: str) -> None:
         except filelock.Timeout:
             raise ValueError(busy) from None
         except (FileExistsError, FileNotFoundError, NotADirectoryError):
-            if any(one.exists() and not one.is_dir() for one in path.parents):
+            if any(os.path.lexists(one) and not one.is_dir() for one in path.parents):
                 raise ValueError(f"{path.parent} is a file or lies below one; choose another folder") from None
             # Otherwise the lock's last owner has removed the folder meanwhile.
     raise FileNotFoundError(f"{path.parent} cannot be made; choose another folder")
