@@ -9,8 +9,8 @@ from matplotlib.backends import backend_agg
 import numpy as np
 from PIL import Image
 
-from physexp.analysis.evaluation import finding
 from physexp.analysis.replay import beliefs, palette, recording
+from physexp.analysis.training import finding
 from physexp.suite.engine import rendering
 
 EPISODES = {

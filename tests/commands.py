@@ -30,9 +30,9 @@ context.set_forkserver_preload(
         "pandas",
         "torch._dynamo",
         "physexp.cli",
-        "physexp.analysis.evaluation.publishing",
+        "physexp.analysis.training.publishing",
         "physexp.analysis.replay",
-        "physexp.analysis.reproduction.reproduce",
+        "physexp.analysis.experiments.reproduce",
         "physexp.suite.engine.rendering",  # Which opens no context before it draws: one could not be forked.
     ]
 )

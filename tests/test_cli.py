@@ -23,13 +23,12 @@ from rerun.chunk import RrdReader
 import physexp as package
 from physexp import extras, suite
 from physexp.agents import files
-from physexp.analysis import bench, doctor, experiments
-from physexp.analysis.evaluation import finding, playing
+from physexp.analysis import bench, experiments
 from physexp.analysis.experiments import conditions
 from physexp.analysis.ideal import kept
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import progress
-from physexp.cli import commands, ideal, options, parsing, printing
+from physexp.analysis.training import finding, playing, progress
+from physexp.cli import commands, doctor, ideal, options, parsing, printing
 
 PHYSEXP = Path(sys.executable).with_name("physexp")
 

@@ -11,8 +11,7 @@ import pytest
 from seeds import fresh_seed
 
 from physexp import suite
-from physexp.analysis.experiments import base
-from physexp.analysis.reproduction import reproduce
+from physexp.analysis.experiments import base, reproduce
 
 DOCS = Path(__file__).parent.parent / "docs"
 sys.path.insert(0, str(DOCS / "examples"))

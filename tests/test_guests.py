@@ -47,7 +47,7 @@ ACTS = {
 import physexp.cli.commands, physexp.suite.gymnasium, physexp.suite.stable_baselines
 from physexp.agents import pretrained, registry
 from physexp.analysis import replay
-from physexp.analysis.reproduction import report
+from physexp.analysis.experiments import report
 from physexp.analysis.training import trainer
 """,
     "play": """
@@ -73,7 +73,7 @@ for learner in ("a3c", "belief"):
 from physexp.agents.a3c import config as a3c
 from physexp.agents.belief import config as belief
 from physexp.agents.ppo import config as ppo
-from physexp.analysis.evaluation import playing
+from physexp.analysis.training import playing
 from physexp.analysis.training import config as config_lib, run as run_lib, trainer
 agents = [
     ppo.PPOConfig(num_threads=1, num_environments=16, num_minibatches=2, frames=500),
@@ -90,12 +90,12 @@ if __name__ == "__main__":
         result.append(playing.evaluate(run, 50).summary(0.95))
 """,
     "draw": """
-from physexp.analysis.evaluation import figures
-with figures.style():
-    figure, axes = figures.new()
+from physexp.analysis.data import plots
+with plots.style():
+    figure, axes = plots.new()
     axes.plot([1, 2, 3], label="a line")
     axes.legend()
-result.append(hashlib.sha256(figures.svg(figure) + figures.png(figure)).hexdigest())
+result.append(hashlib.sha256(plots.svg(figure) + plots.png(figure)).hexdigest())
 """,
     "replay": """
 from physexp.analysis import replay

@@ -17,22 +17,17 @@ COMMON = {field.name for field in dataclasses.fields(suite.Options)}
 
 # What may speak of a domain: itself, on either side; the experiments, which are questions about domains; and the
 # demonstration, which is an experiment that everybody makes.
-MAY_NAME_A_DOMAIN = ("suite/domains/", "analysis/domains/", "analysis/experiments/", "analysis/demo.py")
+MAY_NAME_A_DOMAIN = ("suite/domains/", "analysis/domains/", "analysis/experiments/", "cli/demo.py")
 
 # Rooms of the analysis, each of which imports from those before it alone.
 FLOORS = (
-    ("callbacks", "readings"),
-    ("data", "terminal"),
+    ("data",),
     ("ideal",),
     ("domains",),
     ("training",),
-    ("evaluation",),
-    ("score",),
-    ("export",),
-    ("experiments",),
-    ("replay",),
-    ("reproduction",),
-    ("bench", "demo", "doctor", "play"),
+    ("replay", "score"),
+    ("experiments", "play"),
+    ("bench",),
 )
 
 

@@ -1,7 +1,6 @@
 """Does an agent that is in a hurry experiment less? Agents with a gamma of 0.9 against agents with 0.98."""
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions
 
 HASTY, PATIENT = (
@@ -37,10 +36,10 @@ def find_claims(frame):
 
 def draw(frame):
     """A dot for each agent."""
-    figure, axes = figures.new()
+    figure, axes = plots.new()
     for number, config in enumerate((HASTY, PATIENT)):
         pokes = mean_pokes(frame, config)
-        axes.plot([number] * len(pokes), pokes, figures.MARKERS[number], color=figures.COLORS[number])
+        axes.plot([number] * len(pokes), pokes, plots.MARKERS[number], color=plots.COLORS[number])
     axes.set_xticks([0, 1], ["0.9", "0.98"])
     axes.set(xlabel="the agent's gamma", ylabel="pokes in an episode", xlim=(-0.5, 1.5), ylim=(0, None))
     return figure

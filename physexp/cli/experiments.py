@@ -41,14 +41,13 @@ class Reproduce:
 
     def run(self) -> None:
         extras.require("matplotlib", "pandas", *(["ray"] if self.cluster is not None else []))
-        from physexp.analysis.experiments import base, conditions
-        from physexp.analysis.reproduction import reproduce
+        from physexp.analysis.experiments import base, conditions, reproduce
 
         chosen = reproduce.choose(self.experiment)
         with contextlib.ExitStack() as stack:
             submit = None
             if self.cluster is not None:
-                from physexp.analysis.reproduction import cluster
+                from physexp.analysis.experiments import cluster
 
                 stack.enter_context(cluster.joined(self.cluster))
                 submit = cluster.submit
@@ -76,8 +75,7 @@ class Report:
 
     def run(self) -> None:
         extras.require("matplotlib", "pandas")
-        from physexp.analysis.experiments import base
-        from physexp.analysis.reproduction import report
+        from physexp.analysis.experiments import base, report
 
         printing.tell(str(report.write(base.Results(self.results_dir), printing.tell)))
 

@@ -45,8 +45,7 @@ class Export:
 
     def run(self) -> None:
         from physexp import extras
-        from physexp.analysis.export import exporting
-        from physexp.analysis.score import playing, targets
+        from physexp.analysis.score import exporting, playing, targets
         from physexp.analysis.training import progress
 
         if self.minari:

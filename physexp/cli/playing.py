@@ -39,8 +39,7 @@ class Evaluate(Generic[options_lib.Options]):
     json: Switch = False
 
     def run(self) -> None:
-        from physexp.analysis.evaluation import finding, playing
-        from physexp.analysis.training import progress
+        from physexp.analysis.training import finding, playing, progress
 
         network, config = finding.find_agent(self.target, options_lib.chosen(self.options))
         seed = playing.SEED if self.seed is None else self.seed
@@ -91,7 +90,7 @@ class Replay(Generic[options_lib.Options]):
 
     def run(self) -> None:
         from physexp.analysis import replay
-        from physexp.analysis.evaluation import playing
+        from physexp.analysis.training import playing
 
         if self.view:
             replay.check_display()
@@ -125,9 +124,9 @@ class Play(Generic[options_lib.Options]):
     view: Switch = False
 
     def run(self) -> None:
-        from physexp.analysis import play
+        from physexp.analysis.play import game
 
-        play.play(self.domain, self.task, options_lib.chosen(self.options), self.seed, self.view)
+        game.play(self.domain, self.task, options_lib.chosen(self.options), self.seed, self.view)
 
 
 @dataclasses.dataclass
@@ -147,7 +146,7 @@ class Publish:
     replace: Switch = False
 
     def run(self) -> None:
-        from physexp.analysis.evaluation import publishing
+        from physexp.analysis.training import publishing
         from physexp.analysis.training import run as run_lib
 
         card = publishing.publish(run_lib.Run(self.run_dir), self.output_dir, self.episodes, self.replace)

@@ -75,7 +75,7 @@ class Doctor:
     json: Switch = False
 
     def run(self) -> None:
-        from physexp.analysis import doctor
+        from physexp.cli import doctor
 
         found = doctor.examine()
         if self.json:

@@ -10,7 +10,7 @@ from tyro.conf import OmitArgPrefixes
 
 from physexp import extras
 from physexp.agents import config as agent_config
-from physexp.analysis import callbacks
+from physexp.analysis.training import callbacks
 from physexp.analysis.training import config as config_lib
 from physexp.cli import options as options_lib
 from physexp.cli import printing
@@ -50,9 +50,8 @@ class Train(Generic[Config, options_lib.Options]):
     def run(self) -> None:
         needed = {"ray": self.cluster is not None, "tensorboard": self.tensorboard}
         extras.require(*(module for module, is_needed in needed.items() if is_needed))
-        from physexp.analysis.evaluation import publishing
+        from physexp.analysis.training import publishing, trainer, verdict
         from physexp.analysis.training import run as run_lib
-        from physexp.analysis.training import trainer, verdict
 
         config = config_lib.TrainConfig(
             domain=self.domain,
@@ -74,7 +73,7 @@ class Train(Generic[Config, options_lib.Options]):
                 run.check_resumable() if self.resume else run.check_new()
                 is_finished = self.resume and run.is_finished
                 if self.cluster is not None:
-                    from physexp.analysis.reproduction import cluster
+                    from physexp.analysis.experiments import cluster
 
                     stack.enter_context(cluster.joined(self.cluster))
                 report = self._reports(stack, run, config)
@@ -158,6 +157,6 @@ class Demo:
 
     def run(self) -> None:
         extras.require("matplotlib")
-        from physexp.analysis import demo
+        from physexp.cli import demo
 
         demo.run(self.run_dir)

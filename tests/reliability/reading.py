@@ -10,8 +10,8 @@ import subjects
 
 from physexp.agents import pretrained
 from physexp.analysis.data import tables
-from physexp.analysis.evaluation import finding, records
 from physexp.analysis.replay import viewing
+from physexp.analysis.training import finding, records
 from physexp.analysis.training import run as run_lib
 
 

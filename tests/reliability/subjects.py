@@ -7,9 +7,8 @@ import torch
 
 from physexp.agents import networks, pretrained, registry
 from physexp.agents.ppo import config as ppo
-from physexp.analysis.evaluation import records
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import recorder, trainer
+from physexp.analysis.training import recorder, records, trainer
 from physexp.analysis.training import run as run_lib
 
 SMALL = ppo.PPOConfig(

@@ -12,13 +12,11 @@ import subjects
 import torch
 
 from physexp.agents import checkpointing
-from physexp.analysis.evaluation import finding, records
-from physexp.analysis.experiments import base
+from physexp.analysis.experiments import base, sweep
 from physexp.analysis.replay import recording, writing
-from physexp.analysis.reproduction import sweep
 from physexp.analysis.score import log, playing, protocol, scoring
+from physexp.analysis.training import finding, recorder, records
 from physexp.analysis.training import metrics as metrics_lib
-from physexp.analysis.training import recorder
 from physexp.analysis.training import run as run_lib
 
 pytestmark = pytest.mark.long

@@ -10,7 +10,7 @@ import pytest
 import torch
 
 from physexp import suite
-from physexp.analysis import doctor
+from physexp.cli import doctor
 from physexp.suite import gymnasium
 from physexp.suite.engine import gl, rendering
 
@@ -201,7 +201,7 @@ def test_a_variable_that_keeps_pixels_from_being_drawn_is_named(variables):
         f"""
 {HIDE_GL}
 {PLAY}
-from physexp.analysis import doctor
+from physexp.cli import doctor
 found["played"] = play_features()
 found["drawn"] = draw()
 found["core"] = [check["verdict"] for check in doctor._core()]

@@ -9,13 +9,11 @@ import tempfile
 import time
 
 from physexp.agents.a3c import distributed, parameter_server
-from physexp.analysis import callbacks
 from physexp.analysis.bench import measuring
-from physexp.analysis.evaluation import playing
-from physexp.analysis.reproduction import cluster
+from physexp.analysis.experiments import cluster
+from physexp.analysis.training import callbacks, playing, trainer
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import trainer
 
 _SECONDS = 15.0
 _FRAMES, _EPISODES = 4_000_000, 10_000  # To learn what either trainer makes of an agent, and to measure it.

@@ -7,9 +7,8 @@ from pathlib import Path
 import sys
 
 from physexp.analysis.bench import measuring
-from physexp.analysis.evaluation import records
-from physexp.analysis.experiments import base, conditions, ideal_gap
-from physexp.analysis.reproduction import sweep
+from physexp.analysis.experiments import base, conditions, ideal_gap, sweep
+from physexp.analysis.training import records
 
 RETURN = {3.0: 0.79, 5.0: 0.83, 10.0: 0.86}  # Mean discounted return in the median of the better half of the agents.
 SUCCESS = {"fist_features": 0.98, "direct_features": 0.95}  # Share of right answers, in the same.

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from physexp.agents import pretrained
 from physexp.analysis import domains
 from physexp.analysis.bench import measuring
-from physexp.analysis.evaluation import finding, playing
+from physexp.analysis.training import finding, playing
 
 EPISODES = 10_000
 

@@ -11,9 +11,9 @@ from physexp import suite
 from physexp.agents import environment_loop, pretrained
 from physexp.analysis import replay
 from physexp.analysis.bench import measuring
-from physexp.analysis.evaluation import finding
 from physexp.analysis.replay import recording, writing
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import finding
 
 _PAIRS, _EPISODES = 100, 8  # Measurements of each side, and what is played in one.
 

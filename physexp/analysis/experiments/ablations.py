@@ -3,7 +3,7 @@
 from typing import Any
 
 from physexp.agents.belief import config as belief
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import plots
 from physexp.analysis.experiments import base, claims, conditions, ideal_towers, learning, scores
 
 _WHOLE = "belief"
@@ -62,12 +62,12 @@ def find_claims(frame) -> list[claims.Claim]:
 def draw(frame):
     """A panel for each task."""
     shown = [task for task in _TASKS if (frame.condition == task.label).any()]
-    figure, panels = figures.new(columns=len(shown), width=3.2, height=2.4, sharey=True, squeeze=False)
+    figure, panels = plots.new(columns=len(shown), width=3.2, height=2.4, sharey=True, squeeze=False)
     for axes, task in zip(panels[0], shown, strict=True):
         for number, (title, words) in enumerate(WORDS.items()):
             if runs := scores.runs(frame, task.label, title):
                 learning.draw_range(axes, runs, number, words, "frames", "score")
-        figures.reference(axes, scores.LEVEL, "")
+        plots.reference(axes, scores.LEVEL, "")
         axes.set(xscale="log", ylim=(scores.FLOOR, 1.05), title=conditions.spelled_out(task.label))
         axes.set(xlabel=learning.AXES["frames"][1])
     panels[0, 0].set_ylabel("share of the ideal")

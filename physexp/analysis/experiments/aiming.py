@@ -8,8 +8,7 @@ import functools
 
 import numpy as np
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import claims, conditions, strategy
 from physexp.suite.domains import strike
 
@@ -72,7 +71,7 @@ def _claims(frame) -> list[claims.Claim]:
 def _draw(axes, frame) -> None:
     for place, name in enumerate(_NAMES):
         spreads = _spreads(frame, name)
-        axes.bar(place, spreads.mean(), color=figures.COLORS[place], width=0.7)
+        axes.bar(place, spreads.mean(), color=plots.COLORS[place], width=0.7)
         axes.plot(np.full(len(spreads), place), spreads, "o", markersize=2, color="black")
     axes.set_xticks(range(len(_NAMES)), list(_NAMES.values()))
     axes.set(xlabel="logarithm of", ylabel="spread left, share of the prior's", ylim=(0, 1.05))

@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 
 from physexp.agents import files
-from physexp.analysis.evaluation import figures, records
+from physexp.analysis.data import plots
 from physexp.analysis.experiments import claims as claims_lib
 from physexp.analysis.experiments import conditions
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import records
 from physexp.analysis.training import run as run_lib
 
 
@@ -213,5 +214,5 @@ class Experiment:
 
     def figure(self, frame) -> Any:
         """Draws the figure as it is to look."""
-        with figures.style():
+        with plots.style():
             return self.draw(frame)

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import claims, conditions, strategy
 from physexp.suite.domains import strings
 
@@ -43,7 +42,7 @@ def _claims(frame) -> list[claims.Claim]:
 
 def _draw(axes, frame) -> None:
     shares = frame.groupby("answer").clamps.mean().reindex(range(strings.NUM_GRAPHS), fill_value=0.0)
-    colors = [figures.COLORS[2] if both else figures.GREY for both in hangs_together(shares.index.to_numpy())]
+    colors = [plots.COLORS[2] if both else plots.GREY for both in hangs_together(shares.index.to_numpy())]
     bands = strings.is_joined(shares.index.to_numpy())
     names = ["\n".join(f"{i}-{j}" for pair, (i, j) in zip(row, strings.PAIRS, strict=True) if pair) for row in bands]
     axes.bar(range(len(names)), shares, color=colors)

@@ -2,8 +2,7 @@
 
 from typing import Any
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, ideal_towers, learning, scores
 
 LEARNERS = {
@@ -180,7 +179,7 @@ def draw(frame):
     shown = [task for task in scores.TASKS if (frame.condition == task.label).any()]
     kinds = [kind for kind in conditions.OBSERVATIONS if kind in map(conditions.observations, shown)]
     rows = list(dict.fromkeys(map(_without_kind, shown)))
-    figure, panels = figures.new(
+    figure, panels = plots.new(
         rows=len(rows), columns=2 * len(kinds), width=2.0, height=1.5, sharex="col", sharey=True, squeeze=False
     )
     for axes in panels.flat:
@@ -195,7 +194,7 @@ def draw(frame):
             for number, (learner, words) in enumerate(LEARNERS.items()):
                 if runs := scores.runs(frame, task.label, learner):
                     learning.draw_range(axes, runs, number, words, along, "score")
-            figures.reference(axes, scores.LEVEL, "")
+            plots.reference(axes, scores.LEVEL, "")
             axes.set(xscale="log", ylim=(scores.FLOOR, 1.05))
             handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
         score = "right answers" if scores.sees_pixels(task.label) else "share of the ideal"

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from physexp.analysis import domains
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures, playing, records
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, scores
 from physexp.analysis.ideal import rollouts
+from physexp.analysis.training import playing, records
 
 USUAL, VARIED = "trained as usual", "trained with variation"
 RULE, LOOKUP = "rule", "lookup"
@@ -222,21 +222,21 @@ def _share(right: float) -> estimates.Estimate:
 def draw(frame):
     """A panel for each condition: the share of right answers in each test."""
     names = list(frame.condition.unique())
-    figure, panels = figures.new(rows=len(names), width=6.4, height=2.1, sharex=True, squeeze=False)
+    figure, panels = plots.new(rows=len(names), width=6.4, height=2.1, sharex=True, squeeze=False)
     places = np.arange(len(TRIALS))
     for axes, name in zip(panels[:, 0], names, strict=True):
         for number, (player, words) in enumerate(_WORDS.items()):
             table = _by_test(frame[frame.condition == name], player, "right")
             if not len(table):
                 continue
-            style = dict(color=figures.COLORS[number + 1], marker=figures.MARKERS[number], markersize=4)
+            style = dict(color=plots.COLORS[number + 1], marker=plots.MARKERS[number], markersize=4)
             middle = table.median()
             spread = np.abs(table.agg(["min", "max"]) - middle).to_numpy() if len(table) > 1 else None
             shift = (number - 1.5) * 0.12
             axes.errorbar(places + shift, middle, yerr=spread, linestyle="none", capsize=2, label=words, **style)
-        figures.reference(axes, conditions.chance("towers", conditions.TOWERS[0].task), "chance")
+        plots.reference(axes, conditions.chance("towers", conditions.TOWERS[0].task), "chance")
         axes.set(title=conditions.spelled_out(name), ylabel="share of right answers", ylim=(0, 1.05))
-        axes.axvline(1.5, color=figures.GREY, linewidth=0.6)
+        axes.axvline(1.5, color=plots.GREY, linewidth=0.6)
     panels[-1, 0].set_xticks(places, [textwrap.fill(test, 9) for test in TRIALS])
     panels[-1, 0].set_xlabel("what is tested; right of the line: what no agent was trained with")
     handles, labels = panels[0, 0].get_legend_handles_labels()

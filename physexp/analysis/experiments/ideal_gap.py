@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures, records
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, ideal_towers
 from physexp.analysis.ideal import mistakes
+from physexp.analysis.training import records
 
 CONDITIONS = (*conditions.HEAVIER, *conditions.TOWERS)
 _WORDS = {
@@ -112,7 +112,7 @@ def find_claims(frame) -> list[claims.Claim]:
 
 def draw(frame):
     """Returns as shares of the ideal's, what is lost by kind, and how fine the towers' observer must see."""
-    figure, (left, middle, right) = figures.new(columns=3, width=2.9, height=3.1)
+    figure, (left, middle, right) = plots.new(columns=3, width=2.9, height=3.1)
     names = list(frame.condition.unique())
     places = np.arange(len(names))
     for place, name in zip(places, names, strict=True):
@@ -121,11 +121,11 @@ def draw(frame):
             [place] * len(agents),
             agents.agent_return / agents.ideal_return,
             "o",
-            color=figures.COLORS[1],
+            color=plots.COLORS[1],
             markersize=2.5,
             alpha=0.6,
         )
-    figures.reference(left, 1.0, "ideal", at=0.35)
+    plots.reference(left, 1.0, "ideal", at=0.35)
     left.set_xticks(places, [conditions.tick(name) for name in names], rotation=90)
     left.set(ylabel="discounted return, share of the ideal's")
     _draw_costs(middle, frame)
@@ -147,7 +147,7 @@ def _draw_costs(axes, frame) -> None:
                 ticks,
                 means[kind],
                 bottom=base_of_bar,
-                color=figures.COLORS[1:][number],
+                color=plots.COLORS[1:][number],
                 label=words,
                 hatch=[None, "///", "...", "xx", "++"][number],
                 edgecolor="white",
@@ -167,9 +167,9 @@ def _draw_resolutions(axes, towers: dict[str, list[dict]]) -> None:
         axes.plot(
             [max(row["resolution"], 3e-4) * 1e3 for row in rows],
             [row["mean_seconds"] for row in rows],
-            color=figures.COLORS[number],
-            linestyle=figures.DASHES[number],
-            marker=figures.MARKERS[number],
+            color=plots.COLORS[number],
+            linestyle=plots.DASHES[number],
+            marker=plots.MARKERS[number],
             markersize=3.5,
             label=conditions.tick(conditions.label("towers", task)),
         )

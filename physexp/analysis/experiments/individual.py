@@ -5,8 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, blocks, claims, conditions
 from physexp.suite.domains import which_is_heavier
 
@@ -83,7 +82,7 @@ def find_claims(frame) -> list[claims.Claim]:
 def draw(frame):
     """One agent of each difficulty: dots, trend, spread, and the ideal experimenter's mean."""
     present = [beta for beta in conditions.DIFFICULTIES if (frame.difficulty == beta).any()]
-    figure, panels = figures.new(columns=len(present), width=2.3, height=2.3, sharey=True, squeeze=False)
+    figure, panels = plots.new(columns=len(present), width=2.3, height=2.3, sharey=True, squeeze=False)
     for axes, beta in zip(panels[0], present, strict=True):
         rows = frame[(frame.difficulty == beta) & (frame.label >= 0)]
         rows = rows[rows.training_seed == rows.training_seed.min()]
@@ -99,7 +98,7 @@ def draw(frame):
             means,
             deviations,
             fmt="s",
-            color=figures.COLORS[2],
+            color=plots.COLORS[2],
             markersize=3,
             linewidth=1,
             capsize=1.5,
@@ -107,8 +106,8 @@ def draw(frame):
         )
         trend = estimates.slope(gaps, pokes)
         ends = np.array([0.0, 1.0])
-        axes.plot(ends, pokes.mean() + trend.value * (ends - gaps.mean()), color=figures.COLORS[2], label="OLS")
-        axes.plot(*_ideal_means(beta), color=figures.COLORS[1], linestyle=figures.DASHES[1], label="ideal")
+        axes.plot(ends, pokes.mean() + trend.value * (ends - gaps.mean()), color=plots.COLORS[2], label="OLS")
+        axes.plot(*_ideal_means(beta), color=plots.COLORS[1], linestyle=plots.DASHES[1], label="ideal")
         axes.set(xlabel="mass gap", title=f"β = {beta:g}: slope {trend.value:.2f}", xlim=(0, 1), ylim=(0, 15))
     panels[0, 0].set_ylabel("pokes before the answer")
     panels[0, -1].legend(loc="upper right", fontsize=6)

@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 
 from physexp.analysis import domains
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, scores
 
 TASKS = (
@@ -136,7 +135,7 @@ def draw(frame):
     shown = [task for task in TASKS if (frame.condition == task.label).any()]
     num_columns = min(4, len(shown))
     num_rows = -(-len(shown) // num_columns)
-    figure, panels = figures.new(
+    figure, panels = plots.new(
         columns=num_columns, rows=num_rows, width=1.9, height=2.0, sharex=True, sharey=True, squeeze=False
     )
     for axes in panels.flat[len(shown) :]:
@@ -144,12 +143,12 @@ def draw(frame):
     for axes, task in zip(panels.flat, shown, strict=False):
         row = frame.attrs["untrained"][task.label]
         by_chance = row["random_value"] / row["value"]
-        figures.reference(axes, 1.0, "")
+        plots.reference(axes, 1.0, "")
         axes.axhline(max(FLOOR, by_chance), color="0.85", linewidth=3, zorder=-1)
         for number, learner in enumerate(LEARNERS):
             shares = _agents(frame, task.label, learner).share.clip(lower=FLOOR)
             spread = np.linspace(-0.15, 0.15, len(shares)) if len(shares) > 1 else np.zeros(len(shares))
-            color, marker = figures.COLORS[number], figures.MARKERS[number]
+            color, marker = plots.COLORS[number], plots.MARKERS[number]
             axes.plot(number + spread, shares, marker, color=color, markersize=3, alpha=0.7)
             if len(shares):
                 axes.plot([number - 0.3, number + 0.3], [shares.median()] * 2, color=color, linewidth=1.6)

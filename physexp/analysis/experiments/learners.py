@@ -1,7 +1,6 @@
 """Two learners on the same network: A3C, the paper's, and PPO. Ours: the paper has one."""
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, learning
 
 _NAMES = {"ppo": "PPO", "a3c": "A3C"}
@@ -55,7 +54,7 @@ def draw(frame):
     """A row for each task, against frames and against minutes."""
     tasks = [task for task in _TASKS if frame.condition.str.startswith(task).any()]
     curves = {along: learning.smoothed(frame, along) for along in learning.AXES}
-    figure, panels = figures.new(rows=len(tasks), columns=2, height=2.2, sharey=True, squeeze=False)
+    figure, panels = plots.new(rows=len(tasks), columns=2, height=2.2, sharey=True, squeeze=False)
     for row, task in zip(panels, tasks, strict=True):
         chance = conditions.chance(_TASKS[task].domain, _TASKS[task].task)
         for axes, along in zip(row, learning.AXES, strict=True):

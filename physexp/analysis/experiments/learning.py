@@ -5,8 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import claims
 
 CAPTION = (
@@ -64,10 +63,10 @@ def draw_panel(axes, curves, names: Sequence[str], labels: Sequence[str], chance
         if name not in curves:
             continue
         grid, lines = curves[name]
-        color, dashes = figures.COLORS[number], figures.DASHES[number]
+        color, dashes = plots.COLORS[number], plots.DASHES[number]
         axes.plot(grid, lines.T, color=color, alpha=0.25, linewidth=0.7)
         axes.plot(grid, np.median(lines, axis=0), color=color, linestyle=dashes, linewidth=1.6, label=label)
-    figures.reference(axes, chance, "chance")
+    plots.reference(axes, chance, "chance")
     axes.set(xlabel=AXES[along][1], ylim=(0, 1.02), xlim=(0, None))
 
 
@@ -85,7 +84,7 @@ def draw_range(axes, runs: Sequence[Any], number: int, label: str, along: str, o
     first, last = max(places[0] for places, _ in curves), min(places[-1] for places, _ in curves)
     grid = np.geomspace(first, max(first, last), _POINTS)
     lines = np.array([np.interp(grid, places, means) for places, means in curves])
-    color, dashes = figures.COLORS[number], figures.DASHES[number]
+    color, dashes = plots.COLORS[number], plots.DASHES[number]
     grid = grid / AXES[along][0]
     axes.fill_between(grid, lines.min(axis=0), lines.max(axis=0), color=color, alpha=0.25, linewidth=0)
     axes.plot(grid, np.median(lines, axis=0), color=color, linestyle=dashes, linewidth=1.6, label=label)

@@ -1,7 +1,6 @@
 """Success in learning Which is Heavier (paper, Section 5.3; Figure 2)."""
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, learning
 
 _STATISTIC = "share of right answers at the end of training, mean of agents"
@@ -59,13 +58,13 @@ def draw(frame):
     curves = learning.smoothed(frame)
     accuracies = [conditions.heavier_ideal(beta).figures()["accuracy"] for beta in conditions.DIFFICULTIES]
     kinds = [kind for kind in conditions.OBSERVATIONS if (frame.task == kind).any()]
-    figure, panels = figures.new(columns=len(kinds), sharey=True, squeeze=False)
+    figure, panels = plots.new(columns=len(kinds), sharey=True, squeeze=False)
     for axes, kind in zip(panels[0], kinds, strict=True):
         chance = conditions.chance("which_is_heavier", kind)
         labels = [f"β = {beta:g}" for beta in conditions.DIFFICULTIES]
         learning.draw_panel(axes, curves, _names(kind), labels, chance)
         low, high = min(accuracies), max(accuracies)
-        figures.reference(axes, high, f"ideal: {low:.3f} to {high:.3f}")
+        plots.reference(axes, high, f"ideal: {low:.3f} to {high:.3f}")
         axes.set(ylim=(0, 1.08), yticks=[0, 0.2, 0.4, 0.6, 0.8, 1])
         axes.set_title(f"from {kind}")
         axes.legend(loc="lower right", bbox_to_anchor=(1, 0.3))

@@ -1,7 +1,6 @@
 """Success in learning Towers (paper, Section 6.3; Figure 6)."""
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, learning
 
 _NEARLY_PERFECT = 0.95
@@ -43,7 +42,7 @@ def draw(frame):
     """A panel for each condition."""
     curves = learning.smoothed(frame)
     tasks = [condition.task for condition in conditions.TOWERS if (frame.task == condition.task).any()]
-    figure, panels = figures.new(columns=len(tasks), width=2.0, height=2.2, sharey=True, squeeze=False)
+    figure, panels = plots.new(columns=len(tasks), width=2.0, height=2.2, sharey=True, squeeze=False)
     for axes, task in zip(panels[0], tasks, strict=True):
         name = conditions.label("towers", task)
         learning.draw_panel(axes, curves, [name], ["median"], conditions.chance("towers", task))

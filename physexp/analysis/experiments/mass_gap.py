@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions
 from physexp.suite.domains import which_is_heavier
 
@@ -44,15 +43,15 @@ def find_claims(frame) -> list[claims.Claim]:
 
 def draw(frame):
     """Densities of the mass gap."""
-    figure, axes = figures.new()
+    figure, axes = plots.new()
     for number, difficulty in enumerate(conditions.DIFFICULTIES):
         gaps = frame.mass_gap[frame.difficulty == difficulty]
         density, edges = np.histogram(gaps, bins=np.linspace(0, 1, 51), density=True)
         axes.stairs(
             density,
             edges,
-            color=figures.COLORS[number],
-            linestyle=figures.DASHES[number],
+            color=plots.COLORS[number],
+            linestyle=plots.DASHES[number],
             linewidth=1.4,
             label=f"β = {difficulty:g}",
         )

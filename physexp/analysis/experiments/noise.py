@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from physexp.analysis import domains
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures, records
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, blocks, claims, conditions
+from physexp.analysis.training import records
 
 EXACT, NOISY = "exact", "noisy"
 _NOISE = 0.03  # m, of each reading.
@@ -163,7 +163,7 @@ def _gap_of_second_pokes(agent) -> float:
 
 def draw(frame):
     """Pokes of blocks that were poked before, and all pokes, against the mass gap."""
-    figure, panels = figures.new(columns=2, width=3.0, height=2.3)
+    figure, panels = plots.new(columns=2, width=3.0, height=2.3)
     words = {"again": "pokes of blocks poked before", "interactions": "pokes before the answer"}
     for axes, (column, label) in zip(panels, words.items(), strict=True):
         for number, readings in enumerate(_WORDS):
@@ -173,14 +173,14 @@ def draw(frame):
             ]
             if not lines:
                 continue
-            style = dict(color=figures.COLORS[number + 1], marker=figures.MARKERS[number], markersize=3)
+            style = dict(color=plots.COLORS[number + 1], marker=plots.MARKERS[number], markersize=3)
             axes.fill_between(
                 blocks.GAPS, np.min(lines, axis=0), np.max(lines, axis=0), alpha=0.2, color=style["color"]
             )
             axes.plot(blocks.GAPS, np.median(lines, axis=0), label=_WORDS[readings], **style)
         axes.set(xlabel="mass gap", ylabel=label, xlim=(0, 1), ylim=(0, None))
     panels[0].legend()
-    figure.suptitle(figures.seeds(frame[frame.readings == NOISY]), fontsize=7, x=0.99, ha="right")
+    figure.suptitle(plots.seeds(frame[frame.readings == NOISY]), fontsize=7, x=0.99, ha="right")
     return figure
 
 

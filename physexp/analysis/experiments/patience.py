@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from physexp.analysis.data import estimates
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.domains import which_is_heavier
-from physexp.analysis.evaluation import figures
 from physexp.analysis.experiments import base, claims, conditions, population
 
 _DISCOUNTS = (which_is_heavier.DOMAIN.discount, conditions.PATIENT_DISCOUNT)
@@ -48,10 +47,10 @@ def find_claims(frame) -> list[claims.Claim]:
 def draw(frame):
     """Mean pokes of each agent under both discounts, and the ideal experimenter's."""
     names = list(frame.condition.unique())
-    figure, axes = figures.new(width=3.6, height=2.4)
+    figure, axes = plots.new(width=3.6, height=2.4)
     places = np.arange(len(names))
     for number, (discount, shift) in enumerate(zip(_DISCOUNTS, (-0.2, 0.2), strict=True)):
-        color = figures.COLORS[1 + number]
+        color = plots.COLORS[1 + number]
         means = [_means(frame, name, discount) for name in names]
         axes.bar(places + shift, [mean.mean() for mean in means], 0.36, color=color, label=f"γ = {discount:g}")
         for place, mean in zip(places + shift, means, strict=True):
@@ -60,7 +59,7 @@ def draw(frame):
             (difficulty,) = frame.difficulty[frame.condition == name].unique()
             best = conditions.heavier_ideal(float(difficulty), discount).figures()["mean_interactions"]
             ends = [place + shift - 0.18, place + shift + 0.18]
-            axes.plot(ends, [best] * 2, "k", linestyle=figures.DASHES[2], label=None if number or place else "ideal")
+            axes.plot(ends, [best] * 2, "k", linestyle=plots.DASHES[2], label=None if number or place else "ideal")
     axes.set_xticks(places, [conditions.tick(name).replace(", ", "\n") for name in names])
     axes.set_ylabel("pokes before the answer")
     axes.legend()

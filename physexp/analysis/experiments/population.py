@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions
 
 _ALL_BLOCKS = 4
@@ -60,14 +59,14 @@ def find_claims(frame) -> list[claims.Claim]:
 def draw(frame):
     """A histogram for each difficulty, the ideal experimenter's beside it."""
     present = [beta for beta in conditions.DIFFICULTIES if (frame.difficulty == beta).any()]
-    figure, panels = figures.new(columns=len(present), width=2.2, height=2.2, sharey=True, squeeze=False)
+    figure, panels = plots.new(columns=len(present), width=2.2, height=2.2, sharey=True, squeeze=False)
     bins = np.arange(_LONGEST + 1)
     for number, (axes, beta) in enumerate(zip(panels[0], present, strict=True)):
         pokes = frame.interactions[frame.difficulty == beta].clip(upper=_LONGEST)
         axes.bar(
             bins,
             np.bincount(pokes, minlength=len(bins)) / len(pokes),
-            color=figures.COLORS[number],
+            color=plots.COLORS[number],
             width=0.8,
             alpha=0.75,
             label="agents",
@@ -75,13 +74,13 @@ def draw(frame):
         solution = conditions.heavier_ideal(beta).figures()
         best = np.zeros(len(bins))
         best[: len(solution["histogram"])] = list(solution["histogram"].values())
-        axes.stairs(best, np.arange(len(bins) + 1) - 0.5, color=figures.GREY, linewidth=1.3, label="ideal")
-        figures.reference(axes, _ALL_BLOCKS, "all blocks" if beta == present[-1] else "", vertical=True)
+        axes.stairs(best, np.arange(len(bins) + 1) - 0.5, color=plots.GREY, linewidth=1.3, label="ideal")
+        plots.reference(axes, _ALL_BLOCKS, "all blocks" if beta == present[-1] else "", vertical=True)
         axes.set(xlabel="pokes before the answer", title=f"β = {beta:g}", xticks=bins[::2])
         axes.set_xticklabels([*bins[:-1:2], f"≥{_LONGEST}"])
     panels[0, 0].set_ylabel("share of episodes")
     panels[0, -1].legend(loc="upper right")
-    figure.suptitle(figures.seeds(frame), fontsize=7, x=0.99, ha="right")
+    figure.suptitle(plots.seeds(frame), fontsize=7, x=0.99, ha="right")
     return figure
 
 

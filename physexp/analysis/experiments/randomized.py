@@ -4,8 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions
 from physexp.analysis.training import config as config_lib
 
@@ -84,12 +83,12 @@ def draw(frame, configs: Sequence[config_lib.TrainConfig], ideal: Mapping[str, M
     """Lengths at the left, accuracies at the right; `ideal` has the summary for each condition's label."""
     agents = per_agent(frame)
     names = [config.label for config in configs if config.label in set(agents.condition)]
-    figure, panels = figures.new(columns=2, width=3.4, height=2.4)
+    figure, panels = plots.new(columns=2, width=3.4, height=2.4)
     places = np.arange(len(names))
     for axes, column, best in zip(panels, ("interactions", "accuracy"), ("mean_interactions", "accuracy"), strict=True):
         for offset, interaction, color, hatch in (
-            (-0.2, "learned", figures.COLORS[1], None),
-            (0.2, "random", figures.COLORS[5], "///"),
+            (-0.2, "learned", plots.COLORS[1], None),
+            (0.2, "random", plots.COLORS[5], "///"),
         ):
             groups = [
                 agents[(agents.condition == name) & (agents.interaction == interaction)][column] for name in names
@@ -112,12 +111,12 @@ def draw(frame, configs: Sequence[config_lib.TrainConfig], ideal: Mapping[str, M
                 [ideal[name][best]] * 2,
                 color="black",
                 linewidth=1.2,
-                linestyle=figures.DASHES[2],
+                linestyle=plots.DASHES[2],
                 label="ideal" if place == 0 else None,
             )
         axes.set_xticks(places, [conditions.tick(name).replace(", ", "\n") for name in names], fontsize=6.5)
     panels[0].set(ylabel="interactions before the answer")
     panels[1].set(ylabel="share of right answers", ylim=(0, 1.05))
-    figures.reference(panels[1], conditions.chance(configs[0].domain, configs[0].task), "chance")
+    plots.reference(panels[1], conditions.chance(configs[0].domain, configs[0].task), "chance")
     panels[0].legend(loc="upper right", bbox_to_anchor=(1, 1.12), ncols=3, fontsize=6.5)
     return figure

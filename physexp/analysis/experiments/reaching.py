@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import plots
 from physexp.analysis.experiments import base, claims, conditions, learning, scores
 
 NEAR, FAR, DIRECT = "fist at the tower", "fist", "direct pushes"
@@ -80,12 +80,12 @@ def _runs(frame, kind: str, player: str) -> list:
 def draw(frame):
     """A panel for each kind of observation: the share of right answers against environment steps."""
     kinds = list(frame.condition.unique())
-    figure, panels = figures.new(columns=len(kinds), width=3.0, height=2.3, sharey=True, squeeze=False)
+    figure, panels = plots.new(columns=len(kinds), width=3.0, height=2.3, sharey=True, squeeze=False)
     for axes, kind in zip(panels[0], kinds, strict=True):
         for number, player in enumerate((NEAR, FAR, DIRECT)):
             if runs := _runs(frame, kind, player):
                 learning.draw_range(axes, runs, number, player, "frames", "score")
-        figures.reference(axes, conditions.chance("towers", conditions.TOWERS[0].task), "chance")
+        plots.reference(axes, conditions.chance("towers", conditions.TOWERS[0].task), "chance")
         axes.set(title=kind, xscale="log", xlabel=learning.AXES["frames"][1])
     panels[0, 0].set(ylabel="share of right answers", ylim=(0, 1.02))
     panels[0, 0].legend(loc="upper left")

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import records
 from physexp.analysis.experiments import base, claims, conditions, ideal_towers, learning
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import records
 
 TASKS = tuple(conditions.BY_LABEL.values())
 LEVEL = 0.95  # Of the ideal's return, for features; of right answers, for pixels.

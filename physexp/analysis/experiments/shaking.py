@@ -3,8 +3,7 @@
 import numpy as np
 from scipy import stats
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import claims, conditions, strategy
 from physexp.suite.domains import sealed_box
 
@@ -44,9 +43,9 @@ def _draw(axes, frame) -> None:
     for kind, name in enumerate(sealed_box.CONTENTS):
         those = [content for content in taken.index if sealed_box.KINDS[content] == kind]
         shift = 0.12 * (kind - 1.5)
-        axes.plot(best[those] + shift, taken[those], "o", markersize=3, color=figures.COLORS[kind], label=name)
+        axes.plot(best[those] + shift, taken[those], "o", markersize=3, color=plots.COLORS[kind], label=name)
     ends = [0, max(best.max(), taken.max()) + 0.5]
-    axes.plot(ends, ends, color=figures.GREY, linewidth=0.8)
+    axes.plot(ends, ends, color=plots.GREY, linewidth=0.8)
     axes.set(xlabel="interactions of the ideal", ylabel="interactions of agents", xlim=ends, ylim=ends)
     axes.legend(fontsize=6)
 

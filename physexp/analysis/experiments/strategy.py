@@ -7,11 +7,11 @@ from matplotlib import axes as axes_lib
 import numpy as np
 import pandas
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures, records
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, conditions
 from physexp.analysis.experiments import claims as claims_lib
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import records
 
 LEAST_SHARE = 0.95  # Of the ideal's return, that agents are to earn.
 _COLUMNS = ("reward", "length", "interactions")
@@ -58,17 +58,17 @@ class Strategy:
 
     def figure(self, frame: pandas.DataFrame):
         """Interactions before the answer beside the ideal's, and what is done."""
-        figure, (left, right) = figures.new(columns=2, width=3.0, height=2.3)
+        figure, (left, right) = plots.new(columns=2, width=3.0, height=2.3)
         best = conditions.ideal(self.condition).figures()["histogram"]
         longest = max(len(best), int(frame.interactions.max()) + 1)
         shares = np.bincount(frame.interactions, minlength=longest) / len(frame)
-        left.bar(np.arange(longest), shares, color=figures.COLORS[1], width=0.8, alpha=0.75, label="agents")
+        left.bar(np.arange(longest), shares, color=plots.COLORS[1], width=0.8, alpha=0.75, label="agents")
         ideal = [best.get(number, 0.0) for number in range(longest)]
-        left.stairs(ideal, np.arange(longest + 1) - 0.5, color=figures.GREY, linewidth=1.3, label="ideal")
+        left.stairs(ideal, np.arange(longest + 1) - 0.5, color=plots.GREY, linewidth=1.3, label="ideal")
         left.set(xlabel="interactions before the answer", ylabel="share of episodes")
         left.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2)
         self.draw(right, frame)
-        figure.suptitle(figures.seeds(frame), fontsize=7, x=0.99, ha="right")
+        figure.suptitle(plots.seeds(frame), fontsize=7, x=0.99, ha="right")
         return figure
 
     def experiment(self, name: str, title: str, caption: str) -> base.Experiment:

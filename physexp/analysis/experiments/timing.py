@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from physexp.analysis.data import estimates
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.domains import towers
-from physexp.analysis.evaluation import figures, playing
 from physexp.analysis.experiments import base, claims, conditions, generalization
 from physexp.analysis.ideal import rollouts
+from physexp.analysis.training import playing
 
 ONE, MANY = "trained with control steps of 0.1 s", "trained with control steps of 0.05 to 0.15 s"
 WAITS = "rule, after a fixed number of control steps"
@@ -212,19 +212,19 @@ def _by_step(frame, player: str):
 
 def draw(frame):
     """Against the control step: the share of right answers, and the median time to the answer."""
-    figure, panels = figures.new(columns=2, width=3.0, height=2.3)
+    figure, panels = plots.new(columns=2, width=3.0, height=2.3)
     words = {"right": "share of right answers", "time": "time to the answer, s"}
     for axes, (column, label) in zip(panels, words.items(), strict=True):
         for number, player in enumerate((ONE, MANY, WAITS)):
             table = _by_step(frame, player)
             if not len(table):
                 continue
-            style = dict(color=figures.COLORS[number + 1], marker=figures.MARKERS[number], markersize=3)
+            style = dict(color=plots.COLORS[number + 1], marker=plots.MARKERS[number], markersize=3)
             values = table[column]
             axes.fill_between(values.columns, values.min(), values.max(), alpha=0.2, color=style["color"])
             axes.plot(values.columns, values.median(), label=player, **style)
         axes.set(xlabel="control step, s", ylabel=label, ylim=(0, None))
-    figures.reference(panels[0], conditions.chance(_FIST.domain, _FIST.task), "chance")
+    plots.reference(panels[0], conditions.chance(_FIST.domain, _FIST.task), "chance")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=1)
     return figure

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions
 
 CONTROL_TIMESTEPS = tuple(round(0.01 * number, 2) for number in range(1, 11))  # s; the last is that of training
@@ -115,16 +114,16 @@ def draw(frame):
     """Above, accuracy against the control step; below, the median time to the answer, of one agent."""
     agents = per_agent(frame)
     names = list(agents.condition.unique())
-    figure, panels = figures.new(
+    figure, panels = plots.new(
         columns=len(names), rows=2, width=3.0, height=1.9, sharex=True, sharey="row", squeeze=False
     )
     for (above, below), name in zip(panels.T, names, strict=True):
         accuracy = agents[agents.condition == name].groupby("control_timestep").accuracy
-        above.plot(accuracy.median(), color=figures.COLORS[1], marker="o", markersize=3)
+        above.plot(accuracy.median(), color=plots.COLORS[1], marker="o", markersize=3)
         above.fill_between(
-            accuracy.median().index, accuracy.min(), accuracy.max(), color=figures.COLORS[1], alpha=0.15, linewidth=0
+            accuracy.median().index, accuracy.min(), accuracy.max(), color=plots.COLORS[1], alpha=0.15, linewidth=0
         )
-        figures.reference(above, conditions.chance("towers", CONDITIONS[0].task), "chance")
+        plots.reference(above, conditions.chance("towers", CONDITIONS[0].task), "chance")
         above.set(title=conditions.spelled_out(name), ylim=(0, 1.05))
         _draw_times(below, frame[frame.condition == name])
         below.set_xlabel("control step, s")
@@ -144,13 +143,13 @@ def _draw_times(axes, rows) -> None:
         steps,
         middle,
         error,
-        color=figures.COLORS[2],
+        color=plots.COLORS[2],
         marker="s",
         markersize=3,
-        linestyle=figures.DASHES[1],
+        linestyle=plots.DASHES[1],
         capsize=1.5,
     )
-    axes.fill_between(steps, middle - steps, middle + steps, color=figures.COLORS[2], alpha=0.15, linewidth=0)
+    axes.fill_between(steps, middle - steps, middle + steps, color=plots.COLORS[2], alpha=0.15, linewidth=0)
 
 
 EXPERIMENT = base.Experiment(

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from physexp.analysis.data import estimates
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import claims, conditions, strategy
 from physexp.suite.domains import balance
 
@@ -43,7 +42,7 @@ def _claims(frame) -> list[claims.Claim]:
 def _draw(axes, frame) -> None:
     sizes = np.arange(balance.NUM_BLOCKS // 2 + 1)
     shares = np.bincount(frame["first"], minlength=len(sizes)) / len(frame)
-    axes.bar([f"{size} : {size}" if size else "none" for size in sizes], shares, color=figures.COLORS[2])
+    axes.bar([f"{size} : {size}" if size else "none" for size in sizes], shares, color=plots.COLORS[2])
     axes.set(xlabel="first weighing", ylabel="share of episodes", ylim=(0, 1.05))
 
 

@@ -7,11 +7,10 @@ from typing import Any
 
 from physexp import suite
 from physexp.agents import config as agent_config
-from physexp.analysis import callbacks
-from physexp.analysis.evaluation import finding, playing
 from physexp.analysis.replay import recording, selection, writing
 from physexp.analysis.replay.recording import Episode, EpisodeRecorder
 from physexp.analysis.replay.viewing import check_display, view
+from physexp.analysis.training import callbacks, finding, playing
 
 __all__ = ["Episode", "EpisodeRecorder", "check_display", "replay", "view"]
 

@@ -8,7 +8,8 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from physexp.analysis import domains, readings
+from physexp.analysis import domains
+from physexp.analysis.data import readings
 from physexp.analysis.replay import recording, words
 
 TIMELINE = "time"

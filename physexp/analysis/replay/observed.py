@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import mujoco
 import numpy as np
 
-from physexp.analysis import readings
+from physexp.analysis.data import readings
 from physexp.suite.engine import task as task_lib
 
 Film = tuple[np.ndarray, np.ndarray, np.ndarray]

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from physexp.analysis import readings
+from physexp.analysis.data import readings
 from physexp.analysis.replay import recording
 
 ACTION = (220, 40, 120)

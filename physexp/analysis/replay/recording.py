@@ -10,7 +10,7 @@ import numpy as np
 
 from physexp import suite
 from physexp.agents import acting, core, environment_loop, networks
-from physexp.analysis import readings
+from physexp.analysis.data import readings
 from physexp.analysis.replay import observed
 from physexp.analysis.training import config as config_lib
 from physexp.suite.engine import rendering

@@ -7,9 +7,8 @@ import numpy as np
 
 from physexp import suite
 from physexp.agents import networks
-from physexp.analysis import callbacks
 from physexp.analysis.data import episodes
-from physexp.analysis.evaluation import playing
+from physexp.analysis.training import callbacks, playing
 from physexp.analysis.training import config as config_lib
 
 Selection = Literal["any", "wrong", "right", "longest", "hardest"]

@@ -26,10 +26,11 @@ import rerun as rr
 from scipy.spatial import transform
 
 from physexp.agents import files
-from physexp.analysis import callbacks, readings
+from physexp.analysis.data import readings
 from physexp.analysis.replay import beliefs, layout, palette, recording, words
 from physexp.analysis.replay.layout import TIMELINE
 from physexp.analysis.replay.viewing import PROGRAM, last_line
+from physexp.analysis.training import callbacks
 from physexp.suite.engine import declarations
 
 _ARROW_LENGTH = 0.25  # m

@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 
 from physexp.analysis import domains
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import plots
 from physexp.analysis.ideal import mistakes
 
 _COLORS = dict(zip(mistakes.KINDS, ("#E69F00", "#56B4E9", "#009E73", "#D55E00", "#000000", "#BBBBBB"), strict=True))
 _HATCHES = dict(zip(mistakes.KINDS, ("", "///", "...", "xx", "", "\\\\"), strict=True))
-OURS = figures.COLORS[1]
+OURS = plots.COLORS[1]
 LEAST = -1.0  # What is less is drawn there.
 _LEAST_RADAR = 3  # Fewer axes enclose nothing.
 _MOST_SHOWN = 12  # Interactions.
@@ -61,7 +61,7 @@ def draw_scores(axes, found: Mapping[str, Any]) -> None:
             bbox=dict(facecolor="white", edgecolor="none", alpha=0.8, pad=0.5),
         )
         if not is_whole:
-            axes.plot(max(LEAST, of_random[name]), place, "|", color=figures.GREY, markersize=8, markeredgewidth=1.4)
+            axes.plot(max(LEAST, of_random[name]), place, "|", color=plots.GREY, markersize=8, markeredgewidth=1.4)
     axes.set_yticks(places, [words(name) for name, _ in rows])
     axes.set(xlim=(LEAST - 0.04, 1.06), ylim=(-0.7, len(rows) - 0.3), xlabel="score (grey: random actions)")
     axes.tick_params(axis="y", length=0)
@@ -110,7 +110,7 @@ def draw_mistakes(axes, found: Mapping[str, Any]) -> None:
 def mark_ends(axes, num_rows: int) -> None:
     """Marks where nobody experiments and where the ideal is."""
     for level, text in ((0.0, "no experiment"), (1.0, "ideal")):
-        figures.reference(axes, level, "", vertical=True)
+        plots.reference(axes, level, "", vertical=True)
         axes.text(level, num_rows - 0.35, text, ha="center", va="bottom", fontsize=6.5, color="0.3")
 
 
@@ -153,9 +153,9 @@ def draw_skills(axes, found: Mapping[str, Any]) -> None:
     axes.spines["polar"].set_visible(False)
     axes.grid(color="0.88", linewidth=0.7)
     outline([1.0] * len(names), color="black", linewidth=1.0, label="ideal")
-    outline([0.0] * len(names), color=figures.GREY, linewidth=0.8, linestyle=(0, (1, 2)), label="no experiment")
+    outline([0.0] * len(names), color=plots.GREY, linewidth=0.8, linestyle=(0, (1, 2)), label="no experiment")
     chance = list(random_scores(found).values())
-    outline(chance, color=figures.COLORS[2], linewidth=1.1, zorder=4, linestyle=(0, (3, 1.5)), label="random actions")
+    outline(chance, color=plots.COLORS[2], linewidth=1.1, zorder=4, linestyle=(0, (3, 1.5)), label="random actions")
     ours = [row["score"] for row in found["domains"].values()]
     line = outline(ours, color=OURS, linewidth=1.8, marker="o", markersize=3.5, label="this agent")
     axes.fill(around, line.get_ydata(), color=OURS, alpha=0.15)

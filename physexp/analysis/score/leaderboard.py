@@ -10,8 +10,7 @@ from urllib import parse
 import numpy as np
 
 from physexp.agents import files
-from physexp.analysis.data import provenance, text
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import plots, provenance, text
 from physexp.analysis.score import drawing, log, protocol, report, scores, scoring, verifying
 
 FOLDER = "scores"
@@ -30,7 +29,7 @@ _INTRODUCTION = (
     "[docs/score.md](../docs/score.md) says how to add a row."
 )
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "*")  # Of domains.
-_COLORS = (*figures.COLORS[1:], "#CC79A7", "#7F4F24")
+_COLORS = (*plots.COLORS[1:], "#CC79A7", "#7F4F24")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -129,8 +128,8 @@ def write(results: Path, show: Callable[[int], None] = lambda done: None) -> tup
         raise ValueError(refused[0])
     path, readme = results / f"{NAME}.md", results.resolve().parent / "README.md"
     files.write_atomically(path, markdown(rows).encode())
-    with figures.style():
-        written = [path, *figures.save(draw(rows), results / "figures", NAME)]
+    with plots.style():
+        written = [path, *plots.save(draw(rows), results / "figures", NAME)]
     page = readme.read_text(encoding="utf-8") if readme.exists() else ""
     if MARKS[0] in page:
         files.write_atomically(readme, with_part(page, short(rows)).encode())
@@ -217,7 +216,7 @@ def _commit(row: Row) -> str:
 
 def draw(rows: Sequence[Row]):
     """Draws the score of each row, with its interval, and those of the domains that it plays."""
-    figure, axes = figures.new(width=7.2, height=max(2.2, 0.75 + 0.3 * len(rows)))
+    figure, axes = plots.new(width=7.2, height=max(2.2, 0.75 + 0.3 * len(rows)))
     names = list(rows[0].domains)
     heights = np.linspace(0.3, -0.3, len(names))  # One below the other, so that equal scores are all seen.
     places = np.arange(len(rows))[::-1]
@@ -243,7 +242,7 @@ def draw(rows: Sequence[Row]):
             linestyle="none",
             label=drawing.words(domain),
         )
-    axes.set_yticks(places, [figures.literal(text.plain(row.name)) for row in rows])
+    axes.set_yticks(places, [plots.literal(text.plain(row.name)) for row in rows])
     axes.tick_params(axis="y", length=0)
     axes.set(xlim=(drawing.LEAST - 0.03, 1.04), ylim=(-0.7, len(rows) - 0.3))
     axes.set_xlabel("score: black, over all domains, with its 95 % interval; others, of each domain")

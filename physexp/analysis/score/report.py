@@ -7,8 +7,7 @@ import textwrap
 from typing import Any
 
 from physexp.agents import files
-from physexp.analysis.data import provenance, text
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import plots, provenance, text
 from physexp.analysis.score import drawing, scoring
 
 NAME = "report"
@@ -29,7 +28,7 @@ def write(folder: Path) -> list[Path]:
     found = {**scoring.read(folder), "name": text.plain(folder.resolve().name)}
     paths = [folder / f"{NAME}.html", folder / f"{NAME}.png"]
     files.write_atomically(paths[0], _html(found).encode())
-    files.write_atomically(paths[1], figures.png(_page(found)))
+    files.write_atomically(paths[1], plots.png(_page(found)))
     return paths
 
 
@@ -42,20 +41,20 @@ def _page(found: Mapping[str, Any]):
         0.35 + _height_of_information(found),
         0.35 + 0.15 * (1 + told.count("\n")),
     ]
-    with figures.style():
-        figure = figures.empty(_WIDTH, sum(heights))
+    with plots.style():
+        figure = plots.empty(_WIDTH, sum(heights))
         head, overview, information, foot = figure.subfigures(4, 1, squeeze=False, height_ratios=heights).flat
         _draw_head(head, found)
         _draw_overview(overview, found)
         _draw_information(information, found)
         information.suptitle(_INFORMATION, fontsize=8.5, x=0.01, ha="left")
-        foot.text(0.01, 0.95, figures.literal(told), fontsize=7, color="0.35", va="top", linespacing=1.4)
+        foot.text(0.01, 0.95, plots.literal(told), fontsize=7, color="0.35", va="top", linespacing=1.4)
         return figure
 
 
 def _draw_head(figure, found: Mapping[str, Any]) -> None:
-    whole, subtitle = found["whole"], figures.literal("\n".join(_subtitle(found)))
-    figure.text(0.01, 0.92, figures.literal(found["name"]), fontsize=17, weight="bold", va="top")
+    whole, subtitle = found["whole"], plots.literal("\n".join(_subtitle(found)))
+    figure.text(0.01, 0.92, plots.literal(found["name"]), fontsize=17, weight="bold", va="top")
     figure.text(0.01, 0.42, subtitle, fontsize=8.5, color="0.3", va="top", linespacing=1.5)
     figure.text(
         0.99, 0.95, f"{whole['score']:.3f}", fontsize=27, weight="bold", ha="right", va="top", color=drawing.OURS
@@ -167,10 +166,10 @@ def _html(found: Mapping[str, Any]) -> str:
 
 def _figure(found: Mapping[str, Any], height: float, draw: Callable[[Any, Mapping[str, Any]], None], words: str) -> str:
     """Draws a part of the page."""
-    with figures.style():
-        figure = figures.empty(_WIDTH, height)
+    with plots.style():
+        figure = plots.empty(_WIDTH, height)
         draw(figure, found)
-    content = base64.b64encode(figures.svg(figure)).decode()
+    content = base64.b64encode(plots.svg(figure)).decode()
     return f'<img alt="{words}" src="data:image/svg+xml;base64,{content}">'
 
 

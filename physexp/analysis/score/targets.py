@@ -108,7 +108,7 @@ def file_name(name: str) -> str:
 
 def _agent(name: str, greedy: bool) -> Target:
     """Returns a trained agent."""
-    from physexp.analysis.evaluation import finding, publishing
+    from physexp.analysis.training import finding, publishing
 
     try:
         network, config = finding.find_agent(name)
@@ -133,7 +133,7 @@ def _agent(name: str, greedy: bool) -> Target:
 def _facts(name: str, config: config_lib.TrainConfig) -> dict[str, Any]:
     """Returns how an agent was trained."""
     from physexp.agents import pretrained
-    from physexp.analysis.evaluation import finding, publishing
+    from physexp.analysis.training import finding, publishing
     from physexp.analysis.training import run as run_lib
 
     if agent := finding.published(name):
@@ -194,7 +194,7 @@ def _members(name: str) -> dict[str, str]:
 def _shipped(learner: str) -> dict[str, str]:
     """Returns the agents that come with the package, by task: the best ones, or those of a learner."""
     from physexp.agents import pretrained
-    from physexp.analysis.evaluation import finding, publishing
+    from physexp.analysis.training import finding, publishing
 
     team: dict[str, str] = {}
     for name in pretrained.names():

@@ -12,9 +12,9 @@ import torch
 
 from physexp import checks, suite
 from physexp.agents import checkpointing, core, files, learning
-from physexp.analysis import callbacks
 from physexp.analysis.data import episodes as episodes_lib
 from physexp.analysis.data import provenance
+from physexp.analysis.training import callbacks
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 

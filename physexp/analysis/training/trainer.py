@@ -6,12 +6,11 @@ import shutil
 
 from physexp import suite
 from physexp.agents import core, devices, guests, processes, registry
-from physexp.analysis import callbacks
 from physexp.analysis.data import provenance
+from physexp.analysis.training import callbacks, stopping
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import recorder as recorder_lib
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import stopping
 from physexp.suite.engine import gl
 
 _WORKERS_PER_CORE = 32  # More would take memory (half a gigabyte each) and no less time.

@@ -10,9 +10,9 @@ import pytest
 from physexp.agents import rounds
 from physexp.agents.a3c import config as a3c
 from physexp.analysis.data import episodes
-from physexp.analysis.evaluation import records
 from physexp.analysis.score import log
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import records
 from physexp.analysis.training import run as run_lib
 
 HIDDEN = np.array([[0.1, 0.9, 0.2, 0.3], [0.5, 0.1, 0.1, 0.4], [0.2, 0.3, 0.8, 0.1]])

@@ -13,8 +13,8 @@ import pytest
 from seeds import fresh_seed
 
 from physexp.analysis.data import tables
-from physexp.analysis.evaluation import records
 from physexp.analysis.experiments import base, ideal_towers
+from physexp.analysis.training import records
 from physexp.analysis.training import run as run_lib
 
 SCHEMA = run_lib.EPISODES

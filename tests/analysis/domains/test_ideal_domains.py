@@ -14,9 +14,9 @@ from physexp.agents import environment_loop
 from physexp.analysis import domains
 from physexp.analysis.data import episodes
 from physexp.analysis.domains import base
-from physexp.analysis.evaluation import records
 from physexp.analysis.ideal import rollouts
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import records
 
 IDEALS = [(domain, task) for domain, task in suite.tagged("features") if domains.find(domain).ideal is not None]
 

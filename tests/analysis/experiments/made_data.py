@@ -13,7 +13,6 @@ import pandas
 import pyarrow
 from scipy import special
 
-from physexp.analysis.evaluation import records
 from physexp.analysis.experiments import (
     ablations,
     aiming,
@@ -33,6 +32,7 @@ from physexp.analysis.experiments import (
 )
 from physexp.analysis.experiments import patience as patience_lib
 from physexp.analysis.ideal import mistakes
+from physexp.analysis.training import records
 
 NUM_AGENTS = 6
 _EPISODES = 300  # Of each agent.

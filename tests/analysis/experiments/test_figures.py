@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from seeds import fresh_seed
 
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import plots
 from physexp.analysis.experiments import EXPERIMENTS, conditions
 
 _SVG = "{http://www.w3.org/2000/svg}"
@@ -55,7 +55,7 @@ def draw(tmp_path_factory):
         axes = figure.axes
         labels = [(one.get_xlabel(), one.get_ylabel()) for one in axes]
         ticks = [[tick.get_text() for tick in one.get_xticklabels()] for one in axes]
-        return Drawn(axes, labels, ticks, *figures.save(figure, tmp_path_factory.mktemp("figures"), name))
+        return Drawn(axes, labels, ticks, *plots.save(figure, tmp_path_factory.mktemp("figures"), name))
 
     return drawn
 
@@ -116,13 +116,13 @@ def test_the_picture_is_not_blank_and_nothing_is_cut_off(draw, name):
 @pytest.mark.parametrize("name", EXPERIMENTS)
 def test_the_same_data_make_the_same_vector_file(draw, name):
     figure = EXPERIMENTS[name].figure(made(name))
-    assert figures.svg(figure) == draw(name).svg.read_bytes()
+    assert plots.svg(figure) == draw(name).svg.read_bytes()
 
 
 def test_figures_are_drawn_and_saved_without_a_change_of_settings_or_windows(tmp_path):
     before = dict(matplotlib.rcParams)
     figure = EXPERIMENTS["mass_gap"].figure(made("mass_gap"))
-    paths = figures.save(figure, tmp_path / "a" / "b", "name")
+    paths = plots.save(figure, tmp_path / "a" / "b", "name")
     assert paths == [tmp_path / "a" / "b" / "name.svg", tmp_path / "a" / "b" / "name.png"]
     assert all(path.stat().st_size for path in paths)
     assert not pyplot.get_fignums()
@@ -146,7 +146,7 @@ def test_one_agent_of_one_condition_is_enough_to_draw(name, condition, tmp_path)
     figure = EXPERIMENTS[name].figure(frame)
     ticks = {tick.get_text() for axes in figure.axes for tick in axes.get_xticklabels()}
     assert not ticks & shown_names(made(name)) - shown_names(frame)
-    svg, _ = figures.save(figure, tmp_path, name)
+    svg, _ = plots.save(figure, tmp_path, name)
     assert texts(svg)
 
 
@@ -178,7 +178,7 @@ def test_the_picture_is_sharp_on_a_dense_screen_and_small(draw, name):
 
 
 def test_colors_differ_in_grey_from_each_other_and_from_the_paper():
-    found = [lightness(color) for color in figures.COLORS]
+    found = [lightness(color) for color in plots.COLORS]
     assert [lightness(color) for color in ("black", "white")] == pytest.approx([0, 100], abs=1e-6)
     assert lightness("#777777") == pytest.approx(50.03, abs=0.01)  # The grey that is known for being in the middle.
     assert found == sorted(found)  # Darkest first.
@@ -190,7 +190,7 @@ def test_colors_differ_in_grey_from_each_other_and_from_the_paper():
 
 
 def test_lines_and_dots_of_one_panel_differ_in_more_than_color():
-    for kinds in (figures.COLORS, figures.DASHES, figures.MARKERS):
+    for kinds in (plots.COLORS, plots.DASHES, plots.MARKERS):
         assert len(set(kinds)) == len(kinds) >= 4
 
 
@@ -207,9 +207,9 @@ def test_lines_that_the_legend_tells_apart_differ_in_dashes(draw, name):
 
 @pytest.mark.parametrize("vertical", [False, True])
 def test_a_reference_is_a_line_at_its_level_with_its_name(vertical):
-    figure, axes = figures.new()
-    figures.reference(axes, 0.3, "chance", vertical=vertical)
-    figures.reference(axes, 0.6, "", vertical=vertical)
+    figure, axes = plots.new()
+    plots.reference(axes, 0.3, "chance", vertical=vertical)
+    plots.reference(axes, 0.6, "", vertical=vertical)
     levels = [line.get_xdata() if vertical else line.get_ydata() for line in axes.lines]
     assert [list(level) for level in levels] == [[0.3, 0.3], [0.6, 0.6]]
     assert [text.get_text() for text in axes.texts] == ["chance"]
@@ -217,6 +217,6 @@ def test_a_reference_is_a_line_at_its_level_with_its_name(vertical):
 
 def test_the_number_of_agents_is_told_in_words():
     frame = made("population", 3)
-    assert figures.seeds(frame) == "3 agents each"
-    assert figures.seeds(frame[frame.training_seed == 0]) == "1 agent each"
-    assert figures.seeds(frame[(frame.condition != "5-F") | (frame.training_seed == 0)]) == "1 to 3 agents each"
+    assert plots.seeds(frame) == "3 agents each"
+    assert plots.seeds(frame[frame.training_seed == 0]) == "1 agent each"
+    assert plots.seeds(frame[(frame.condition != "5-F") | (frame.training_seed == 0)]) == "1 to 3 agents each"

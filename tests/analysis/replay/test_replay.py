@@ -29,12 +29,12 @@ from physexp.agents import core, environment_loop, starting
 from physexp.agents.belief import config as belief_config
 from physexp.agents.belief import networks as belief_networks
 from physexp.agents.ppo import config as ppo
-from physexp.analysis import readings, replay
-from physexp.analysis.evaluation import finding, playing
+from physexp.analysis import replay
+from physexp.analysis.data import readings
 from physexp.analysis.replay import beliefs, live, palette, recording, selection, words, writing
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import finding, playing, trainer
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import trainer
 from physexp.suite.parts import block, tower
 
 DOCS = Path(__file__).parents[3] / "docs"

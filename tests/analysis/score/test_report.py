@@ -12,7 +12,7 @@ import pytest
 import screens
 
 from physexp.analysis import domains
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import plots
 from physexp.analysis.score import drawing, episodes, protocol, reference, report, scoring, targets, verifying
 from physexp.suite.engine import rules
 
@@ -35,8 +35,8 @@ def found(folder):
 
 @pytest.fixture
 def axes():
-    with figures.style():
-        _, axes = figures.new()
+    with plots.style():
+        _, axes = plots.new()
         yield axes
 
 
@@ -79,7 +79,7 @@ def test_bars_of_mistakes_begin_at_the_score_and_end_at_1(axes, found):
 
 
 def test_every_skill_has_an_axis_beside_random_actions_and_the_ideal(found):
-    _, polar = figures.new(subplot_kw={"projection": "polar"})
+    _, polar = plots.new(subplot_kw={"projection": "polar"})
     drawing.draw_skills(polar, found)
     told = " ".join(text.get_text() for text in polar.texts)
     assert all(domains.find(name).skill in told for name in found["domains"])
@@ -94,7 +94,7 @@ def test_every_domain_asks_for_a_skill_of_its_own():
 
 
 def test_bits_of_each_interaction_are_drawn_beside_the_ideals(found):
-    _, panels = figures.new(columns=len(found["tasks"]))
+    _, panels = plots.new(columns=len(found["tasks"]))
     drawing.draw_information(panels, found)
     threshold = panels[0]
     # The ideal halves eight levels three times: a bit each.

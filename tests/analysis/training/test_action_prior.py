@@ -6,8 +6,7 @@ import seeds
 import torch
 import trainers
 
-from physexp.analysis.evaluation import finding
-from physexp.analysis.training import trainer
+from physexp.analysis.training import finding, trainer
 
 PRIOR = (2.0, 0.0, 0.0, 0.0, -2.0, -2.0, -2.0, -2.0)
 

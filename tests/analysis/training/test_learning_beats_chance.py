@@ -7,8 +7,7 @@ import pytest
 import seeds
 import trainers
 
-from physexp.analysis.evaluation import playing
-from physexp.analysis.training import trainer
+from physexp.analysis.training import playing, trainer
 
 # Small updates and an entropy cost that stays high: few frames suffice, and the agent does not learn to be silent.
 HIGH_ENTROPY = {"entropy_cost": 0.15, "final_entropy_cost": 0.03}

@@ -14,12 +14,11 @@ import torch
 import trainers
 from waiting import wait_until
 
-from physexp.analysis import demo
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
-from physexp.cli import parsing
+from physexp.cli import demo, parsing
 
 TASK = ("which_is_heavier", "features")
 

@@ -14,7 +14,7 @@ import ray
 from ray._private import ray_constants
 
 from physexp.agents import processes
-from physexp.analysis.reproduction import sweep
+from physexp.analysis.experiments import sweep
 
 AUTO, LOCAL = "auto", "local"
 CONNECT_SECONDS, HEALTH_SECONDS = 5.0, 30.0  # For a head to accept a connection, and to answer as one of Ray's.

@@ -11,12 +11,20 @@ import pyarrow
 
 from physexp import suite
 from physexp.agents import files
-from physexp.analysis import callbacks
-from physexp.analysis.evaluation import finding, playing, records
 from physexp.analysis.experiments import base, conditions
-from physexp.analysis.reproduction import jobs as jobs_lib
+from physexp.analysis.experiments import jobs as jobs_lib
+from physexp.analysis.training import (
+    callbacks,
+    finding,
+    playing,
+    progress,
+    recorder,
+    records,
+    stopping,
+    trainer,
+    verdict,
+)
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import progress, recorder, stopping, trainer, verdict
 from physexp.analysis.training import run as run_lib
 
 _POLL_SECONDS = 5.0

@@ -13,11 +13,10 @@ import trainers
 from physexp import suite
 from physexp.agents import pretrained
 from physexp.analysis.data import provenance
-from physexp.analysis.evaluation import finding, playing, publishing
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import finding, playing, publishing, trainer
 from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import trainer
 from physexp.cli import options, parsing
 
 

@@ -12,8 +12,7 @@ import numpy as np
 from physexp import extras, suite
 from physexp.agents import files
 from physexp.analysis.data import provenance, tables
-from physexp.analysis.export import steps
-from physexp.analysis.score import episodes, player, playing, protocol, scoring, targets
+from physexp.analysis.score import episodes, player, playing, protocol, scoring, steps, targets
 
 FILE = "export.json"
 TABLE = "steps.parquet"
@@ -146,7 +145,7 @@ class _Writer:
         self._pending = []
         self._num_parts += 1
         if self._minari_name is not None:
-            from physexp.analysis.export import data_set
+            from physexp.analysis.score import data_set
 
             self._data_set = self._data_set or data_set.DataSet(self._minari_folder, self._steps, self._minari_name)
             self._data_set.add(table)

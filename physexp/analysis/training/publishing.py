@@ -7,8 +7,8 @@ from typing import Any
 from physexp import suite
 from physexp.agents import checkpointing, pretrained
 from physexp.agents import config as agent_config
-from physexp.analysis.evaluation import finding, playing
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import finding, playing
 from physexp.analysis.training import run as run_lib
 
 

@@ -16,12 +16,10 @@ from trainers import group
 from waiting import wait_until
 
 from physexp.analysis.data import provenance
-from physexp.analysis.evaluation import records
-from physexp.analysis.experiments import EXPERIMENTS, base, claims, conditions
-from physexp.analysis.reproduction import report, reproduce, sweep
+from physexp.analysis.experiments import EXPERIMENTS, base, claims, conditions, report, reproduce, sweep
 from physexp.analysis.training import metrics as metrics_lib
+from physexp.analysis.training import records, stopping
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import stopping
 
 NAMES = [f"which_is_heavier-features-difficulty{beta}-discount0.95-seed0" for beta in (3, 5, 10)]
 

@@ -15,8 +15,7 @@ import waiting
 
 from physexp import suite
 from physexp.analysis.data import tables
-from physexp.analysis.export import exporting, steps
-from physexp.analysis.score import log, player, playing, protocol, scoring
+from physexp.analysis.score import exporting, log, player, playing, protocol, scoring, steps
 
 HALVING = Path(__file__).parents[3] / "docs" / "examples" / "halving.py"
 HANGS = """

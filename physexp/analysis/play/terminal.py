@@ -5,7 +5,7 @@ import string
 
 import numpy as np
 
-from physexp.analysis import readings as readings_lib
+from physexp.analysis.data import readings as readings_lib
 from physexp.suite.engine import declarations
 
 Readings = Mapping[str, declarations.Reading]

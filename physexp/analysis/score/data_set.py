@@ -7,8 +7,7 @@ import numpy as np
 import pyarrow
 
 from physexp import extras
-from physexp.analysis.export import steps
-from physexp.analysis.score import log
+from physexp.analysis.score import log, steps
 
 extras.require("minari")
 

@@ -8,8 +8,7 @@ import time
 from typing import Any
 
 from physexp.agents import processes
-from physexp.analysis import callbacks
-from physexp.analysis.training import stopping
+from physexp.analysis.training import callbacks, stopping
 
 _BEAT_SECONDS = 1.0  # Between two signs of life of a job.
 _LEAVE_SECONDS = 30.0  # For a process that has said its last word.

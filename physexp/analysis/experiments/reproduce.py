@@ -4,10 +4,9 @@ from collections.abc import Callable, Sequence
 from concurrent import futures
 
 from physexp.agents import processes
-from physexp.analysis import callbacks
-from physexp.analysis.evaluation import figures
-from physexp.analysis.experiments import EXPERIMENTS, base, claims, conditions
-from physexp.analysis.reproduction import sweep
+from physexp.analysis.data import plots
+from physexp.analysis.experiments import EXPERIMENTS, base, claims, conditions, sweep
+from physexp.analysis.training import callbacks
 
 ALL = "all"
 
@@ -61,7 +60,7 @@ def run(
         if experiment.prepare is not None:
             experiment.prepare(results, tell)
         frame = experiment.load(results)
-        for path in figures.save(experiment.figure(frame), results.path / "figures", experiment.name):
+        for path in plots.save(experiment.figure(frame), results.path / "figures", experiment.name):
             tell(str(path))
         found = experiment.claims(frame)
         for claim, verdict in zip(found, claims.corrected(found), strict=True):

@@ -9,7 +9,7 @@ import time
 import pytest
 from waiting import wait_until
 
-from physexp.analysis.reproduction import jobs
+from physexp.analysis.experiments import jobs
 from physexp.analysis.training import stopping
 
 

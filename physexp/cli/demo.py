@@ -3,9 +3,8 @@
 from pathlib import Path
 import sys
 
-from physexp.analysis.evaluation import curves, playing
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import progress, trainer, verdict
+from physexp.analysis.training import curves, playing, progress, trainer, verdict
 from physexp.analysis.training import run as run_lib
 
 FRAMES = 20_000

@@ -8,10 +8,9 @@ import torch
 from physexp.agents import acting, devices, guests, networks
 from physexp.analysis import domains
 from physexp.analysis.data.episodes import Episodes
-from physexp.analysis.evaluation import finding
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import finding, trainer
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import trainer
 
 SEED = 1_000_003  # Of the evaluation's environments, apart from those of training.
 INTERACTIONS = ("learned", "random")

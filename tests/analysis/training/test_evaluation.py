@@ -15,9 +15,8 @@ import trainers
 from physexp import suite
 from physexp.agents import pretrained
 from physexp.analysis.data import episodes, estimates
-from physexp.analysis.evaluation import finding, playing
+from physexp.analysis.training import finding, playing, trainer
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import trainer
 
 
 def test_the_summary_of_four_episodes_is_the_one_computed_by_hand():

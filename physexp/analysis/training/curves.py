@@ -4,7 +4,7 @@ from pathlib import Path
 
 from physexp import suite
 from physexp.agents import files
-from physexp.analysis.evaluation import figures
+from physexp.analysis.data import plots
 from physexp.analysis.training import run as run_lib
 
 
@@ -20,12 +20,12 @@ def draw(run: run_lib.Run, path: Path) -> Path:
     config = run.config
     num_labels = suite.load_task(config.domain, config.task, config.task_kwargs).num_labels
     frames = [row["frames"] / 1e6 for row in rows]
-    with figures.style():
-        drawn, (top, bottom) = figures.new(rows=2, width=4.5, height=1.8, sharex=True)
-        top.plot(frames, [row["success_rate"] for row in rows], color=figures.COLORS[1])
-        figures.reference(top, 1 / num_labels, "chance")
+    with plots.style():
+        drawn, (top, bottom) = plots.new(rows=2, width=4.5, height=1.8, sharex=True)
+        top.plot(frames, [row["success_rate"] for row in rows], color=plots.COLORS[1])
+        plots.reference(top, 1 / num_labels, "chance")
         top.set(ylabel="share of right answers", ylim=(0, 1.02), title=config.name)
-        bottom.plot(frames, [row["interactions"] for row in rows], color=figures.COLORS[2])
+        bottom.plot(frames, [row["interactions"] for row in rows], color=plots.COLORS[2])
         bottom.set(xlabel="environment steps, millions", ylabel="interactions in an episode", ylim=(0, None))
-    files.write_atomically(path, figures.png(drawn))
+    files.write_atomically(path, plots.png(drawn))
     return path

@@ -4,8 +4,7 @@ from pathlib import Path
 import shutil
 import sys
 
-from physexp.analysis.export import exporting
-from physexp.analysis.score import protocol, scoring
+from physexp.analysis.score import exporting, protocol, scoring
 
 EXAMPLE = Path(__file__).parents[3] / "docs" / "examples" / "clone_the_ideal.py"
 sys.path.insert(0, str(EXAMPLE.parent))

@@ -8,8 +8,9 @@ from typing import Any
 from physexp import suite
 from physexp.agents import acting, core, environment_loop
 from physexp.agents import config as agent_config
-from physexp.analysis import domains, terminal
-from physexp.analysis.evaluation import finding
+from physexp.analysis import domains
+from physexp.analysis.play import terminal
+from physexp.analysis.training import finding
 
 _QUIT, _HELP = "q", "?"
 

@@ -12,7 +12,7 @@ from trainers import PHYSEXP
 
 from physexp import suite
 from physexp.agents import pretrained
-from physexp.analysis import play, terminal
+from physexp.analysis.play import game, terminal
 
 
 def typed(*lines):
@@ -35,7 +35,7 @@ def test_a_player_who_knows_the_answers_is_counted_right_and_compared_on_the_sam
         environment.reset()
         lines += ["0", str(4 + environment.task.correct_answer)]
     shown = []
-    scores = play.play("which_is_heavier", "features", seed=seed, read=typed(*lines), show=shown.append)
+    scores = game.play("which_is_heavier", "features", seed=seed, read=typed(*lines), show=shown.append)
     assert (scores["you"].episodes, scores["you"].right) == (3, 3)
     assert scores["you"].total == pytest.approx(3 * 0.95)  # One interaction each, at the trained agent's discount.
     assert {name: score.episodes for name, score in scores.items()} == {
@@ -53,7 +53,7 @@ def test_a_wrong_answer_and_the_right_one_are_told():
     environment.reset()
     wrong = (environment.task.correct_answer + 1) % 5
     shown = []
-    scores = play.play("towers", "fist_features", seed=seed, read=typed(str(4 + wrong)), show=shown.append)
+    scores = game.play("towers", "fist_features", seed=seed, read=typed(str(4 + wrong)), show=shown.append)
     assert scores["you"].total == -1
     assert f"Wrong. The answer: {environment.task.label_names[environment.task.correct_answer]}." in shown
     assert scores["ideal experimenter"].right == 1  # It is always right.
@@ -61,7 +61,7 @@ def test_a_wrong_answer_and_the_right_one_are_told():
 
 def test_what_is_no_action_is_asked_again():
     shown = []
-    scores = play.play(
+    scores = game.play(
         "which_is_heavier", "features", seed=1, read=typed("nine", "8", "-1", "q", "0"), show=shown.append
     )
     assert scores["you"].episodes == 0
@@ -139,7 +139,7 @@ def test_features_fit_the_terminal(columns):
 )
 def test_the_question_comes_first_in_words_and_what_is_drawn_is_explained(domain, task, words):
     shown = []
-    play.play(domain, task, seed=1, read=typed("?", "q"), show=shown.append)
+    game.play(domain, task, seed=1, read=typed("?", "q"), show=shown.append)
     assert shown[0].startswith(words[0]) and all(word in shown[0] for word in words)
     assert shown[0] == shown[-1]  # Again, when it is asked for.
 
@@ -147,7 +147,7 @@ def test_the_question_comes_first_in_words_and_what_is_drawn_is_explained(domain
 @pytest.mark.parametrize("difficulty", [3.0, 4.0])
 def test_a_player_is_compared_with_an_agent_of_the_difficulty_that_is_played(difficulty):
     shown = []
-    scores = play.play(
+    scores = game.play(
         "which_is_heavier", "features", {"difficulty": difficulty}, 1, read=typed("0", "4"), show=shown.append
     )
     players = {"you", "ideal experimenter"} | ({"trained agent"} if difficulty == 3 else set())
@@ -161,13 +161,13 @@ def test_the_agent_beside_a_player_is_the_one_of_that_difficulty(monkeypatch):
     monkeypatch.setattr(
         pretrained, "load", lambda *names, **options: loaded.append((*names, options)) or load(*names, **options)
     )
-    play.play("which_is_heavier", "features", {"difficulty": 10.0}, 1, read=typed("q"), show=lambda text: None)
+    game.play("which_is_heavier", "features", {"difficulty": 10.0}, 1, read=typed("q"), show=lambda text: None)
     assert loaded == [("which_is_heavier", "features", {"difficulty": 10.0})]
 
 
 def test_a_player_in_finer_time_is_compared_with_nobody_who_was_trained_in_another():
     shown, options = [], {"control_timestep": 0.05}
-    scores = play.play("which_is_heavier", "features", options, 1, read=typed("0", "4"), show=shown.append)
+    scores = game.play("which_is_heavier", "features", options, 1, read=typed("0", "4"), show=shown.append)
     assert set(scores) == {"you", "ideal experimenter"}
     assert "There is no agent trained at control_timestep 0.05 to compare you with.\n" in shown
 

@@ -28,11 +28,9 @@ from physexp.agents.a3c import config as a3c_config
 from physexp.agents.a3c import distributed
 from physexp.agents.a3c import learning as a3c
 from physexp.analysis.data import provenance
-from physexp.analysis.evaluation import playing
-from physexp.analysis.experiments import EXPERIMENTS, base
-from physexp.analysis.reproduction import cluster, reproduce
+from physexp.analysis.experiments import EXPERIMENTS, base, cluster, reproduce
+from physexp.analysis.training import playing, trainer
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import trainer
 
 pytestmark = pytest.mark.long
 
@@ -400,6 +398,6 @@ def test_a_cluster_that_is_not_there_is_one_readable_line(address, words, tmp_pa
 
 
 def test_nothing_but_a_cluster_imports_ray():
-    modules = "physexp.cli, physexp.analysis.training.trainer, physexp.analysis.reproduction.reproduce"
+    modules = "physexp.cli, physexp.analysis.training.trainer, physexp.analysis.experiments.reproduce"
     code = f"import sys, {modules}; sys.exit('ray' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True)

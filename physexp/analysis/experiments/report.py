@@ -8,12 +8,10 @@ import math
 from pathlib import Path
 
 from physexp.agents import files
-from physexp.analysis import callbacks
-from physexp.analysis.data import provenance, text
-from physexp.analysis.evaluation import figures
-from physexp.analysis.experiments import EXPERIMENTS, base, conditions
+from physexp.analysis.data import plots, provenance, text
+from physexp.analysis.experiments import EXPERIMENTS, base, conditions, summary, sweep
 from physexp.analysis.experiments import claims as claims_lib
-from physexp.analysis.reproduction import summary, sweep
+from physexp.analysis.training import callbacks
 from physexp.analysis.training import run as run_lib
 
 _INTRODUCTION = (
@@ -80,7 +78,7 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
             missing.append(f"{experiment.name}: {error}")
             tell(f"left out {missing[-1]}")
             continue
-        figures.save(experiment.figure(frame), results.path / "figures", experiment.name)
+        plots.save(experiment.figure(frame), results.path / "figures", experiment.name)
         table = experiment.table(frame) if experiment.table else []
         shown.append(_Shown(experiment, table, _missing(experiment, results)))
         found = experiment.claims(frame)
