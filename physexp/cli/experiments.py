@@ -82,19 +82,17 @@ class Report:
 
 @dataclasses.dataclass
 class Bench:
-    """Measure speed and the trained agents, each figure beside what it is compared with.
+    """Measure speed and the trained agents, each figure beside its reference.
 
     Attributes:
-      sections: what to measure; all but learning by default, since learning takes hours.
-      results_dir: where the results of the experiments are, or go, for the learning figures.
+      sections: sections to measure; all of them by default.
       json: print JSON.
     """
 
     sections: Annotated[
         Positional[tuple[Literal[tuple(bench.SECTIONS)], ...]],  # type: ignore[valid-type]
         tyro.conf.arg(metavar="[SECTION ...]"),
-    ] = bench.BY_DEFAULT
-    results_dir: Path = Path("results")
+    ] = tuple(bench.SECTIONS)
     json: Switch = False
 
     def run(self) -> None:
@@ -102,7 +100,7 @@ class Bench:
         from physexp.analysis.bench import measuring
 
         rows = []
-        for row in bench.run(self.sections, self.results_dir):
+        for row in bench.run(self.sections):
             rows.append(row)
             if not self.json:
                 printing.tell(measuring.line(row))

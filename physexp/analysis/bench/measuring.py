@@ -1,4 +1,4 @@
-"""Measuring: figures as rows and lines, the rates of two sides in turn, and what sections measure in common."""
+"""Rows of figures, rates measured in turns, and the players that several sections use."""
 
 from collections.abc import Callable
 import statistics
@@ -22,9 +22,9 @@ REPETITIONS = 5
 
 
 def tasks(observations: str) -> dict[str, Task]:
-    """Returns the tasks with one kind of observations, `features` or `pixels`, under short names for figures.
+    """Returns the tasks with one kind of observations, `features` or `pixels`, by short names.
 
-    The short name is the task's other tags, or the last word of its domain's name.
+    A short name is the task's other tags, or the last word of its domain's name.
     """
     found = {}
     for domain, task in suite.tagged(observations):
@@ -35,11 +35,11 @@ def tasks(observations: str) -> dict[str, Task]:
 
 FEATURES = tasks("features")
 REFERENCE = next(iter(FEATURES.values()))
-"""The task of figures that one task is enough for."""
+"""The task of figures that are measured for a single task."""
 
 
 def row(figure: str, value: float, unit: str, target: float, at_most: bool = False, **absolute: float) -> dict:
-    """Returns one figure: its value and unit, what it must reach, whether it does, and the figures behind it."""
+    """Returns a figure as a row: its value, unit and target, and the absolute values behind it."""
     reached = value <= target if at_most else value >= target
     return {
         "figure": figure,
@@ -63,11 +63,11 @@ def line(figure: dict) -> str:
 
 
 def rates(*sides: Callable[[], int], seconds: float = 1.0) -> list[float]:
-    """Returns the median steps per second of each side, which take turns.
+    """Returns the median steps per second of each side; sides take turns.
 
     Args:
-      sides: a call does some steps and returns how many.
-      seconds: for a turn of one side.
+      sides: functions that take some steps and return their number.
+      seconds: duration of a turn.
     """
     found: list[list[float]] = [[] for _ in sides]
     for repetition in range(REPETITIONS + 1):
@@ -81,7 +81,7 @@ def rates(*sides: Callable[[], int], seconds: float = 1.0) -> list[float]:
 
 
 def timed(figure: str, arguments: list[str], limit: float) -> dict:
-    """Returns how long a command of ours takes from start to end, s, as a row: the best of three."""
+    """Returns the shortest of three durations of a `physexp` command, s, as a row."""
     command = [sys.executable, "-c", "from physexp.cli import main; main()", *arguments]
     seconds = []
     for _ in range(3):
@@ -92,7 +92,7 @@ def timed(figure: str, arguments: list[str], limit: float) -> dict:
 
 
 def random_loop(environment) -> Callable[[], int]:
-    """Returns what plays uniformly random actions in one environment."""
+    """Returns a function that plays uniformly random actions in one environment."""
     generator = np.random.default_rng(0)
     num_actions = environment.action_spec().num_values
 
@@ -105,7 +105,7 @@ def random_loop(environment) -> Callable[[], int]:
 
 
 def random_batch(task: Task, size: int = BATCH, only_interactions: bool = False) -> Callable[[], int]:
-    """Returns what plays uniformly random actions in a batch."""
+    """Returns a function that plays uniformly random actions in a batch."""
     environment = suite.load_batch(*task, size, {"random": 0}, THREADS)
     generator = np.random.default_rng(0)
     rules = environment.task.rules
@@ -120,7 +120,7 @@ def random_batch(task: Task, size: int = BATCH, only_interactions: bool = False)
 
 
 def training_rate(task: Task, seconds: float) -> float:
-    """Returns frames per second of A3C on two workers, from scratch, once all workers are under way."""
+    """Returns frames per second of A3C from scratch, measured once all workers have sent an update."""
     preset = config_lib.preset(*task, algorithm="a3c")
     assert isinstance(preset, a3c.A3CConfig)
     agent = trainer.make_agent(config_lib.TrainConfig(domain=task[0], task=task[1], agent=preset))

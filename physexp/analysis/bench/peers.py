@@ -1,4 +1,4 @@
-"""How quickly learners of other projects train on our tasks."""
+"""Speed of other projects' learners on these tasks."""
 
 from collections.abc import Iterator
 import time
@@ -12,8 +12,8 @@ from physexp.suite import gymnasium
 _NUM_ENVIRONMENTS = 8
 
 
-def figures() -> Iterator[dict]:
-    """Measures frames per second of our training and of theirs."""
+def training() -> Iterator[dict]:
+    """Measures frames per second of A3C's training, against sb3-contrib's RecurrentPPO."""
     peer = recurrent_ppo_rate(*measuring.REFERENCE, seconds=30.0)
     ours = measuring.training_rate(measuring.REFERENCE, 20.0)
     yield measuring.row("training / sb3-contrib RecurrentPPO: heavier", ours / peer, "x", 50, training=ours, peer=peer)

@@ -1,4 +1,4 @@
-"""The speed of drawing pixels and of learning from them, each beside its upper bound."""
+"""Speed of drawing and of learning from pixels, each beside its upper bound."""
 
 from collections.abc import Callable, Iterator
 import multiprocessing
@@ -31,7 +31,7 @@ def figures() -> Iterator[dict]:
 
 
 def rendering_figures() -> Iterator[dict]:
-    """Measures frames per second of a batch, against what MuJoCo needs to draw the same scene, and a composer scene."""
+    """Measures frames per second of a batch, against MuJoCo's own drawing and a composer scene."""
     for name in TASKS:
         drawn, bare = measuring.rates(_batch_drawing(name), bare_rendering(name))
         yield measuring.row(
@@ -76,7 +76,7 @@ def training_figures() -> Iterator[dict]:
 
 
 def _batch_drawing(name: str) -> Callable[[], int]:
-    """Draws the states of a batch that has been played for a while, as a step of it does."""
+    """Returns a function that draws the states of a batch after some interactions, as a step does."""
     task = suite.load_task(*TASKS[name], {"random": 0})
     geom_xpos, geom_xmat = _played_poses(name)
     observations = {"pixels": np.zeros((BATCH, rendering.SIZE, rendering.SIZE, 3), np.uint8)}
@@ -108,7 +108,7 @@ def _played_poses(name: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def bare_rendering(name: str) -> Callable[[], int]:
-    """Returns what draws a task's scene, which stays as it is, and reads it back with MuJoCo's own functions."""
+    """Returns a function that draws a still scene and reads it back with MuJoCo's own functions."""
     apparatus = suite.load_task(*TASKS[name], {"random": 0}).build_apparatus(0)
     renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms)
     size = rendering.SIZE
@@ -126,7 +126,7 @@ def bare_rendering(name: str) -> Callable[[], int]:
 
 
 def composer_rendering() -> Callable[[], int]:
-    """Returns what draws the blocks of a tower in composer's default arena, by its default camera, with dm_control."""
+    """Returns a function that draws a tower in composer's default arena with dm_control."""
     arena = composer.Arena()
     for k in range(tower.NUM_BLOCKS):
         cube = block.Block(rgba=block.COLORS[k], mass=1.0, name=f"block_{k}")
@@ -141,14 +141,14 @@ def composer_rendering() -> Callable[[], int]:
 
 
 def bare_network_rate(task: measuring.Task) -> float:
-    """Returns frames per second of a preset's network that acts and trains on random images, in two processes."""
+    """Returns frames per second of a preset's network on random images, in two processes."""
     context = multiprocessing.get_context("spawn")
     with context.Pool(2) as pool:
         return sum(pool.map(_bare_network_rate, [task] * 2, chunksize=1))
 
 
 def _bare_network_rate(task: measuring.Task) -> float:
-    """Returns frames per second; as in training, an image passes forward to act, and forward and backward to learn."""
+    """Returns frames per second of one process: a forward pass to act, and both passes to learn."""
     torch.set_num_threads(1)
     config = config_lib.preset(*task, algorithm="a3c")
     assert isinstance(config, a3c.A3CConfig)

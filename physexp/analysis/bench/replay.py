@@ -1,4 +1,4 @@
-"""The time that recording, writing replays and starting take."""
+"""Time that recorders, replays and the command line take."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,7 +15,7 @@ from physexp.analysis.replay import recording, writing
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import finding
 
-_PAIRS, _EPISODES = 100, 8  # Measurements of each side, and what is played in one.
+_PAIRS, _EPISODES = 100, 8  # Measurements of each side, and episodes in a measurement.
 
 
 def figures() -> Iterator[dict]:
@@ -32,7 +32,7 @@ def figures() -> Iterator[dict]:
 
 
 def _recording(name: str, task: measuring.Task) -> dict:
-    """Returns what recording adds to playing with a trained agent: the same episodes with and without it, in turns."""
+    """Returns the share of time that recording adds to the same episodes of a trained agent."""
     environment, actor = suite.load(*task, task_kwargs={"random": 0}), pretrained.load(*task).actor(greedy=True)
     recorder = replay.EpisodeRecorder(environment, *task, {}, actor)
     loops = [environment_loop.EnvironmentLoop(environment, actor, observers) for observers in ([], [recorder])]
@@ -57,7 +57,7 @@ def _recording(name: str, task: measuring.Task) -> dict:
 
 
 def _replay_in_training(name: str, task: measuring.Task) -> dict:
-    """Returns processor time of a replay over that of training from one to the next, on two workers."""
+    """Returns the processor time of a replay, as a share of that of training between two replays."""
     agent = pretrained.load(*task)
     config = finding.config_of(agent.card)
     seconds = []

@@ -1,4 +1,4 @@
-"""How quickly environments are reset, and batches step: against a loop, composer, and MuJoCo's own batches."""
+"""Speed of resets and of batches, against a loop, composer, and MuJoCo's own batches."""
 
 from collections.abc import Callable, Iterator
 import statistics
@@ -14,14 +14,14 @@ from dm_control import composer  # isort: skip
 from mujoco import batch as mujoco_batch  # isort: skip
 
 _RESET = {"heavier": 1.5}
-_RESET_OF_OTHERS = 6.0  # ms at most.
-_FURTHER = 5.0  # Times as long, at least, the first batch of many models takes to be there than a further one.
+_RESET_OF_OTHERS = 6.0  # Upper limit, ms.
+_FURTHER = 5.0  # Lower limit of the ratio of the first batch's loading time to that of a further batch.
 _BATCH = {"heavier": (60, 200, 0.7)}
-_BATCH_OF_OTHERS = (6, 15, 0.85)  # Times a loop, composer that recompiles, and MuJoCo's own batch, at least.
+_BATCH_OF_OTHERS = (6, 15, 0.85)  # Lower limits: a loop, composer that recompiles, MuJoCo's own batch.
 
 
 def resets() -> Iterator[dict]:
-    """Measures how long a reset takes, and how much sooner a further batch of many models is there than the first."""
+    """Measures the duration of a reset, and of loading the first and further batches of many models."""
     for name, task in FEATURES.items():
         if suite.load_task(*task).num_structures > 1:
             first, *more = (_begin_batch(task) for _ in range(1 + measuring.REPETITIONS))
@@ -42,7 +42,7 @@ def resets() -> Iterator[dict]:
 
 
 def _begin_batch(task: Task) -> float:
-    """Returns how many seconds a batch takes to be loaded and reset."""
+    """Returns the seconds that loading and resetting a batch takes."""
     start = time.perf_counter()
     batch = suite.load_batch(*task, BATCH, {"random": 0})
     batch.reset()
@@ -52,7 +52,7 @@ def _begin_batch(task: Task) -> float:
 
 
 def batches() -> Iterator[dict]:
-    """Measures control steps per second of a batch against three others."""
+    """Measures control steps per second of a batch, against three references."""
     for name, task in FEATURES.items():
         loop_target, recompile_target, bare_target = _BATCH.get(name, _BATCH_OF_OTHERS)
         batch, loop, recompiling = measuring.rates(
@@ -80,7 +80,7 @@ def batches() -> Iterator[dict]:
 
 
 class _RecompilingEnvironment(composer.Environment):
-    """What composer does by default: it compiles the MJCF anew at every episode."""
+    """Composer's default: the MJCF is compiled again for every episode."""
 
     def __init__(self, task):
         self._apparatuses = {}
@@ -95,7 +95,7 @@ class _RecompilingEnvironment(composer.Environment):
 
 
 def bare_batch(task_name: Task) -> Callable[[], int]:
-    """Returns what plays random interactions in MuJoCo's own batches of the same models, reset at the time limit."""
+    """Returns a function that plays random interactions in MuJoCo's own batches of the same models."""
     task = suite.load_task(*task_name, {"random": 0})
     seeds = np.array([suite.environment_seed(0, i) for i in range(BATCH)])
     structures, counts = np.unique(task.structures(task.draw(seeds, np.zeros_like(seeds))), return_counts=True)
