@@ -1,18 +1,105 @@
-"""Checks of what users give. An error is one line: what was given, and what is allowed. Imports nothing heavy."""
+"""Checks of values that users give. An error is one line: what was given, and what is allowed. Imports nothing heavy.
 
-from collections.abc import Sequence
+A dataclass declares an option with its default, its check and its help text in one place::
+
+    @dataclasses.dataclass(frozen=True)
+    class Options:
+        difficulty: float = checks.checked(1.0, checks.at_least(1), help="the larger, the easier")
+
+        def __post_init__(self):
+            checks.check_fields(self)
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+import dataclasses
+import functools
 import math
 import numbers
 import sys
-from typing import TypeGuard
+from typing import Any, TypeGuard
 
 LARGEST = 2**63 - 1
 """The largest integer that files, checkpoints and arrays can hold."""
 
+Check = Callable[[str, Any], Any]
+"""Takes the name and the value of an option; returns the value as a plain Python value, or raises ValueError."""
+
 _LONGEST = 120  # Characters of a value in a message.
 
 
-def shown(value) -> str:
+def checked(default: Any = dataclasses.MISSING, check: Check | None = None, help: str = "") -> Any:
+    """Returns a dataclass field with a check and a help text; a subclass that changes its default keeps both."""
+    metadata: dict[str, Any] = {"check": check, "help": help}
+    return dataclasses.field(default=default, metadata=metadata)
+
+
+def check_fields(instance: Any) -> None:
+    """Checks the fields of a dataclass that `checked` made, and stores the values that the checks return.
+
+    Raises:
+      ValueError: if a value is not allowed.
+    """
+    for name, metadata in _declared(type(instance)).items():
+        if check := metadata["check"]:
+            object.__setattr__(instance, name, check(name, getattr(instance, name)))
+
+
+def help_of(kind: type) -> dict[str, str]:
+    """Returns the help texts of the fields of a dataclass that `checked` made, by name."""
+    return {name: metadata["help"] for name, metadata in _declared(kind).items()}
+
+
+def _declared(kind: type) -> dict[str, Mapping[str, Any]]:
+    """Returns the metadata of the fields that `checked` made, in this class or in its bases."""
+    found: dict[str, Mapping[str, Any]] = {}
+    for base in reversed(kind.__mro__):
+        fields: Mapping[str, dataclasses.Field[Any]] = vars(base).get("__dataclass_fields__", {})
+        found |= {name: field.metadata for name, field in fields.items() if "check" in field.metadata}
+    return found
+
+
+# Makers of checks.
+
+
+def at_least(minimum: float, unit: str = "") -> Check:
+    """Returns a check for finite numbers from a minimum up."""
+    return functools.partial(number, minimum=minimum, unit=unit)
+
+
+def above(minimum: float, unit: str = "") -> Check:
+    """Returns a check for finite numbers above a minimum."""
+    return functools.partial(number, minimum=minimum, unit=unit, strictly=True)
+
+
+def within(minimum: float, maximum: float, unit: str = "", without: float | None = None) -> Check:
+    """Returns a check for numbers from a minimum to a maximum, of which one may be excluded."""
+    return functools.partial(between, minimum=minimum, maximum=maximum, unit=unit, without=without)
+
+
+def whole(minimum: int, maximum: int = LARGEST) -> Check:
+    """Returns a check for integers from a minimum to a maximum."""
+    return functools.partial(integer, minimum=minimum, maximum=maximum)
+
+
+def among(*choices: float) -> Check:
+    """Returns a check for a number that is one of two or more."""
+    return functools.partial(one_of, choices=choices)
+
+
+def word(*choices: str) -> Check:
+    """Returns a check for one of some words."""
+    return functools.partial(one_word, choices=choices)
+
+
+def optional(check: Check) -> Check:
+    """Returns a check that accepts None as well."""
+    return lambda name, value: None if value is None else check(name, value)
+
+
+# Checks.
+
+
+def shown(value: Any) -> str:
     """Returns how a value looks in a message: its `repr`, in one line and cut short."""
     try:
         text = " ".join(repr(value).split())
@@ -21,33 +108,33 @@ def shown(value) -> str:
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
 
 
-def is_integer(value) -> TypeGuard[int]:
-    """Whether a value is an integer, Python's or NumPy's; booleans and time differences are none."""
+def is_integer(value: Any) -> TypeGuard[int]:
+    """Whether a value is an integer, Python's or NumPy's; booleans and time differences are not."""
     return isinstance(value, numbers.Integral) and hasattr(value, "__index__") and not isinstance(value, bool)
 
 
-def is_float(value) -> bool:
+def is_float(value: Any) -> bool:
     """Whether a value is a floating-point number, Python's or NumPy's."""
     return isinstance(value, numbers.Real) and not isinstance(value, numbers.Rational)
 
 
-def is_flag(value) -> bool:
+def is_flag(value: Any) -> bool:
     """Whether a value is a boolean, Python's or NumPy's."""
     return type(value).__name__ == "bool"
 
 
-def is_number(value) -> TypeGuard[float]:
+def is_number(value: Any) -> TypeGuard[float]:
     """Whether a value is a number that a float can hold, Python's or NumPy's."""
     if is_integer(value):
         return abs(value) <= sys.float_info.max
     return is_float(value) and math.isfinite(value)
 
 
-def integer(name: str, value, minimum: int, maximum: int = LARGEST) -> int:
+def integer(name: str, value: Any, minimum: int, maximum: int = LARGEST) -> int:
     """Returns `value` as an int.
 
     Raises:
-      ValueError: if it is no integer from `minimum` to `maximum`.
+      ValueError: if it is not an integer from `minimum` to `maximum`.
     """
     if is_integer(value) and minimum <= value <= maximum:
         return int(value)
@@ -55,11 +142,11 @@ def integer(name: str, value, minimum: int, maximum: int = LARGEST) -> int:
     raise ValueError(f"{name} is {shown(value)}; give an integer >= {minimum} and {most}")
 
 
-def number(name: str, value, minimum: float, unit: str = "", strictly: bool = False) -> float:
+def number(name: str, value: Any, minimum: float, unit: str = "", strictly: bool = False) -> float:
     """Returns `value` as a float.
 
     Raises:
-      ValueError: if it is no finite number of at least (strictly: above) `minimum`.
+      ValueError: if it is not a finite number of at least (strictly: above) `minimum`.
     """
     if is_number(value) and value >= minimum and not (strictly and value == minimum):
         return float(value)
@@ -67,11 +154,13 @@ def number(name: str, value, minimum: float, unit: str = "", strictly: bool = Fa
     raise ValueError(f"{name} is {shown(value)}; give a finite number {sign} {minimum}{unit}")
 
 
-def between(name: str, value, minimum: float, maximum: float, unit: str = "", without: float | None = None) -> float:
+def between(
+    name: str, value: Any, minimum: float, maximum: float, unit: str = "", without: float | None = None
+) -> float:
     """Returns `value` as a float.
 
     Raises:
-      ValueError: if it is no number from `minimum` to `maximum`, or the one number among them that is not allowed.
+      ValueError: if it is not a number from `minimum` to `maximum`, or if it is the number `without`.
     """
     if is_number(value) and minimum <= value <= maximum and value != without:
         return float(value)
@@ -79,20 +168,20 @@ def between(name: str, value, minimum: float, maximum: float, unit: str = "", wi
     raise ValueError(f"{name} is {shown(value)}; give a number from {allowed}")
 
 
-def discount(name: str, value) -> float:
+def discount(name: str, value: Any) -> float:
     """Returns a discount factor as a float.
 
     Raises:
-      ValueError: if it is no number above 0 and at most 1.
+      ValueError: if it is not a number above 0 and at most 1.
     """
     return between(name, value, 0, 1, without=0)
 
 
-def one_of(name: str, value, choices: Sequence[float]) -> float:
+def one_of(name: str, value: Any, choices: Sequence[float]) -> float:
     """Returns `value` as a float.
 
     Raises:
-      ValueError: if it is none of the choices, two or more numbers.
+      ValueError: if it is not one of the choices, two or more numbers.
     """
     if is_number(value) and value in choices:
         return float(value)
@@ -100,11 +189,22 @@ def one_of(name: str, value, choices: Sequence[float]) -> float:
     raise ValueError(f"{name} is {shown(value)}; give {', '.join(others)} or {last}")
 
 
-def flag(name: str, value) -> bool:
+def one_word(name: str, value: Any, choices: Sequence[str]) -> str:
+    """Returns `value`.
+
+    Raises:
+      ValueError: if it is not one of the choices.
+    """
+    if isinstance(value, str) and value in choices:
+        return value
+    raise ValueError(f"{name} is {shown(value)}; choose from {', '.join(choices)}")
+
+
+def flag(name: str, value: Any) -> bool:
     """Returns `value` as a bool.
 
     Raises:
-      ValueError: if it is neither true nor false, Python's or NumPy's.
+      ValueError: if it is not a boolean, Python's or NumPy's.
     """
     if is_flag(value):
         return bool(value)

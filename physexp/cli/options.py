@@ -11,6 +11,7 @@ from typing import Annotated, Any, TypeVar, get_args, get_type_hints
 
 import tyro
 
+from physexp import checks
 from physexp.agents import config as agent_config
 from physexp.cli import arguments
 
@@ -96,7 +97,7 @@ def make(domain_names: Sequence[str], default: str | None = None, options_of: Ca
     for domain_name in domain_names:
         options = options_of(domain_name)
         kinds |= get_type_hints(options)
-        texts |= _descriptions(options)
+        texts |= _descriptions(options) | checks.help_of(options)
     fields: list[tuple[str, Any, Any]] = []
     for name, field in names.items():
         shown = agent_config.shown(field.default) if default is None else default

@@ -6,6 +6,7 @@ from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
+from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import declarations, rendering, seeding, senses, task
 from physexp.suite.engine import options as options_lib
@@ -49,22 +50,20 @@ _ROOM = dict(mat_size=[0.5, 0.68], camera_pos=[0, -1.9, 3.2], camera_target=[0, 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Options(options_lib.Options):
-    """The `task_kwargs` of this domain.
-
-    Attributes:
-      difficulty: 1 more than the number of blocks, grey ones, that are known not to be the odd one, 1 to 3; the larger,
-        the easier.
-    """
+    """The `task_kwargs` of this domain."""
 
     physics_timestep = PHYSICS_TIMESTEP
 
     time_limit: float = 4.0  # the longer, the less it costs never to answer
-    difficulty: float = 1.0  # where each block may be the odd one
+    difficulty: float = checked(  # By default, each block may be the odd one.
+        1.0,
+        checks.among(1, 2, 3),
+        help="1, 2 or 3: 1 plus the number of blocks, drawn grey, that cannot be the odd one; the larger, the easier",
+    )
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         super().__post_init__()
         self.check_step(_SHORTEST_STEP, "the beam comes to rest")
-        object.__setattr__(self, "difficulty", checks.one_of("difficulty", self.difficulty, (1, 2, 3)))
 
 
 def num_suspects(difficulty: float) -> int:

@@ -7,6 +7,7 @@ from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
+from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import declarations, rendering, seeding, senses, task
 from physexp.suite.engine import options as options_lib
@@ -84,20 +85,16 @@ _POINTER_Y, _POINTER_TRAVEL = -0.3, 0.4  # m
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Options(options_lib.Options):
-    """The `task_kwargs` of this domain.
-
-    Attributes:
-      difficulty: 1, 2 or 3: how finely the place of the box is read, to 10, 5 or 3 mm; the larger, the easier.
-    """
+    """The `task_kwargs` of this domain."""
 
     physics_timestep = PHYSICS_TIMESTEP
 
     time_limit: float = 2.0  # the longer, the less it costs never to answer
-    difficulty: float = 2.0
-
-    def __post_init__(self):
-        super().__post_init__()
-        object.__setattr__(self, "difficulty", checks.one_of("difficulty", self.difficulty, tuple(MARKS)))
+    difficulty: float = checked(
+        2.0,
+        checks.among(*MARKS),
+        help="1, 2 or 3: how finely the place of the box is read, to 10, 5 or 3 mm; the larger, the easier",
+    )
 
 
 def draw_contents(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:

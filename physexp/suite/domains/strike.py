@@ -7,6 +7,7 @@ from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
+from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import declarations, seeding, senses, task
 from physexp.suite.engine import options as options_lib
@@ -46,23 +47,19 @@ _PLAYED_OUT = 2.5  # s, in which every strike comes to its end
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Options(options_lib.Options):
-    """The `task_kwargs` of this domain.
-
-    Attributes:
-      difficulty: 1, 2 or 3: how finely pokes are read, by 5, 10 or 15 light gates; the larger, the easier.
-      goal_distance: from the puck to the middle of the goal, 0.6 to 0.75 m.
-    """
+    """The `task_kwargs` of this domain."""
 
     physics_timestep = PHYSICS_TIMESTEP
 
     time_limit: float = 0.9  # the longer, the less it costs never to answer
-    difficulty: float = 2.0
-    goal_distance: float = 0.7  # m
-
-    def __post_init__(self):
-        super().__post_init__()
-        object.__setattr__(self, "difficulty", checks.one_of("difficulty", self.difficulty, tuple(GATES)))
-        object.__setattr__(self, "goal_distance", checks.between("goal_distance", self.goal_distance, 0.6, 0.75, "m"))
+    difficulty: float = checked(
+        2.0,
+        checks.among(*GATES),
+        help="1, 2 or 3: how finely pokes are read, by 5, 10 or 15 light gates; the larger, the easier",
+    )
+    goal_distance: float = checked(
+        0.7, checks.within(0.6, 0.75, "m"), help="distance from the puck to the middle of the goal, 0.6 to 0.75 m"
+    )
 
 
 def draw_pucks(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:

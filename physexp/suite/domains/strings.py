@@ -9,6 +9,7 @@ from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
+from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import declarations, rendering, seeding, senses, task
 from physexp.suite.engine import options as options_lib
@@ -50,24 +51,20 @@ _FLAG_Y, _FLAG_TRAVEL = 0.2, (0.0, 0.0, 0.2)
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Options(options_lib.Options):
-    """The `task_kwargs` of this domain.
-
-    Attributes:
-      difficulty: how much likelier it is that two pucks are not joined than that they are, >= 1; the larger, the
-        easier.
-    """
+    """The `task_kwargs` of this domain."""
 
     physics_timestep = PHYSICS_TIMESTEP
 
     time_limit: float = 2.0  # the longer, the less it costs never to answer
-    difficulty: float = 1.0  # where all graphs are equally likely
+    difficulty: float = checked(  # By default, all graphs are equally likely.
+        1.0,
+        checks.at_least(1, "the odds that two are not joined"),
+        help="odds that two pucks are not joined, >= 1; the larger, the easier",
+    )
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         super().__post_init__()
         self.check_step(_SHORTEST_STEP, "pucks come home")
-        object.__setattr__(
-            self, "difficulty", checks.number("difficulty", self.difficulty, 1, "the odds that two are not joined")
-        )
 
 
 def prior(difficulty: float) -> np.ndarray:

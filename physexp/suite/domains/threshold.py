@@ -6,6 +6,7 @@ from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
+from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import declarations, rendering, seeding, senses, task
 from physexp.suite.engine import options as options_lib
@@ -41,19 +42,19 @@ _RISE = 0.3  # m, of the flag when the block has slid, and of the pointer with t
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Options(options_lib.Options):
-    """The `task_kwargs` of this domain.
-
-    Attributes:
-      difficulty: how much likelier low levels are than high ones, >= 1; at 1 all are equally likely; the larger, the
-        easier.
-    """
+    """The `task_kwargs` of this domain."""
 
     physics_timestep = PHYSICS_TIMESTEP
 
     time_limit: float = 1.5  # the longer, the less it costs never to answer
-    difficulty: float = 1.0  # where no answer is so rare that to ignore it costs little
+    difficulty: float = checked(  # By default, no answer is so rare that to ignore it costs little.
+        1.0,
+        checks.at_least(1, "the skew of the prior over levels"),
+        help="how much more likely low levels are than high ones, >= 1; at 1 all are equally likely; the larger, the "
+        "easier",
+    )
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         super().__post_init__()
         self.check_step(_SHORTEST_STEP, "a block gets from one stop to the other")
         meanwhile = "a block that is held creeps too little to be read"
@@ -66,9 +67,6 @@ class Options(options_lib.Options):
                 f"time_limit is {self.time_limit} s, in which pushes may last {self.longest_play:g} s where control "
                 f"steps are long; give less: at most {_LONGEST_EPISODE:g} s of pushes, in which {meanwhile}"
             )
-        object.__setattr__(
-            self, "difficulty", checks.number("difficulty", self.difficulty, 1, "the skew of the prior over levels")
-        )
 
 
 def prior(difficulty: float) -> np.ndarray:

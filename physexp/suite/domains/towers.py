@@ -8,6 +8,7 @@ from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
+from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import declarations, seeding, senses, task
 from physexp.suite.engine import options as options_lib
@@ -35,29 +36,27 @@ _ROOM = dict(mat_size=[0.6, 0.6], camera_pos=[0.35, -3.4, 2.0], camera_target=[-
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Options(options_lib.Options):
-    """The `task_kwargs` of this domain.
-
-    Attributes:
-      cube_size: edge of the cubes, 0.08 to 0.12, m.
-      sliding_friction: coefficient of friction, 0.1 to 1, of cubes, floor and fist; by default 0.3, which `variation`
-        then varies.
-      fist_distance: from the tower's axis to the centre of the fist at the start, m, at most 0.32, the default. It
-        leaves at least 1 cm between them: 0.16 is the least for the default cubes, and 0.2 with full variation.
-    """
+    """The `task_kwargs` of this domain."""
 
     physics_timestep = PHYSICS_TIMESTEP
 
     time_limit: float = 2.6  # the paper's 26 steps at its control step of 0.1 s
-    cube_size: float = 2 * block.HALF_SIZE
-    sliding_friction: float | None = None
-    fist_distance: float = actuators.FIST_DISTANCE
+    cube_size: float = checked(
+        2 * block.HALF_SIZE, checks.within(0.08, 0.12, "m"), help="edge of the cubes, 0.08 to 0.12 m"
+    )
+    sliding_friction: float | None = checked(
+        None,
+        checks.optional(checks.within(0.1, 1.0)),
+        help="coefficient of friction of cubes, floor and fist, 0.1 to 1; by default 0.3, which `variation` varies",
+    )
+    fist_distance: float = checked(
+        actuators.FIST_DISTANCE,
+        help="initial distance from the tower's axis to the centre of the fist, m, at most 0.32, the default. It must "
+        "leave 1 cm between them: at least 0.16 for the default cubes, and 0.2 with full variation",
+    )
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         super().__post_init__()
-        object.__setattr__(self, "cube_size", checks.between("cube_size", self.cube_size, 0.08, 0.12, "m"))
-        if self.sliding_friction is not None:
-            friction = checks.between("sliding_friction", self.sliding_friction, 0.1, 1.0)
-            object.__setattr__(self, "sliding_friction", friction)
         nearest = fist.RADIUS + self.cube_size / 2 + _FIST_CLEARANCE + self.variation * _APPROACH
         name = f"fist_distance, with cube_size {self.cube_size:g} and variation {self.variation:g},"
         distance = checks.between(name, self.fist_distance, round(nearest, 4), actuators.FIST_DISTANCE, "m")

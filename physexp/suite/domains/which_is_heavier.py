@@ -6,6 +6,7 @@ from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
+from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import declarations, priors, senses, task
 from physexp.suite.engine import options as options_lib
@@ -35,20 +36,14 @@ _ROOM = dict(mat_size=[0.36, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0,
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Options(options_lib.Options):
-    """The `task_kwargs` of this domain.
-
-    Attributes:
-      difficulty: the paper's beta, >= 1; the larger, the easier.
-    """
+    """The `task_kwargs` of this domain."""
 
     physics_timestep = PHYSICS_TIMESTEP
 
     time_limit: float = 10.0  # 100 control steps (Section 5.1)
-    difficulty: float = 5.0  # the middle one of the paper's three
-
-    def __post_init__(self):
-        super().__post_init__()
-        object.__setattr__(self, "difficulty", checks.number("difficulty", self.difficulty, 1, "the paper's beta"))
+    difficulty: float = checked(  # By default, the middle one of the paper's three.
+        5.0, checks.at_least(1, "the paper's beta"), help="the paper's beta, >= 1; the larger, the easier"
+    )
 
 
 class WhichIsHeavier(task.QuestionTask):

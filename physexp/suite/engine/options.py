@@ -7,28 +7,19 @@ from typing import Any, ClassVar
 import numpy as np
 
 from physexp import checks
+from physexp.checks import checked
 from physexp.suite.engine import seeding
 
 _ROUNDING = 1e-6  # A control step is as good as a multiple that it differs from by less: float32 keeps 7 digits.
-_LONGEST = {"control_timestep": 60.0, "time_limit": 1e6}  # s; a control step is simulated in one go.
+
+
+def _seed(name: str, value: Any) -> int:
+    return seeding.seed_from(value)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Options:
-    """The options that every task has: the `task_kwargs` of `suite.load`.
-
-    Attributes:
-      random: an integer seed, a `numpy.random.RandomState`, or None for a seed from the operating system.
-      control_timestep: time between actions, a multiple of the physics step, at most a minute, s.
-      time_limit: time after which an unanswered episode ends, rounded up to whole control steps, s.
-      variation: how far episodes differ in what is not asked, as where things stand, from 0, where they do not, to 1.
-      step_variation: how far the control step of an episode may differ from `control_timestep`, as a share of it, from
-        0 to 0.9. It is a multiple of the physics step, each with the same probability. Episodes have as many control
-        steps as without.
-      noise: standard deviation of what is added to every reading in metres, at each control step anew, at most 100 m.
-      reveal: observe the right answer from the first step on, as `answer`: 1 for the right label and 0 for the others.
-        Who fails even so has not learned to answer.
-      visualize_reward: colour the floor by the outcome at the end of an episode.
+    """The options that every task has: the `task_kwargs` of `suite.load`. A domain's own class adds others.
 
     Raises:
       ValueError: if a value has the wrong type or is out of range.
@@ -36,27 +27,46 @@ class Options:
 
     physics_timestep: ClassVar[float]
 
-    random: Any = None
-    control_timestep: float = 0.1
-    time_limit: float
-    variation: float = 0.0
-    step_variation: float = 0.0
-    noise: float = 0.0
-    reveal: bool = False
-    visualize_reward: bool = False
+    random: Any = checked(
+        None,
+        _seed,
+        help="an integer seed, a numpy.random.RandomState, or None for a seed from the operating system",
+    )
+    control_timestep: float = checked(
+        0.1,
+        checks.within(0, 60, "s", without=0),
+        help="time between actions, a multiple of the physics step, at most a minute, s",
+    )
+    time_limit: float = checked(
+        check=checks.within(0, 1e6, "s", without=0),
+        help="time after which an unanswered episode ends, rounded up to whole control steps, s",
+    )
+    variation: float = checked(
+        0.0,
+        checks.within(0, 1),
+        help="strength of the random variation between episodes (positions, masses, camera), 0 to 1",
+    )
+    step_variation: float = checked(
+        0.0,
+        checks.within(0, 0.9),
+        help="random variation of the control step between episodes, as a share of control_timestep, 0 to 0.9; the "
+        "number of control steps in an episode stays the same",
+    )
+    noise: float = checked(
+        0.0,
+        checks.within(0, 100, "m"),
+        help="standard deviation of the noise added to every position at every control step, at most 100 m",
+    )
+    reveal: bool = checked(
+        False,
+        checks.flag,
+        help="observe the right answer from the first step on, as `answer`: 1 for the right label, 0 for the others; "
+        "an agent that fails even then has not learned to answer",
+    )
+    visualize_reward: bool = checked(False, checks.flag, help="colour the floor by the outcome at the end of an episode")
 
-    def __post_init__(self):
-        object.__setattr__(self, "random", seeding.seed_from(self.random))
-        for name, longest in _LONGEST.items():
-            seconds = checks.number(name, getattr(self, name), 0, "s", strictly=True)
-            if seconds > longest:
-                raise ValueError(f"{name} is {checks.shown(getattr(self, name))}; give at most {longest:g} s")
-            object.__setattr__(self, name, seconds)
-        object.__setattr__(self, "variation", checks.between("variation", self.variation, 0, 1))
-        object.__setattr__(self, "step_variation", checks.between("step_variation", self.step_variation, 0, 0.9))
-        object.__setattr__(self, "noise", checks.between("noise", self.noise, 0, 100, "m"))
-        for name in ("reveal", "visualize_reward"):
-            object.__setattr__(self, name, checks.flag(name, getattr(self, name)))
+    def __post_init__(self) -> None:
+        checks.check_fields(self)
         exact = self.substeps * self.physics_timestep
         if self.substeps < 1 or abs(exact - self.control_timestep) > _ROUNDING * exact:
             raise ValueError(
