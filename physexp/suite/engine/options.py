@@ -63,7 +63,7 @@ class Options:
         help="observe the right answer from the first step on, as `answer`: 1 for the right label, 0 for the others; "
         "an agent that fails even then has not learned to answer",
     )
-    visualize_reward: bool = checked(False, checks.flag, help="colour the floor by the outcome at the end of an episode")
+    visualize_reward: bool = checked(False, checks.flag, help="colour the floor by the outcome of an episode")
 
     def __post_init__(self) -> None:
         checks.check_fields(self)
