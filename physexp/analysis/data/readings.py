@@ -1,4 +1,4 @@
-"""How readings are shown to people: the curves of each, their things, unit and bounds."""
+"""Readings as curves for people: names, things, units and bounds."""
 
 from collections.abc import Mapping, Sequence
 import dataclasses
@@ -9,7 +9,7 @@ import numpy as np
 from physexp.suite.engine import declarations
 
 POSITION = (("x", "y", "z"), "m")
-"""The components and the unit of a reading that tells where things are."""
+"""Components and unit of a reading of positions."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -17,12 +17,12 @@ class Shown:
     """A reading as S curves for each of C components.
 
     Attributes:
-      name: of the reading.
-      components: names of the components; one without a name where the reading has none.
-      names: of the curves, in words.
-      things: names of the things that the curves tell of.
-      unit: of the values; empty where they have none.
-      limits: the least and the greatest value of each component, [C, 2], where they are known.
+      name: name of the reading.
+      components: names of the components; one empty name for a reading without components.
+      names: names of the curves.
+      things: names of the things that are measured.
+      unit: unit of the values, or empty.
+      limits: minimum and maximum of each component, [C, 2], or None.
     """
 
     name: str
@@ -38,22 +38,22 @@ class Shown:
         return (self.components, self.unit) == POSITION
 
     def values(self, observed: np.ndarray) -> np.ndarray:
-        """Returns the values, [T, S, C], of the reading as it was observed once, [*shape], or T times, [T, *shape]."""
+        """Returns values [T, S, C] of observations [T, *shape], or of one observation [*shape]."""
         return observed.reshape(-1, len(self.names), len(self.components))
 
 
 def shown(readings: Mapping[str, declarations.Reading]) -> list[Shown]:
-    """Returns how each of a task's readings is shown."""
+    """Returns all of a task's readings as curves."""
     return [_shown(name, reading) for name, reading in readings.items()]
 
 
 def spoken(name: str) -> str:
-    """Returns the name of a thing or a reading in words."""
+    """Returns the name of a thing or a reading with spaces."""
     return name.replace("_", " ")
 
 
 def owner(identifier: str) -> str:
-    """Returns the name of the innermost model in an identifier, as of `tower/block_0/center` or a frame `block_0/`."""
+    """Returns the innermost model of an identifier: `block_0` of `tower/block_0/center` and of the frame `block_0/`."""
     *models, last = identifier.rstrip("/").split("/")
     return next((part for part in reversed(models) if part), last)
 
@@ -65,7 +65,7 @@ def _shown(name: str, reading: declarations.Reading) -> Shown:
     names = [spoken(thing) for thing in things]
     if count == 1 and not reading.components:
         names, things = [spoken(name)], things if len(things) == 1 else [""]
-    elif count != len(things):  # Values that have no names.
+    elif count != len(things):  # Values without names.
         names = [str(number) for number in range(count)]
         things = (things if len(set(things)) == 1 else [""])[:1] * count
     elif len(set(things)) < len(things):  # Several sensors of one thing.
@@ -82,7 +82,7 @@ def _limits(reading: declarations.Reading, num_components: int) -> np.ndarray | 
 
 
 def _thing(sensor: Any) -> str:
-    """Returns the thing that an MJCF sensor is attached to: the model that its joint, site or body belongs to."""
+    """Returns the thing of an MJCF sensor: the model of its joint, site or body."""
     for value in sensor.get_attributes().values():
         identifier = getattr(value, "full_identifier", None)
         if identifier is not None:
@@ -91,7 +91,7 @@ def _thing(sensor: Any) -> str:
 
 
 def joined_limits(group: Sequence[np.ndarray | None]) -> tuple[float, float] | None:
-    """Returns the least and the greatest of several pairs, (2,) each; None where one of them is not known."""
+    """Returns the common minimum and maximum of several limits; None if one of them is unknown."""
     known = [limits for limits in group if limits is not None]
     if not known or len(known) < len(group):
         return None

@@ -1,4 +1,4 @@
-"""A person plays in a terminal, beside the ideal experimenter and a trained agent on the same instances."""
+"""A person's game in a terminal, beside the ideal experimenter and a trained agent on the same instances."""
 
 from collections.abc import Callable, Mapping
 import dataclasses
@@ -17,10 +17,10 @@ _QUIT, _HELP = "q", "?"
 
 @dataclasses.dataclass
 class Score:
-    """How a player has done so far.
+    """Score of a player.
 
     Attributes:
-      episodes, right: how many were played, and answered right.
+      episodes, right: number of episodes, and of right answers.
       total: sum of the discounted returns.
     """
 
@@ -29,7 +29,7 @@ class Score:
     total: float = 0.0
 
     def add(self, length: int, reward: float, discount: float) -> None:
-        """Counts an episode of so many actions."""
+        """Adds an episode of `length` actions."""
         self.episodes += 1
         self.right += reward > 0
         self.total += reward * discount ** (length - 1)
@@ -50,17 +50,17 @@ def play(
     """Plays until the player quits.
 
     Args:
-      domain, task, task_kwargs: what is played, as for `suite.load`, without the seed.
-      seed: of the environment; by default one from the operating system.
+      domain, task, task_kwargs: arguments of `suite.load`, without the seed.
+      seed: seed of the environment; by default one from the operating system.
       view: show the scene in rerun's viewer as well.
-      read: asks the player; an end of file quits.
+      read: returns the player's reply to a prompt; an end of file quits.
       show: shows a text.
 
     Returns:
-      Scores by player: `you`, and, where there are such, `trained agent` and `ideal experimenter`.
+      Scores of `you`, and, if there are any, of the `trained agent` and the `ideal experimenter`.
 
     Raises:
-      ValueError: for an unknown name, or where the scene is to be shown and there is no display.
+      ValueError: for an unknown name, or for `view` without a display.
     """
     kwargs = dict(task_kwargs or {})
     environment = suite.load(domain, task, task_kwargs={**kwargs, "random": seed})
@@ -83,15 +83,15 @@ def play(
 
 
 def _viewers(environment: suite.Environment, domain, task, kwargs) -> list[environment_loop.Observer]:
-    """Returns what shows the scene in the viewer."""
-    from physexp.analysis.replay import live, recording, viewing  # Takes a second, and most play without.
+    """Returns observers that show the scene in the viewer."""
+    from physexp.analysis.replay import live, recording, viewing  # The import takes a second.
 
     recorder = recording.EpisodeRecorder(environment, domain, task, kwargs, agent="you")
     return [recorder, live.Live(recorder, viewing.Viewer())]
 
 
 def _others(domain: str, task: str, kwargs: dict[str, Any], show) -> tuple[dict[str, core.Actor], float]:
-    """Returns the players to compare with, and the discount that the trained one knows."""
+    """Returns the players to compare with, and the discount of the returns."""
     others: dict[str, core.Actor] = {}
     discount = domains.find(domain).discount
     try:
@@ -109,7 +109,7 @@ def _others(domain: str, task: str, kwargs: dict[str, Any], show) -> tuple[dict[
 
 
 def _ideal(domain: str, task: str, kwargs: dict[str, Any], discount: float) -> core.Actor | None:
-    """Returns the ideal experimenter; None where there is none that can play."""
+    """Returns the ideal experimenter, or None if none can play."""
     find = domains.find(domain).ideal_with(kwargs)
     try:
         return None if find is None else find(task, kwargs, discount).actor()
@@ -118,7 +118,7 @@ def _ideal(domain: str, task: str, kwargs: dict[str, Any], discount: float) -> c
 
 
 def _rules(environment: suite.Environment) -> str:
-    """Returns the question, and how to find out and to answer."""
+    """Returns the question, a legend of the drawings, the rewards and the actions."""
     task = environment.task
     actions = [f"{number:3}  {name}" for number, name in enumerate(task.action_names)]
     return "\n".join(
@@ -176,7 +176,7 @@ def _ask(environment: suite.Environment, rules: str, read, show) -> int | None:
 
 
 def _replay(environment: suite.Environment, domain, task, kwargs, actor: core.Actor) -> tuple[int, float]:
-    """Returns how another player does on the instance that has just been played."""
+    """Returns length and return of another player on the current instance."""
     seed = environment.task.options.random
     again = suite.load(domain, task, task_kwargs={**kwargs, "random": seed})
     again.task.next_episode = environment.task.episode

@@ -1,4 +1,4 @@
-"""Observations as text, as large as the terminal has room for."""
+"""Observations as text that fits the terminal."""
 
 from collections.abc import Collection, Mapping, Sequence
 import string
@@ -10,20 +10,20 @@ from physexp.suite.engine import declarations
 
 Readings = Mapping[str, declarations.Reading]
 
-_WIDTH, _HEIGHT = 48, 14  # Characters of a drawing at most.
+_WIDTH, _HEIGHT = 48, 14  # Characters of the largest drawing.
 _LONGEST_BAR = 60  # Characters.
-_ROOM = np.array([(-0.6, 0.6), (-0.6, 0.6), (0.0, 0.6)])  # m, of a drawing where a reading has no bounds
-_SYMBOLS = "OX" + string.ascii_uppercase.replace("O", "").replace("X", "")  # Of things without a number.
-_SMALLEST_IMAGE = 16  # Pixels: where less is drawn nothing can be told apart.
-_OTHER_LINES = 3  # Of the terminal, which are not the image's.
+_ROOM = np.array([(-0.6, 0.6), (-0.6, 0.6), (0.0, 0.6)])  # m; the bounds of readings that declare none.
+_SYMBOLS = "OX" + string.ascii_uppercase.replace("O", "").replace("X", "")  # For things without a number.
+_SMALLEST_IMAGE = 16  # Pixels; smaller images are unreadable.
+_OTHER_LINES = 3  # Of the terminal, below an image.
 
 
 def legend(observation: Collection[str], readings: Readings) -> str:
-    """Returns what a drawing shows, in words.
+    """Returns a legend of the drawings of an observation.
 
     Args:
-      observation: names of what is seen.
-      readings: the task's.
+      observation: names of the arrays.
+      readings: readings of the task.
     """
     seen = [reading for reading in readings_lib.shown(readings) if reading.name in observation]
     sentences = ["You see what the agent sees, an image."] if set(observation) - set(readings) else []
@@ -41,9 +41,9 @@ def drawing(observation: Mapping[str, np.ndarray], readings: Readings, columns: 
     """Returns an observation as text: things from the side, values as bars, and images in coloured half blocks.
 
     Args:
-      observation: what is seen.
-      readings: the task's.
-      columns, lines: the terminal's size.
+      observation: arrays by name.
+      readings: readings of the task.
+      columns, lines: size of the terminal.
     """
     seen = [reading for reading in readings_lib.shown(readings) if reading.name in observation]
     places = [reading for reading in seen if reading.is_position]
@@ -56,7 +56,7 @@ def drawing(observation: Mapping[str, np.ndarray], readings: Readings, columns: 
 
 
 def _shown_unit(unit: str) -> str:
-    """Returns the unit in which values are shown."""
+    """Returns the unit of displayed values."""
     return "cm" if unit == "m" else unit
 
 
@@ -73,7 +73,7 @@ def _plural(name: str) -> str:
 
 
 def _symbols(places: Sequence[readings_lib.Shown]) -> dict[str, str]:
-    """Returns a character for each thing: its number, where that is a digit that no other thing has, or a letter."""
+    """Returns a character for each thing: its number if that is one unused digit, or a letter."""
     letters, symbols = iter(_SYMBOLS), dict[str, str]()
     for thing in dict.fromkeys(thing for reading in places for thing in reading.things):
         number = thing.rpartition("_")[2]
@@ -83,7 +83,7 @@ def _symbols(places: Sequence[readings_lib.Shown]) -> dict[str, str]:
 
 
 def _side(places: Sequence[readings_lib.Shown], observation, width: int, height: int) -> str:
-    """Returns where things are, seen from the side, and below it how far away each is."""
+    """Returns a side view of positions, with the distances along y below it."""
     canvas = np.full((height, width), " ")
     rooms = np.array([_ROOM if reading.limits is None else reading.limits for reading in places])
     (left, _, bottom), (right, _, top) = rooms[..., 0].min(axis=0), rooms[..., 1].max(axis=0)
@@ -99,7 +99,7 @@ def _side(places: Sequence[readings_lib.Shown], observation, width: int, height:
 
 
 def _rows(seen: Sequence[readings_lib.Shown], observation, columns: int) -> list[str]:
-    """Returns a line for each value: its name, a bar where its bounds are known and it has a unit, and the number."""
+    """Returns a line for each value: its name, a bar if its bounds are known and it has a unit, and the number."""
     found = []
     for reading in seen:
         values = reading.values(observation[reading.name])[0]
@@ -117,7 +117,7 @@ def _rows(seen: Sequence[readings_lib.Shown], observation, columns: int) -> list
 
 
 def _label(reading: readings_lib.Shown, name: str, component: str, are_several: bool) -> str:
-    """Returns what a value is called: after its reading, where that has no other value, or else after its thing."""
+    """Returns the name of a value: its reading's if that has one value, or its thing's."""
     if len(reading.names) == 1:
         name = readings_lib.spoken(reading.name)
     elif are_several:
@@ -126,7 +126,7 @@ def _label(reading: readings_lib.Shown, name: str, component: str, are_several: 
 
 
 def _bar(value: float, largest: float | None, unit: str, room: int) -> str:
-    """Returns a bar as long as the value, of `#` where it is positive; nothing where its length would say nothing."""
+    """Returns a bar of `#` for positive and `-` for negative values; nothing without a unit or bounds."""
     if not unit or not largest:
         return ""
     length = min(room, round(abs(value) / largest * room))

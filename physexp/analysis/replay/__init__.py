@@ -1,4 +1,4 @@
-"""Replays: episodes recorded with all that was seen, believed and done, and written for the rerun viewer."""
+"""Replays: recorded episodes with observations, beliefs and actions, written for the rerun viewer."""
 
 from collections.abc import Mapping, Sequence
 import functools
@@ -28,20 +28,19 @@ def replay(
     """Plays episodes with trained agents and writes them for the viewer.
 
     Args:
-      targets: a run's folder or `domain/task`; several are shown side by side, on the instances the first has played.
-      count: how many episodes.
+      targets: folders of runs or `domain/task`; several agents are shown side by side, on the first one's instances.
+      count: number of episodes.
       output: the file.
       interaction, select, seed: see `selection.select`.
-      tell: called with lines that tell how it goes.
-      task_kwargs: options that the agents are to be trained with, see `finding.find_agent`.
+      tell: called with lines about the progress.
+      task_kwargs: options of the agents' tasks, see `finding.find_agent`.
 
     Returns:
       The path of the file.
 
     Raises:
       OSError: if the file cannot be written.
-      ValueError: if a target is no agent, agents that are to be compared play different tasks, or there is something
-        else than a regular file at `output`.
+      ValueError: if a target is no agent, agents play different tasks, or `output` is no path for a replay.
     """
     writing.check_output(output)
     agents = [finding.find_agent(target, task_kwargs) for target in targets]
@@ -49,7 +48,7 @@ def replay(
     for target, (_, other) in zip(targets[1:], agents[1:], strict=True):
         if _played(other) != _played(config):
             raise ValueError(
-                f"{targets[0]} plays {_what(config)}, and {target} plays {_what(other)}; "
+                f"{targets[0]} plays {_task_name(config)}, and {target} plays {_task_name(other)}; "
                 "compare agents that play the same"
             )
     chosen = list(selection.select(network, config, count, select, interaction, seed, tell))
@@ -60,19 +59,19 @@ def replay(
 
 
 def _played(config) -> tuple:
-    """Returns what a configuration's agent plays: domain, task, and all options, of which the seed is no part."""
+    """Returns domain, task and all options but the seed of an agent."""
     options = suite.options(config.domain)(**{**config.task_kwargs, "random": 0})
     return config.domain, config.task, options
 
 
-def _what(config) -> str:
-    """Returns what a configuration's agent plays, in words."""
+def _task_name(config) -> str:
+    """Returns the name of an agent's task with its options."""
     options = "".join(f", {name} {agent_config.shown(value)}" for name, value in config.task_kwargs.items())
     return f"{config.domain}/{config.task}{options}"
 
 
 def _episodes(targets, agents, instance, interaction) -> list[Episode]:
-    """Returns one instance as the first agent has played it, and as the others play it."""
+    """Returns the episodes of all agents on one instance."""
     seed, episode, actions = instance
     (network, config), *others = agents
     title = targets[0] if interaction == "learned" else f"{targets[0]}, {interaction} interaction"

@@ -1,4 +1,4 @@
-"""The belief of an agent, and that of an ideal experimenter with the same observations."""
+"""Beliefs of an agent, and of the ideal experimenter after the same observations."""
 
 import functools
 
@@ -9,9 +9,9 @@ from physexp.analysis.replay import recording
 
 
 def of_agent(episode: recording.Episode) -> np.ndarray:
-    """Returns what an agent with a policy believed before each of its T actions, float64 [T, L].
+    """Returns the agent's belief before each of T actions, float64 [T, L].
 
-    Where it has no belief of its own, this is its policy restricted to the labels and renormalized.
+    For an agent with a policy alone this is the policy restricted to the labels and renormalized.
     """
     if len(episode.beliefs):
         return episode.beliefs
@@ -20,14 +20,14 @@ def of_agent(episode: recording.Episode) -> np.ndarray:
 
 
 def of_ideal(episode: recording.Episode) -> np.ndarray | None:
-    """Returns what an ideal experimenter would believe in an episode of T actions, [T + 1, L], where that is known."""
+    """Returns the ideal experimenter's belief in an episode of T actions, [T + 1, L]; None where it is unknown."""
     solution = _ideal(episode.domain, episode.task, tuple(sorted(episode.task_kwargs.items())))
     return None if solution is None else solution.beliefs(episode)
 
 
 @functools.lru_cache(maxsize=4)
 def _ideal(domain_name: str, task: str, task_kwargs: tuple):
-    """Returns the ideal experimenter of a task, which may keep a simulation; what it believes has no discount."""
+    """Returns the ideal experimenter of a task."""
     domain = domains.find(domain_name)
     find = domain.ideal_with(dict(task_kwargs))
     return None if find is None else find(task, dict(task_kwargs), domain.discount)

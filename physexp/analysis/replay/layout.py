@@ -1,4 +1,4 @@
-"""The layout of a recording: the scene at the left, observations and beliefs at the right, slowly playing."""
+"""Layout of a recording: the scene at the left, observations and beliefs at the right."""
 
 from collections.abc import Sequence
 import functools
@@ -14,12 +14,12 @@ from physexp.analysis.replay import recording, words
 
 TIMELINE = "time"
 
-_SPEED = 0.1  # Of playing: an episode of three actions lasts 0.3 s.
-_LONGER = 1.5  # Plots than the episode, so that there is room for names at their right.
-_MARGIN = 0.05  # Of a plot, below and above what the reading can be.
+_SPEED = 0.1  # Of playback, since an episode of three actions lasts 0.3 s.
+_PLOT_DURATION = 1.5  # Of the episode's duration, so that names at the right have room.
+_MARGIN = 0.05  # Of the reading's range, below and above.
 _FIELD_OF_VIEW = 55.0  # degrees, of the viewer's own eye
 _INVISIBLE = rrb.EntityBehavior(visible=False)
-_NEARER = 0.7  # Than where the same is seen as through the agent's camera, since a window is wider than its images.
+_NEARER = 0.7  # Of the distance that shows the camera's image, since a window is wider.
 
 
 def blueprint(episodes: Sequence[recording.Episode], roots: Sequence[str]) -> rrb.Blueprint:
@@ -35,7 +35,7 @@ def blueprint(episodes: Sequence[recording.Episode], roots: Sequence[str]) -> rr
 
 
 def titled(root: str, title: str) -> str:
-    """Returns the title of a view of one of several episodes side by side."""
+    """Returns the title of a view, with its root for episodes side by side."""
     return f"{root}: {title}" if root else title
 
 
@@ -57,7 +57,7 @@ def _column(episode: recording.Episode, root: str) -> rrb.Container:
 
 
 def _scene(episode: recording.Episode, root: str) -> rrb.Tabs:
-    """Returns the scene as it is observed, and, behind it, as it is, where covers are seen through."""
+    """Returns tabs of the observed scene and of the true one, in which covers are transparent."""
     edges = rr.Boxes3D.from_fields(fill_mode="majorwireframe")
     hidden = {f"{root}/world/{entity}": edges for entity in _covers(episode)}
     return rrb.Tabs(
@@ -68,7 +68,7 @@ def _scene(episode: recording.Episode, root: str) -> rrb.Tabs:
 
 
 def _observed(episode: recording.Episode, root: str) -> rrb.View:
-    """Returns the scene as readings place it, or the image, which places nothing."""
+    """Returns the scene as readings place it, or the image."""
     title, images = episode.agent or "scene", _images(episode)
     if images:
         return rrb.Spatial2DView(origin=f"{root}/seen/{images[0]}", name=titled(root, f"{title}: the image"))
@@ -87,7 +87,7 @@ def _images(episode: recording.Episode) -> list[str]:
 
 
 def _covers(episode: recording.Episode) -> list[str]:
-    """Returns the entities of the boxes that have something in them, at the start, that observations do not place."""
+    """Returns the entities of boxes that hold an unplaced thing at the start."""
     shapes, positions = episode.shapes, episode.positions[0]
     covers = []
     for k in np.flatnonzero(shapes.are_drawn).tolist():
@@ -99,11 +99,11 @@ def _covers(episode: recording.Episode) -> list[str]:
 
 
 def _eye(episode: recording.Episode) -> rrb.EyeControls3D:
-    """Looks from where the agent's camera does, so near that it shows as much."""
+    """Returns an eye in the direction of the agent's camera."""
     camera = episode.declared.root_entity.camera
     right, up = np.reshape(camera.xyaxes, (2, 3))
     forward = np.cross(up, right)
-    distance = -float(camera.pos @ forward)  # To where it passes the middle of the room.
+    distance = -float(camera.pos @ forward)  # To the middle of the room.
     target = camera.pos + distance * forward
     nearer = _NEARER * distance * np.tan(np.radians(camera.fovy / 2)) / np.tan(np.radians(_FIELD_OF_VIEW / 2))
     return rrb.EyeControls3D(position=target - nearer * forward, look_target=target, eye_up=(0, 0, 1))
@@ -116,7 +116,7 @@ def _about(root: str) -> rrb.Container:
 
 
 def _readings(episode: recording.Episode, root: str) -> list[rrb.View | rrb.Container]:
-    """Returns plots of the readings; in tabs, where there are several."""
+    """Returns plots of the readings, in tabs if there are several."""
     curves, seen = functools.partial(_curves, episode, root), readings.shown(episode.declared.all_readings)
     seen = [reading for reading in seen if reading.name in episode.observations]
     views: list[rrb.View | rrb.Container] = []
@@ -127,7 +127,7 @@ def _readings(episode: recording.Episode, root: str) -> list[rrb.View | rrb.Cont
 
 
 def _plots(seen: Sequence[readings.Shown]) -> dict[str, tuple[list[str], tuple[float, float] | None]]:
-    """Returns the entities and the limits of each plot, by its title: components that are called the same share one."""
+    """Returns entities and limits of each plot by its title; components of one name share a plot."""
     found: dict[str, list] = {}
     for reading in seen:
         for number, component in enumerate(reading.components):
@@ -142,7 +142,7 @@ def _plots(seen: Sequence[readings.Shown]) -> dict[str, tuple[list[str], tuple[f
 
 
 def _widened(limits: tuple[float, float] | None) -> tuple[float, float] | None:
-    """Returns limits with a margin, so that curves at them can be seen."""
+    """Returns limits with a margin."""
     if limits is None:
         return None
     margin = _MARGIN * (limits[1] - limits[0])
@@ -150,12 +150,12 @@ def _widened(limits: tuple[float, float] | None) -> tuple[float, float] | None:
 
 
 def entity(reading: readings.Shown, component: str) -> str:
-    """Returns where the curves of a reading's component are."""
+    """Returns the entity of a reading's component."""
     return f"seen/{reading.name}/{component}" if component else f"seen/{reading.name}"
 
 
 def _thoughts(episode: recording.Episode, root: str) -> tuple[list[rrb.View], list[list[rrb.View]]]:
-    """Returns the view of the belief now, and plots of it over time in groups, of which the first shows first."""
+    """Returns the view of the current belief, and groups of plots over time."""
     curves, chances = functools.partial(_curves, episode, root), (-0.05, 1.05)
     is_known = domains.find(episode.domain).ideal_with(episode.task_kwargs) is not None
     ideal = [curves("belief of an ideal experimenter", ["belief/ideal"], chances)] if is_known else []
@@ -174,8 +174,8 @@ def _curves(
     entities: Sequence[str],
     limits: tuple[float, float] | None = None,
 ) -> rrb.View:
-    """Returns a plot of some entities up to the moment shown, with room for the names at the right of an episode."""
-    until = _LONGER * float(episode.times[episode.num_played])
+    """Returns a plot of some entities up to the current time."""
+    until = _PLOT_DURATION * float(episode.times[episode.num_played])
     start, now = rr.TimeRangeBoundary.absolute(seconds=0), rr.TimeRangeBoundary.cursor_relative(seconds=0)
     return rrb.TimeSeriesView(
         origin=f"{root}/",

@@ -10,17 +10,17 @@ from physexp.analysis.replay import layout, recording, words, writing
 
 
 class Screen(Protocol):
-    """A place that shows streams: `viewing.Viewer`, for one."""
+    """Shows streams, as `viewing.Viewer` does."""
 
     def show(self, stream: rr.RecordingStream, layout: rrb.Blueprint) -> None:
         """Connects a stream."""
 
     def flush(self, stream: rr.RecordingStream) -> None:
-        """Sends what a stream holds."""
+        """Sends the data of a stream."""
 
 
 class Live(environment_loop.Observer):
-    """Shows an episode while it is played: what its observations tell, and all of it once it is over."""
+    """Shows an episode while it is played: the observations at first, and everything after its end."""
 
     def __init__(self, recorder: recording.EpisodeRecorder, screen: Screen):
         """Prepares to show.
@@ -44,7 +44,7 @@ class Live(environment_loop.Observer):
         self._show(timestep.last())
 
     def get_metrics(self):
-        """Returns nothing: this only shows."""
+        """Returns no metrics."""
         return {}
 
     def _show(self, is_over: bool) -> None:

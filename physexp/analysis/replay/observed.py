@@ -1,4 +1,4 @@
-"""The film of an episode that follows from its observations alone: all that may be drawn before the answer."""
+"""Film of an episode that follows from its observations alone, to be drawn before the answer."""
 
 from collections.abc import Mapping, Sequence
 

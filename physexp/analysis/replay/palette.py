@@ -1,4 +1,4 @@
-"""The names and colours of a replay: a thing's colour is used for that thing alone."""
+"""Names and colours of a replay: a thing's colour means that thing alone."""
 
 from collections.abc import Sequence
 import re
@@ -18,18 +18,18 @@ VALUE = (235, 235, 235)
 """The return that the agent expects."""
 
 MARK = (255, 255, 255)
-"""A text beside a thing, which tells what is hidden."""
+"""A text beside a thing that tells its hidden property."""
 
 JOINT = (255, 255, 255)
-"""What joins two things that are one."""
+"""A bar between two things of one body."""
 
-_DARK = 90  # Darker colours than this one's grey are not seen on the viewer's dark ground.
+_DARK = 90  # Darker colours vanish on the viewer's dark ground.
 _PALE = (170, 170, 180)
 _FIRST_LABEL, _LAST_LABEL = np.array((0, 95, 110)), np.array((190, 250, 255))
 
 
 def of_thing(shapes: recording.Shapes, name: str) -> tuple[int, ...]:
-    """Returns the colour of a thing's curves, 0 to 255 (3,): its own, if that can be seen."""
+    """Returns the colour of a thing's curves, 0 to 255 (3,): its own, unless it is dark."""
     if name not in shapes.names:
         return _PALE
     color = tuple(int(255 * value) for value in shapes.colors[shapes.names.index(name)][:3])
@@ -37,7 +37,7 @@ def of_thing(shapes: recording.Shapes, name: str) -> tuple[int, ...]:
 
 
 def of_labels(labels: Sequence[str], shapes: recording.Shapes) -> list[tuple[int, ...]]:
-    """Returns the colours of labels: the things' own, where each names another thing, or shades that no thing has."""
+    """Returns colours of labels: those of the things that they name, or shades that no thing has."""
     named = _named(labels, shapes)
     if named is not None:
         return [of_thing(shapes, name) for name in named]
@@ -45,13 +45,13 @@ def of_labels(labels: Sequence[str], shapes: recording.Shapes) -> list[tuple[int
 
 
 def short(labels: Sequence[str], shapes: recording.Shapes) -> list[str]:
-    """Returns labels in few words: the names of the things, where each names another one, or the labels themselves."""
+    """Returns short labels: the names of the things that they name, or the labels themselves."""
     named = _named(labels, shapes)
     return list(labels) if named is None else [readings.spoken(name) for name in named]
 
 
 def _named(labels: Sequence[str], shapes: recording.Shapes) -> list[str] | None:
-    """Returns the names of the things that labels name, one each; None where two name the same, or one names none."""
+    """Returns the thing that each label names; None unless each names a different one."""
     found: list[str] = []
     for label in labels:
         names = [name for name in shapes.names if re.search(rf"\b{re.escape(readings.spoken(name))}\b", label)]

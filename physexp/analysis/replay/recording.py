@@ -1,4 +1,4 @@
-"""Recording episodes: an observer of the environment loop, and the re-enactment of episodes known by seed and index."""
+"""Recording of episodes: an observer of the environment loop, and re-enactment by seed and index."""
 
 from collections.abc import Callable, Mapping, Sequence
 import dataclasses
@@ -17,7 +17,7 @@ from physexp.suite.engine import rendering
 from physexp.suite.engine import task as task_lib
 
 MakeTask = Callable[..., task_lib.QuestionTask]
-"""Makes a task from its options, which are keyword arguments."""
+"""Makes a task from its options as keyword arguments."""
 
 _KINDS = {"BOX": "box", "SPHERE": "sphere", "ELLIPSOID": "ellipsoid", "CYLINDER": "cylinder", "CAPSULE": "capsule"}
 
@@ -27,14 +27,14 @@ class Shapes:
     """The shapes in a scene, without its floor.
 
     Attributes:
-      names: of K shapes: a thing's first one is called as the thing, its others have longer names.
-      kinds: `box`, `sphere`, `ellipsoid`, `cylinder` or `capsule`; for a shape of another kind, the box around it.
-      sizes: half the sizes along the shape's own axes, without the caps of a capsule, m, float64 [K, 3].
-      colors: float64 [K, 4].
-      are_drawn: whether images show them, bool [K].
-      are_moving: whether they do not stand still in images, bool [K].
-      are_placed: whether they stand still, or the observations determine their positions, bool [K].
-      geoms: their addresses in the compiled model, int64 [K].
+      names: names of K shapes; a thing's first shape has the thing's name.
+      kinds: `box`, `sphere`, `ellipsoid`, `cylinder` or `capsule`; other kinds are drawn as their bounding box.
+      sizes: half sizes along the shape's axes, without the caps of a capsule, m, float64 [K, 3].
+      colors: RGBA, float64 [K, 4].
+      are_drawn: whether images show the shape, bool [K].
+      are_moving: whether the shape moves in images, bool [K].
+      are_placed: whether the shape is still, or the observations determine its position, bool [K].
+      geoms: addresses in the compiled model, int64 [K].
     """
 
     names: tuple[str, ...]
@@ -47,11 +47,7 @@ class Shapes:
     geoms: np.ndarray
 
     def index(self, thing: str) -> int:
-        """Returns the index of a thing.
-
-        Raises:
-          LookupError: if there is none of that name.
-        """
+        """Returns the index of a thing; raises LookupError if the scene has no such thing."""
         if thing not in self.names:
             raise LookupError(f"the task names a thing {thing!r}; the scene has {', '.join(self.names)}")
         return self.names.index(thing)
@@ -59,31 +55,31 @@ class Shapes:
 
 @dataclasses.dataclass(frozen=True)
 class Episode:
-    """One episode of T actions, as it went.
+    """A recorded episode of T actions and F physics steps with K shapes.
 
     Attributes:
-      domain, task: of the environment.
-      task_kwargs: that differ from the defaults, without the seed.
-      declared: the task itself, for what it declares.
-      seed, episode: seed of the environment and index of the episode; they rebuild it.
-      agent: the name of the player.
-      hidden: the hidden property.
-      answer: the right label.
-      observations: by name, before each action and at the end, [T + 1, ...].
+      domain, task: names of the environment.
+      task_kwargs: options that differ from the defaults, without the seed.
+      declared: the task, for its declarations.
+      seed, episode: seed of the environment and index of the episode.
+      agent: name of the player.
+      hidden: hidden property.
+      answer: right label.
+      observations: arrays by name, before each action and at the end, [T + 1, ...].
       actions: int64 [T].
       rewards: float64 [T].
-      policies: probabilities of all actions before each, float64 [T, A]; of no length where the actor has none.
-      values: the return that the actor expected before each action, float64 [T], or of no length.
-      beliefs: its probabilities of the labels before each action, float64 [T, L]; of no length where it has none.
-      shapes: what is in the scene.
-      control_timestep: time between its actions, s: the task's, also where `step_variation` hides the episode's own.
-      times: of the physics steps, and of those that play out the answer where a task does that, s, float64 [F]; with
-        `step_variation` stretched, so that an action takes `control_timestep`.
-      num_played: physics steps before the answer; the later ones play it out.
-      positions, rotations: poses that follow from the observations alone, see `observed.film`; true ones in the steps
-        that play out the answer; float64 [F, K, 3] and [F, K, 3, 3].
+      policies: probabilities of all actions before each action, float64 [T, A]; empty for an actor without a policy.
+      values: expected return before each action, float64 [T], or empty.
+      beliefs: probabilities of the labels before each action, float64 [T, L], or empty.
+      shapes: shapes in the scene.
+      control_timestep: the task's control step, s, also if `step_variation` hides the episode's own.
+      times: times of the physics steps, those that play out the answer included, s, float64 [F]; stretched with
+        `step_variation`, so that an action takes `control_timestep`.
+      num_played: number of physics steps before the answer.
+      positions, rotations: poses that follow from the observations, see `observed.film`, and true poses while the
+        answer is played out, float64 [F, K, 3] and [F, K, 3, 3].
       true_positions, true_rotations: poses in the simulation.
-      controls: values sent to the actuators in the physics steps that led there, float64 [F, nu].
+      controls: actuator controls of the physics steps, float64 [F, nu].
     """
 
     domain: str
@@ -113,10 +109,10 @@ class Episode:
 
 
 class EpisodeRecorder(environment_loop.Observer):
-    """Watches an environment and records each episode.
+    """Records each episode of an environment.
 
-    While it watches, it keeps only timesteps and actions. The poses of everything at every physics step are found when
-    they are needed: an episode follows from its seed, its index and its actions, so it can be played again.
+    The recorder keeps timesteps and actions. Poses are computed on demand by playing the episode again from its seed,
+    index and actions.
     """
 
     def __init__(
@@ -129,14 +125,14 @@ class EpisodeRecorder(environment_loop.Observer):
         agent: str = "",
         make_task: MakeTask | None = None,
     ):
-        """Prepares to watch.
+        """Prepares to record.
 
         Args:
-          environment: the environment that is going to be played.
-          domain, task, task_kwargs: what it was loaded with.
-          actor: who plays it; its `policy`, `value` and `belief` are recorded where it has them.
-          agent: who plays, in words.
-          make_task: makes the task, where it is not one of those that `suite.load` knows.
+          environment: environment to record.
+          domain, task, task_kwargs: arguments that it was loaded with.
+          actor: player, whose `policy`, `value` and `belief` are recorded if it has them.
+          agent: name of the player.
+          make_task: makes a task that `suite.load` does not know.
         """
         self._environment, self._actor, self._make_task = environment, actor, make_task
         chosen = {name: value for name, value in (task_kwargs or {}).items() if name != "random"}
@@ -165,11 +161,11 @@ class EpisodeRecorder(environment_loop.Observer):
         self._rewards.append(float(timestep.reward))
 
     def get_metrics(self) -> dict[str, Any]:
-        """Returns nothing: what was recorded is in `episode`."""
+        """Returns no metrics."""
         return {}
 
     def close(self) -> None:
-        """Frees the simulation in which poses are found. Closing twice does nothing."""
+        """Frees the simulation that computes poses."""
         if self._rebuilder is not None:
             self._rebuilder.close()
             self._rebuilder = None
@@ -214,7 +210,7 @@ class EpisodeRecorder(environment_loop.Observer):
 
 
 class _Rebuilder:
-    """Plays episodes again, and records all poses."""
+    """Plays episodes again and records all poses."""
 
     def __init__(self, task: task_lib.QuestionTask):
         self._environment = suite.Environment(task)
@@ -225,7 +221,7 @@ class _Rebuilder:
         self._environment.close()
 
     def rebuild(self, seed: int, episode: int, actions: Sequence[int]) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-        """Returns the observations, by name, and the fields of `Episode` that only the simulation knows."""
+        """Returns the observations by name, and the fields of `Episode` that need the simulation."""
         task = self._environment.task
         task.reseed(seed)
         task.next_episode = episode
@@ -250,7 +246,7 @@ class _Rebuilder:
         }
 
     def _films(self, observations: Mapping[str, np.ndarray], ends: Sequence[int]) -> dict[str, Any]:
-        """Returns the fields of `Episode` that tell what is in the scene, and where it is in each frame."""
+        """Returns the shapes, times, poses and controls of an `Episode`."""
         task = self._environment.task
         model, room = task.apparatus.model, task.root_entity
         floor = [model.geom(geom.full_identifier).id for geom in (room.floor, room.mat)]
@@ -279,14 +275,14 @@ class _Rebuilder:
 
 
 def _geoms(model: mujoco.MjModel, floor: Sequence[int]) -> np.ndarray:
-    """Returns the addresses of all geoms that move, or stand still and are drawn, but for the floor's."""
+    """Returns the addresses of all geoms that move or are drawn, without the floor."""
     are_drawn = model.geom_group != rendering.UNDRAWN_GROUP
     geoms = np.setdiff1d(np.flatnonzero(are_drawn | (model.body_weldid[model.geom_bodyid] != 0)), floor)
-    return geoms[np.argsort(~are_drawn[geoms], kind="stable")]  # A thing's name is that of a shape that can be seen.
+    return geoms[np.argsort(~are_drawn[geoms], kind="stable")]  # A visible shape takes the thing's name.
 
 
 def _shapes(model: mujoco.MjModel, geoms: np.ndarray, are_moving: np.ndarray, are_placed: np.ndarray) -> Shapes:
-    """Returns the shapes of these geoms."""
+    """Returns the shapes of some geoms."""
     kinds = [_KINDS.get(mujoco.mjtGeom(kind).name.removeprefix("mjGEOM_"), "box") for kind in model.geom_type[geoms]]
     return Shapes(
         names=_names([model.geom(geom).name for geom in geoms]),
@@ -301,7 +297,7 @@ def _shapes(model: mujoco.MjModel, geoms: np.ndarray, are_moving: np.ndarray, ar
 
 
 def _names(identifiers: Sequence[str]) -> tuple[str, ...]:
-    """Returns names of geoms: the entity's for its first one, and all of their identifiers for the others."""
+    """Returns unique names: an entity's first geom has the entity's name."""
     names: list[str] = []
     for identifier in identifiers:
         name = readings.owner(identifier)
@@ -310,7 +306,7 @@ def _names(identifiers: Sequence[str]) -> tuple[str, ...]:
 
 
 def _half_sizes(kind: str, size: np.ndarray) -> np.ndarray:
-    """Returns half the sizes of a geom along its axes, (3,), from what MuJoCo keeps of its kind."""
+    """Returns the half sizes of a geom along its axes, (3,), from MuJoCo's `geom_size`."""
     if kind == "sphere":
         return size[[0, 0, 0]]
     if kind in ("cylinder", "capsule"):
@@ -319,12 +315,12 @@ def _half_sizes(kind: str, size: np.ndarray) -> np.ndarray:
 
 
 class Reenactor(core.Actor):
-    """Repeats recorded actions, while another actor gives its policy, value and belief for each step.
+    """Repeats recorded actions beside the policy, value and belief of another actor.
 
     Attributes:
-      policy: the other actor's probabilities of all actions; None where it has none.
-      value: the other actor's estimate of the return; NaN where it has none.
-      belief: the other actor's probabilities of the labels; None where it has none.
+      policy: the other actor's probabilities of all actions, or None.
+      value: the other actor's estimate of the return, or NaN.
+      belief: the other actor's probabilities of the labels, or None.
     """
 
     policy: np.ndarray | None = None
@@ -332,7 +328,7 @@ class Reenactor(core.Actor):
     belief: np.ndarray | None = None
 
     def __init__(self, actor: core.Actor, actions: Sequence[int]):
-        """Takes these actions in its first episode, with the beliefs of `actor`."""
+        """Prepares to take `actions` with the beliefs of `actor`."""
         self._actor, self._actions = actor, [int(action) for action in actions]
 
     def observe_first(self, timestep):
@@ -363,11 +359,11 @@ def reenact(
     """Plays an episode in the composer environment and records it.
 
     Args:
-      network: of the agent that played it, for its beliefs.
-      config: what it plays.
-      seed, episode: seed of the environment and index of the episode, as `data.episodes.Episodes` has them.
-      actions: what was done in it; None to let the agent do what it likes.
-      agent: who played, in words.
+      network: the agent's network.
+      config: configuration of the agent's task.
+      seed, episode: seed of the environment and index of the episode.
+      actions: actions to repeat; None for the agent's own.
+      agent: name of the player.
     """
     environment = suite.load(config.domain, config.task, task_kwargs={**config.task_kwargs, "random": int(seed)})
     environment.task.next_episode = int(episode)

@@ -12,7 +12,7 @@ from physexp.analysis.training import callbacks, playing
 from physexp.analysis.training import config as config_lib
 
 Selection = Literal["any", "wrong", "right", "longest", "hardest"]
-_MOST = 10_000  # Episodes played in search of enough.
+_MAX_EPISODES = 10_000  # Played in search of enough.
 
 
 def select(
@@ -28,16 +28,16 @@ def select(
 
     Args:
       network, config, interaction, seed: as for `playing.play`.
-      count: how many are wanted, >= 1.
-      selection: the first ones, the first wrong or right ones, those with the most interactions, or the hardest: as the
-        task has it, or else those that take this agent the longest.
-      tell: called with a line before episodes are played to choose from.
+      count: number of episodes, >= 1.
+      selection: the first episodes, the first wrong or right ones, those with the most interactions, or the hardest: by
+        the task's hardness, or else by this agent's mean number of interactions.
+      tell: called with a line before episodes are played.
 
     Yields:
-      Seed, index and actions of each chosen episode; fewer than wanted where there are not enough.
+      Seed, index and actions of each chosen episode; fewer than `count` if 10,000 episodes do not hold as many.
 
     Raises:
-      ValueError: if count is below one, or none of many episodes is as wanted.
+      ValueError: if count is below one, or no episode of 10,000 fits.
     """
     if count < 1:
         raise ValueError(f"episodes is {count}; give a number >= 1")
@@ -48,9 +48,9 @@ def select(
             tell(f"playing {size:,} episodes, for those that are {selection}")
         played = playing.play(network, config, size if selection != "any" else count, interaction, seed=seed)
         order = _order(played, selection, task.hardness(played.hidden))
-        if len(order) >= count or size >= _MOST or selection == "any":
+        if len(order) >= count or size >= _MAX_EPISODES or selection == "any":
             break
-        size = min(4 * size, _MOST)
+        size = min(4 * size, _MAX_EPISODES)
     if not len(order):
         raise ValueError(f"none of {size} episodes is {selection}; choose another selection")
     for index in order[:count]:
@@ -58,7 +58,7 @@ def select(
 
 
 def _order(played: episodes.Episodes, selection: Selection, hardness: np.ndarray | None) -> np.ndarray:
-    """Returns the indices of the episodes that are as wanted, the best first."""
+    """Returns the indices of the episodes that fit a selection, the best first."""
     if selection == "wrong":
         return np.flatnonzero(played.reward < 0)
     if selection == "right":
@@ -66,7 +66,7 @@ def _order(played: episodes.Episodes, selection: Selection, hardness: np.ndarray
     if selection == "longest":
         return np.argsort(-played.interactions, kind="stable")
     if selection == "hardest":
-        if hardness is None:  # As long as this agent takes for such an instance.
+        if hardness is None:  # Mean number of interactions on each hidden property.
             _, kinds = np.unique(played.hidden, axis=0, return_inverse=True)
             hardness = (np.bincount(kinds, played.interactions) / np.bincount(kinds))[kinds]
         return np.argsort(-hardness, kind="stable")

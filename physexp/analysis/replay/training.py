@@ -1,4 +1,4 @@
-"""Replays written during training: the agent as it is then, always on the same instance."""
+"""Replays written during training, always of the same instance."""
 
 from collections.abc import Mapping
 
@@ -14,26 +14,17 @@ SEED = 4_000_003  # Of the environment, apart from those of training, of evaluat
 
 
 class Writer:
-    """Writes a replay into a run's folder after a checkpoint, once enough steps have passed since the replay before.
+    """Writes a replay after a checkpoint, if `replay_every` frames have passed since the last replay.
 
     It is a `recorder.OnCheckpoint`.
     """
 
     def __init__(self, run: run_lib.Run, config: config_lib.TrainConfig):
-        """Writes nothing yet.
-
-        Args:
-          run: the run, into whose folder replays go.
-          config: what is trained; `replay_every` says how many steps are enough.
-        """
+        """Prepares to write replays into the folder of a run."""
         self._folder, self._config = run.path / "replays", config
 
     def __call__(self, frames: int, variables: Mapping[str, torch.Tensor]) -> None:
-        """Lets the agent play one episode, if it is time for that, and writes it for the viewer.
-
-        Args:
-          frames: that the agent has been trained on.
-          variables: of its network, by name.
+        """Plays one episode with the network's variables and writes it, if it is time.
 
         Raises:
           OSError: if the file cannot be written.
@@ -50,6 +41,6 @@ class Writer:
         writing.write(path, [lambda: [recording.reenact(network, self._config, SEED, 0, None, title)]])
 
     def _last_replay(self, frames: int) -> int:
-        """Returns after how many frames the last replay was written, 0 for none; later ones are of what was lost."""
+        """Returns the frames of the last replay that is not later than `frames`, 0 for none."""
         names = (path.stem for path in self._folder.glob("*.rrd"))
         return max((int(name) for name in names if name.isdecimal() and int(name) <= frames), default=0)

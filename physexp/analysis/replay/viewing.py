@@ -1,4 +1,4 @@
-"""Opens rerun's viewer for this machine alone, since it has no password."""
+"""Opens rerun's viewer on the loopback alone, since it has no password."""
 
 from collections.abc import Callable
 import contextlib
@@ -14,10 +14,10 @@ import rerun.blueprint as rrb
 import rerun_cli
 
 PROGRAM = Path(rerun_cli.__file__).with_name("rerun")
-"""Rerun's own program, with its viewer and its tools for files."""
+"""Rerun's program: its viewer and its tools for files."""
 
 _LOOPBACK = "127.0.0.1"
-_DATA_PORT, _WEB_PORT = 9876, 9090  # Rerun's own, so that a tunnel from another machine can be told in advance.
+_DATA_PORT, _WEB_PORT = 9876, 9090  # Rerun's defaults, so that tunnels from other machines can name them.
 
 
 def check_display() -> None:
@@ -27,12 +27,12 @@ def check_display() -> None:
 
 
 def view(path: Path, web: bool, tell: Callable[[str], None] = lambda line: None) -> None:
-    """Opens a file in the viewer, or in the browser's, until that is closed or Ctrl-C ends it.
+    """Opens a file in the viewer until it is closed or Ctrl-C ends it.
 
     Args:
-      path: of the file.
-      web: in a browser instead of a window.
-      tell: called with a line that tells the address for a browser.
+      path: the file.
+      web: serve the viewer to a browser instead of opening a window.
+      tell: called with a line that names the address for a browser.
 
     Raises:
       RuntimeError: if the viewer fails.
@@ -58,14 +58,13 @@ def view(path: Path, web: bool, tell: Callable[[str], None] = lambda line: None)
 
 
 class Viewer:
-    """A window of the viewer that streams are shown in. It stays when this process ends.
+    """A window that shows streams and stays open when this process ends.
 
-    It reads them from a pipe. A stream that is connected to a viewer over the network waits for one that has gone, in
-    some calls without end.
+    The viewer reads streams from a pipe, since a stream over the network can wait for a closed viewer for ever.
     """
 
     def __init__(self):
-        """Prepares; the window opens with the first stream, and again if it has been closed.
+        """Prepares a window, which opens with the first stream, and again if it has been closed.
 
         Raises:
           ValueError: where there is no display.
@@ -78,7 +77,7 @@ class Viewer:
         if self._process is None or self._process.poll() is not None:
             self._process = subprocess.Popen(
                 [*_command(_free_port()), "-", "--hide-welcome-screen", "--expect-data-soon"],
-                bufsize=0,  # Nothing is left to be written when the window has been closed.
+                bufsize=0,  # A closed window leaves nothing to be written.
                 stdin=subprocess.PIPE,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
@@ -88,7 +87,7 @@ class Viewer:
         stream.send_blueprint(layout)
 
     def flush(self, stream: rr.RecordingStream) -> None:
-        """Sends what the stream holds, unless the window has been closed: then there is nobody to send it to."""
+        """Sends the data of a stream, unless the window has been closed."""
         assert self._process is not None and self._process.stdin is not None
         content = memoryview(self._written.read() or b"")
         with contextlib.suppress(BrokenPipeError):
@@ -97,9 +96,9 @@ class Viewer:
 
 
 def last_line(messages: bytes) -> str:
-    """Returns the last line of what a program has said, without its colours."""
+    """Returns the last line of a program's messages."""
     lines = [line for line in messages.decode(errors="replace").splitlines() if line.strip()]
-    return lines[-1] if lines else "it does not say why"
+    return lines[-1] if lines else "it gives no reason"
 
 
 def _command(data_port: int) -> list[str]:
@@ -111,10 +110,9 @@ def _address(data_port: int) -> str:
 
 
 def _free_port(preferred: int = 0) -> int:
-    """Returns a port of the loopback on which nobody listens, the preferred one if it is free.
+    """Returns a free port of the loopback, the preferred one if possible.
 
-    A viewer that finds its port taken hands its data to the viewer there, and ends. Two that start at once can prefer
-    the same port; they cannot be given the same one.
+    A viewer that finds its port taken hands its data to the viewer there, and ends.
     """
     for port in (preferred, 0):
         with socket.socket() as candidate:
@@ -124,4 +122,4 @@ def _free_port(preferred: int = 0) -> int:
             except OSError:
                 continue
             return candidate.getsockname()[1]
-    raise RuntimeError("no port of this machine is free; end programs that listen")
+    raise RuntimeError("no port of this machine is free; close programs that listen on ports")

@@ -1,4 +1,4 @@
-"""The texts of a replay: the question, how the episode ended, and how to read what is shown."""
+"""Texts of a replay: question, outcome, and a legend of the views."""
 
 from collections.abc import Sequence
 
@@ -8,7 +8,7 @@ from physexp.agents import config as agent_config
 from physexp.analysis.replay import recording
 
 HIDDEN_TAB = "with what is hidden"
-"""The title of the view that shows it."""
+"""Title of the view that shows the hidden properties."""
 
 _BAR = 20  # Characters of a probability of one.
 
@@ -32,13 +32,13 @@ scene.
 
 
 def name(episode: recording.Episode) -> str:
-    """Returns which episode it is, in words."""
+    """Returns the name of an episode."""
     options = "".join(f", {key} {agent_config.shown(value)}" for key, value in episode.task_kwargs.items())
     return f"{episode.domain}/{episode.task}{options}, seed {episode.seed}, episode {episode.episode}"
 
 
 def about(episode: recording.Episode, ending: str) -> str:
-    """Returns the question, how it ended, which episode it is and whose, and how to read what is shown; Markdown."""
+    """Returns question, ending, the episode's name and player, and a legend of the views, as Markdown."""
     belief = _OWN_BELIEF if len(episode.beliefs) else _BELIEF_OF_POLICY
     reading = _READING.format(belief=belief) if len(episode.policies) else _READING_LIVE
     player = f", played by {episode.agent}" if episode.agent else ""
@@ -46,7 +46,7 @@ def about(episode: recording.Episode, ending: str) -> str:
 
 
 def outcome(episode: recording.Episode) -> str:
-    """Returns how an episode ended, in words."""
+    """Returns the outcome of an episode as a sentence."""
     label = int(episode.actions[-1]) - episode.declared.num_interactions
     label_names = episode.declared.label_names
     truth = label_names[episode.answer]
@@ -57,13 +57,13 @@ def outcome(episode: recording.Episode) -> str:
 
 
 def bars(labels: Sequence[str], belief: np.ndarray, answers: np.ndarray, ideal: np.ndarray | None) -> str:
-    """Returns a belief as named bars, beside what the policy and an ideal experimenter make of each label; Markdown.
+    """Returns a Markdown table of labels: belief with a bar, policy, and the ideal experimenter's belief.
 
     Args:
       labels: names of L labels.
-      belief: float64 [L], of sum one.
-      answers: the policy's probabilities of them, float64 [L].
-      ideal: the ideal experimenter's belief, float64 [L], where there is one.
+      belief: float64 [L].
+      answers: the policy's probabilities of the labels, float64 [L].
+      ideal: the ideal experimenter's belief, float64 [L], or None.
     """
     heads = ["label", "belief", "", "policy", *([] if ideal is None else ["ideal belief"])]
     rows = [heads, [":--", "--:", ":--", "--:", "--:"][: len(heads)]]

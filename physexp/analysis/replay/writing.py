@@ -1,16 +1,16 @@
 """Writes recorded episodes for the rerun viewer, with a blueprint.
 
-world/room/...         the floor and all that stands still
-world/things/NAME      what moves, where the observations place it; after the answer, where it is in the simulation
-world/hidden/NAME      all that moves, where it is in the simulation, and what the task reveals, in a view of its own
-world/.../action       the force or velocity applied, as an arrow
-seen/...               what the agent observed: the image, or readings as plots; seen/moved the distances from the start
-belief/now             the belief, and the policy of the labels, as a table with bars
-belief/labels          the belief: the agent's own, or its policy restricted to the labels and renormalized
-belief/policy          the policy: the probability of every action; belief/answers: of all labels together
-belief/value           the return that the agent expects
-belief/ideal           what an ideal experimenter would believe, where that is known
-did/actions            the actions so far; did/outcome: the question and the outcome, as text
+world/room/...         floor and still things
+world/things/NAME      moving things as the observations place them; after the answer, as in the simulation
+world/hidden/NAME      moving things as in the simulation, and the hidden properties, in a view of its own
+world/.../action       arrow of the applied force or velocity
+seen/...               observations: the image, or readings as plots; seen/moved: distances from the start
+belief/now             table of the belief and of the policy of the labels
+belief/labels          belief of the agent, or its policy restricted to the labels and renormalized
+belief/policy          probability of every action; belief/answers: of all labels together
+belief/value           return that the agent expects
+belief/ideal           belief of the ideal experimenter
+did/actions            actions so far; did/outcome: question and outcome
 
 Everything is on one timeline, `time`, in seconds. Episodes side by side have their entities below A, B and so on.
 """
@@ -36,9 +36,9 @@ from physexp.suite.engine import declarations
 _ARROW_LENGTH = 0.25  # m
 _FLOOR_THICKNESS, _FLOOR_COLOR = 0.01, (190, 190, 185)  # m
 _BAND_RADIUS = 0.004  # m
-_TEXT_ABOVE = (0.05, 0.11)  # m, of a mark above its thing: neighbours' texts at two heights.
-_MERGE_SECONDS = 300.0  # A few hundred times what it takes.
-_OFF = ("off", "false", "0")  # Values of RERUN with which rerun drops all data.
+_TEXT_ABOVE = (0.05, 0.11)  # m above the thing; neighbours alternate.
+_MERGE_SECONDS = 300.0  # Hundreds of times the usual duration.
+_OFF = ("off", "false", "0")  # Values of RERUN that make rerun drop all data.
 
 
 def write(
@@ -46,20 +46,20 @@ def write(
     groups: Sequence[Callable[[], Sequence[recording.Episode]]],
     tell: callbacks.Tell = callbacks.ignore,
 ) -> Path:
-    """Writes recordings into one file; after each of them the file is whole.
+    """Writes recordings into one file, which is complete after each of them.
 
     Args:
-      path: of the file, `*.rrd`, in a folder that exists.
-      groups: called one after the other, each for the episodes of one recording: one, or several side by side.
+      path: `*.rrd`, in a folder that exists.
+      groups: functions that return the episodes of one recording; several episodes are shown side by side.
       tell: called with a line for each recording.
 
     Returns:
       The path.
 
     Raises:
-      OSError: if the file cannot be written; what had been written stays.
-      RuntimeError: if rerun's own program fails.
-      ValueError: if the path is none of a replay.
+      OSError: if the file cannot be written; earlier recordings stay.
+      RuntimeError: if rerun's program fails.
+      ValueError: if the path is not one of a replay.
     """
     check_output(path)
     written = b""
@@ -74,21 +74,17 @@ def write(
 
 
 def check_output(path: Path) -> None:
-    """Checks where a file is going to be written.
+    """Checks the path of a replay before it is played.
 
     Raises:
       OSError: if the file cannot be written.
-      ValueError: if its name does not end in .rrd, something else than a regular file is there, its folder is none, or
-        rerun is switched off.
+      ValueError: if the name does not end in .rrd, the path is no regular file, the folder does not exist, or rerun is
+        switched off.
     """
     if os.environ.get("RERUN", "on").lower() in _OFF:
         raise ValueError("RERUN in the environment switches rerun off, so no replay can be written; unset it")
-    if path.is_symlink():
-        raise ValueError(f"{path} is a symbolic link; name a file")
     if path.is_dir():
         raise ValueError(f"{path} is a folder; name a file")
-    if path.exists() and not path.is_file():
-        raise ValueError(f"{path} is a pipe or a device; name a file")
     if path.suffix != ".rrd":
         raise ValueError(f"{path} is no name of a replay; name a file that ends in .rrd")
     if not path.parent.is_dir():
@@ -99,7 +95,7 @@ def check_output(path: Path) -> None:
 
 @contextlib.contextmanager
 def _strictly() -> Iterator[None]:
-    """Makes rerun raise errors, which are otherwise warnings beside dropped data."""
+    """Makes rerun raise errors instead of dropping data with a warning."""
     before = rr.strict_mode()
     rr.set_strict_mode(True)
     try:
@@ -109,11 +105,7 @@ def _strictly() -> Iterator[None]:
 
 
 def _merge(recordings: bytes) -> bytes:
-    """Returns one file of several, one after the other.
-
-    Raises:
-      RuntimeError: if rerun's program fails or does not answer.
-    """
+    """Returns one file of several concatenated ones; raises RuntimeError if rerun's program fails or hangs."""
     command = [str(PROGRAM), "rrd", "merge"]
     try:
         done = subprocess.run(command, input=recordings, capture_output=True, timeout=_MERGE_SECONDS, check=False)
@@ -125,7 +117,7 @@ def _merge(recordings: bytes) -> bytes:
 
 
 def _recording(episodes: Sequence[recording.Episode]) -> bytes:
-    """Returns a recording, made in memory because rerun drops what it cannot write to a file without a word."""
+    """Returns a recording, made in memory because rerun silently drops data that it cannot write to a file."""
     first, players = episodes[0], "-".join(episode.agent for episode in episodes)
     stream = rr.RecordingStream(
         f"physexp-{first.domain}-{first.task}", recording_id=f"{first.seed}-{first.episode}-{players}"
@@ -145,7 +137,7 @@ class EpisodeWriter:
     def __init__(self, stream: rr.RecordingStream, episode: recording.Episode, root: str):
         self._stream, self._episode, self._root = stream, episode, root
         self._task = episode.declared
-        # Observations come before each action, and at the end. A label takes no time.
+        # Observations come before each action and at the end; a label takes no time.
         steps = np.minimum(np.arange(len(episode.actions) + 1), self._num_interactions)
         self._step_times = steps * episode.control_timestep
 
@@ -162,7 +154,7 @@ class EpisodeWriter:
         self._write_outcome()
 
     def write_so_far(self) -> None:
-        """Writes all that may be known before the answer: nothing but what follows from observations and actions."""
+        """Writes the part that follows from observations and actions, and may be shown before the answer."""
         self._write_scene()
         self._write_seen()
         self._write_actions()
@@ -194,7 +186,7 @@ class EpisodeWriter:
             self._write_arrows("world/things/action", self._episode.positions)
 
     def _write_played_out(self) -> None:
-        """Writes the things that images show and observations do not place: they appear after the answer."""
+        """Writes the drawn things that observations do not place, from the answer on."""
         episode, shapes, first = self._episode, self._episode.shapes, self._episode.num_played + 1
         for k in np.flatnonzero(shapes.are_drawn & ~shapes.are_placed).tolist():
             if first < len(episode.times):
@@ -202,19 +194,19 @@ class EpisodeWriter:
                 self._follow(f"world/things/{shapes.names[k]}", k, (episode.positions, episode.rotations), first)
 
     def _shape(self, k: int):
-        """Returns rerun's form of a shape."""
+        """Returns the rerun archetype of a shape."""
         shapes = self._episode.shapes
         return _archetype(shapes.kinds[k], shapes.sizes[k], (255 * shapes.colors[k]).astype(np.uint8))
 
     def _follow(self, entity: str, k: int, poses: tuple[np.ndarray, np.ndarray], first: int = 0) -> None:
-        """Gives an entity the pose of a shape, in all frames from a first one on."""
+        """Gives an entity the poses of a shape, from a first frame on."""
         positions, rotations = (values[first:, k] for values in poses)
         quaternions = transform.Rotation.from_matrix(rotations).as_quat()
         columns = rr.Transform3D.columns(translation=positions, quaternion=quaternions)
         self._columns(entity, self._episode.times[first:], columns)
 
     def _write_hidden(self) -> None:
-        """Writes where everything is, texts beside things, bars between things that are one, and bands."""
+        """Writes true poses, texts beside things, bars inside rigid bodies, and bands."""
         episode, shapes = self._episode, self._episode.shapes
         poses = episode.true_positions, episode.true_rotations
         for k in np.flatnonzero(shapes.are_moving).tolist():
@@ -237,14 +229,14 @@ class EpisodeWriter:
             self._write_band(f"world/hidden/{first}_to_{second}", [shapes.index(first), shapes.index(second)])
 
     def _write_band(self, entity: str, ends: list[int]) -> None:
-        """Writes a line between two shapes, wherever they are."""
+        """Writes a line between two moving shapes."""
         self._log(entity, rr.LineStrips3D.from_fields(colors=[palette.JOINT], radii=[_BAND_RADIUS]))
         self._columns(
             entity, self._episode.times, rr.LineStrips3D.columns(strips=self._episode.true_positions[:, ends])
         )
 
     def _bar(self, first: int, second: int) -> rr.Boxes3D:
-        """Returns a bar from one shape to another, which stands out of both, as the first one sees it."""
+        """Returns a bar through two shapes, in the frame of the first."""
         episode = self._episode
         offset = episode.true_positions[0, second] - episode.true_positions[0, first]
         between = offset @ episode.true_rotations[0, first]
@@ -283,7 +275,7 @@ class EpisodeWriter:
             self._series("seen/moved", distances, [readings.spoken(thing) for thing in moved], colors)
 
     def _series(self, entity: str, values: np.ndarray, names: Sequence[str], colors=None, steps: bool = False) -> None:
-        """Writes curves [T, S] at the times of the steps; with `steps` each value holds until the next."""
+        """Writes curves [T, S] at the times of the steps; `steps` draws them as step functions."""
         lines = rr.SeriesLines(
             names=list(names),
             colors=colors,
@@ -330,7 +322,7 @@ class EpisodeWriter:
         self._log(entity, rr.TextDocument(text, media_type="text/markdown"), time)
 
     def _write_arrows(self, entity: str, positions: np.ndarray) -> None:
-        """Writes, at every physics step, where the action acts and in which direction; no arrow where there is none."""
+        """Writes the arrow of the action under way at every physics step."""
         episode, interactions = self._episode, self._task.interactions
         steps = np.ceil(episode.times / episode.control_timestep - 1e-6).astype(int) - 1  # Of the action under way.
         steps = np.clip(steps, 0, len(episode.actions) - 1)
@@ -338,18 +330,18 @@ class EpisodeWriter:
         for frame, step in enumerate(steps):
             if episode.actions[step] < len(interactions):
                 origins[frame] = positions[frame, episode.shapes.index(interactions[episode.actions[step]].thing)]
-                # Nothing has been sent yet in the first frame; it shows what is about to be.
+                # The first frame shows the controls that are about to be sent.
                 vectors[frame] = _arrow(interactions[episode.actions[step]], episode.controls[max(frame, 1)])
         self._log(entity, rr.Arrows3D.from_fields(colors=[palette.ACTION], radii=[0.012]))
         self._columns(entity, episode.times, rr.Arrows3D.columns(origins=origins, vectors=vectors))
-        end = self._step_times[-1] + 1e-3  # After the last step, when nothing is done any more.
+        end = self._step_times[-1] + 1e-3  # No arrow after the last step.
         self._columns(entity, [end], rr.Arrows3D.columns(origins=[(0, 0, 0)], vectors=[(0, 0, 0)]))
 
 
 def _arrow(interaction: declarations.Interaction, sent: np.ndarray) -> np.ndarray:
-    """Returns the arrow of an interaction that sent this, (3,): backwards, where that is against what it declares.
+    """Returns the arrow of an interaction, (3,), reversed if the sent controls oppose the declared ones.
 
-    All arrows have the same length, since no observation tells how strong an action is where strength varies.
+    All arrows have the same length, since no observation tells a varying strength.
     """
     vector = np.array(interaction.vector, float)
     return (
@@ -361,13 +353,13 @@ def _arrow(interaction: declarations.Interaction, sent: np.ndarray) -> np.ndarra
 
 
 def _archetype(kind: str, size: np.ndarray, color: np.ndarray):
-    """Returns rerun's form of a shape: its kind, half its sizes, m, (3,), and its colour, uint8 (4,)."""
+    """Returns the rerun archetype of a kind, half sizes, m, (3,), and a colour, uint8 (4,)."""
     if kind == "box":
         return rr.Boxes3D(half_sizes=[size], colors=[color], fill_mode="solid")
     radius, length = size[0], 2 * size[2]
     if kind == "cylinder":
         return rr.Cylinders3D(lengths=[length], radii=[radius], colors=[color], fill_mode="solid")
     if kind == "capsule":
-        below = (0, 0, -length / 2)  # From where rerun's capsules begin.
+        below = (0, 0, -length / 2)  # Rerun places a capsule by its lower end.
         return rr.Capsules3D(lengths=[length], radii=[radius], translations=[below], colors=[color], fill_mode="solid")
     return rr.Ellipsoids3D(half_sizes=[size], colors=[color], fill_mode="solid")
