@@ -25,7 +25,6 @@ from physexp import extras, suite
 from physexp.agents import files
 from physexp.analysis import bench, experiments
 from physexp.analysis.experiments import conditions
-from physexp.analysis.ideal import kept
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import finding, playing, progress
 from physexp.cli import commands, doctor, ideal, options, parsing, printing
@@ -359,7 +358,6 @@ def test_doctor_ends_with_status_1_only_if_the_core_is_broken(run, monkeypatch):
         (["ideal", "towers", "--difficulty", "3"], ["--difficulty is not an option of ideal towers"]),
         (["ideal", "towers", "--blocks", "3"], ["--blocks is not an option of ideal towers"]),
         (["ideal", "which_is_heavier", "--resolution", "0"], ["--resolution is not an option"]),
-        (["ideal", "towers", "--keep"], ["nothing is kept of this ideal experimenter", "--keep"]),
         (["ideal", "which_is_heavier", "--reveal", "--blocks", "3"], ["blocks is 3", "leave it out with reveal"]),
         (["ideal", "nowhere"], ["'nowhere'", "known domains: which_is_heavier"]),
         (["ideal", "towers", "--task", "feet"], ["task is 'feet'", "fist_features", "direct_features"]),
@@ -590,15 +588,6 @@ def test_the_return_of_an_ideal_is_told_in_a_sentence_with_its_unit(run):
     # Three pushes halve eight levels three times: 0.95^3.
     sentence = "The ideal experimenter of threshold/features earns 0.8574 (discounted return, gamma 0.95)."
     assert done.stdout.startswith(sentence) and "An answer without any interaction earns -0.7500." in done.stdout
-
-
-def test_an_ideal_is_kept_where_that_is_asked_for(run, monkeypatch):
-    keeping = []
-    monkeypatch.setattr(kept, "keep", keeping.append)
-    assert run("ideal", "strike", "--discount", 0.5).returncode == 0 and not keeping
-    assert run("ideal", "strike", "--discount", 0.5, "--keep").returncode == 0
-    (solution,) = keeping
-    assert solution.discount == 0.5 and solution.hypotheses.path.name == "strike-features.npz"
 
 
 def test_a_score_is_of_likeliest_actions_or_of_a_hundred_episodes_where_that_is_asked_for(run):

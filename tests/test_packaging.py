@@ -100,17 +100,14 @@ def test_every_task_plays_from_the_wheel_outside_the_checkout(installed, tmp_pat
     assert lines[1:] == [f"{domain} {task}" for domain, task in suite.ALL_TASKS]
 
 
-def test_the_wheel_holds_the_package_with_its_types_trained_agents_and_kept_situations_and_no_tests(source, wheel):
+def test_the_wheel_holds_the_package_with_its_types_trained_agents_and_no_tests(source, wheel):
     modules = {str(path.relative_to(source)) for path in (source / "physexp").rglob("*.py")}
-    trained, kept = (
-        {str(path.relative_to(source)) for path in (source / folder).rglob("*") if path.is_file()}
-        for folder in ("physexp/agents/pretrained_agents", "physexp/analysis/ideal/kept_situations")
-    )
+    folder = source / "physexp/agents/pretrained_agents"
+    trained = {str(path.relative_to(source)) for path in folder.rglob("*") if path.is_file()}
     names = zipfile.ZipFile(wheel).namelist()
 
     assert trained
-    assert kept
-    assert {name for name in names if ".dist-info/" not in name} == modules | trained | kept | {"physexp/py.typed"}
+    assert {name for name in names if ".dist-info/" not in name} == modules | trained | {"physexp/py.typed"}
 
 
 def test_the_wheel_carries_the_licence(distribution):

@@ -34,8 +34,6 @@ class Ideal(Generic[options_lib.Options]):
       task: the task; by default the domain's first.
       discount: the agent's gamma; by default the domain's.
       json: print JSON.
-      keep: write down what can be told apart after every sequence of actions, where physics takes long: the package
-        holds it, and it has to be written anew when the suite is changed.
     """
 
     domains_of: ClassVar = staticmethod(options_lib.of_domain)
@@ -46,11 +44,9 @@ class Ideal(Generic[options_lib.Options]):
     task: OptionalTask = None
     discount: OptionalFloat = None
     json: Switch = False
-    keep: Switch = False
 
     def run(self) -> None:
         from physexp import suite
-        from physexp.analysis.ideal import kept
 
         if self.domain not in _IDEALS:
             raise ValueError(f"no ideal experimenter is known of {self.domain}; choose from {', '.join(_IDEALS)}")
@@ -63,8 +59,6 @@ class Ideal(Generic[options_lib.Options]):
         own = {name: chosen.pop(name) for name in names}
         discount = domains.find(self.domain).discount if self.discount is None else self.discount
         solution = ideal(task, chosen, discount, **own)
-        if self.keep:
-            kept.check(solution)  # Before what takes minutes.
         with _waiting(f"searching for the ideal experimenter of {self.domain}/{task}"):
             figures = solution.figures()
         if not self.json:
@@ -75,8 +69,6 @@ class Ideal(Generic[options_lib.Options]):
             printing.show(summary, as_json=True)
         else:
             printing.tell(*_compared(summary))
-        if self.keep:
-            kept.keep(solution)
 
 
 @contextlib.contextmanager

@@ -12,12 +12,12 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
     """Returns the ideal experimenter, to whom every difference in what is observed is one."""
     import numpy as np
 
-    from physexp.analysis.ideal import kept, search
+    from physexp.analysis.ideal import hypotheses, search
     from physexp.suite.domains import strike
 
     pucks = np.arange(len(strike.PUCKS))
     prior = np.full(len(pucks), 1 / len(pucks))
-    known = kept.Hypotheses(_NAME, task, pucks, prior, task_kwargs, read_as="features")
+    known = hypotheses.Hypotheses(_NAME, task, pucks, prior, task_kwargs, read_as="features")
     return search.solve(known, 0.0, discount)
 
 
