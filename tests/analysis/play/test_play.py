@@ -1,4 +1,4 @@
-"""A person at the terminal: what is drawn, asked and counted."""
+"""The game in a terminal: drawings, prompts and scores."""
 
 import dataclasses
 import os
@@ -27,7 +27,7 @@ def typed(*lines):
     return read
 
 
-def test_a_player_who_knows_the_answers_is_counted_right_and_compared_on_the_same_instances():
+def test_right_answers_are_counted_and_others_play_the_same_instances():
     seed = fresh_seed()
     environment = suite.load("which_is_heavier", "features", task_kwargs={"random": seed})
     lines = []
@@ -145,7 +145,7 @@ def test_the_question_comes_first_in_words_and_what_is_drawn_is_explained(domain
 
 
 @pytest.mark.parametrize("difficulty", [3.0, 4.0])
-def test_a_player_is_compared_with_an_agent_of_the_difficulty_that_is_played(difficulty):
+def test_a_player_is_compared_with_an_agent_of_equal_difficulty(difficulty):
     shown = []
     scores = game.play(
         "which_is_heavier", "features", {"difficulty": difficulty}, 1, read=typed("0", "4"), show=shown.append
@@ -165,7 +165,7 @@ def test_the_agent_beside_a_player_is_the_one_of_that_difficulty(monkeypatch):
     assert loaded == [("which_is_heavier", "features", {"difficulty": 10.0})]
 
 
-def test_a_player_in_finer_time_is_compared_with_nobody_who_was_trained_in_another():
+def test_a_player_with_finer_control_steps_has_no_agent_beside():
     shown, options = [], {"control_timestep": 0.05}
     scores = game.play("which_is_heavier", "features", options, 1, read=typed("0", "4"), show=shown.append)
     assert set(scores) == {"you", "ideal experimenter"}
