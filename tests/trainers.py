@@ -103,10 +103,21 @@ def group(leader, words=""):
     return found
 
 
+def ignored(pid):
+    """The signals that a process ignores; none once it has ended."""
+    try:
+        status = Path(f"/proc/{pid}/status").read_text()
+    except (FileNotFoundError, ProcessLookupError):
+        return set()
+    (line,) = (line for line in status.splitlines() if line.startswith("SigIgn"))
+    mask = int(line.split()[1], 16)
+    return {number for number in range(1, 65) if mask >> (number - 1) & 1}
+
+
 def workers(process):
-    """The worker processes of a trainer."""
+    """The worker processes of a trainer: unlike programs that it is about to run, they ignore SIGTERM."""
     spawned = group(process.pid, "spawn_main") or group(process.pid, "forkserver")
-    return [member for member in spawned if member.pid != process.pid]
+    return [member for member in spawned if member.pid != process.pid and signal.SIGTERM in ignored(member.pid)]
 
 
 def wait_for_checkpoint(process, run, beyond=-1):

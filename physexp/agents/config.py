@@ -58,8 +58,6 @@ class AgentConfig:
     """The learner's name."""
     metrics: ClassVar[Mapping[str, str]] = {"gradient_norm": "before clipping", "learning_rate": ""}
     """Names of what the learner measures in each update, and what they mean where the name does not say it."""
-    can_run_on_cluster: ClassVar[bool] = False
-    """Whether its workers may be spread over machines."""
     allowed: ClassVar[Mapping[str, Check]] = {
         "discount": checks.discount,
         "frames": at_least(1),

@@ -139,15 +139,6 @@ class Learner(abc.ABC):
     def step(self) -> dict[str, float]:
         """Performs one update; returns its metrics."""
 
-    def run(self, num_steps: int) -> None:
-        """Performs many updates."""
-        for _ in range(num_steps):
-            self.step()
-
-    @abc.abstractmethod
-    def get_variables(self) -> "dict[str, torch.Tensor]":
-        """Returns a copy of the network's variables by name."""
-
     @abc.abstractmethod
     def save(self) -> "dict[str, torch.Tensor]":
         """Returns all that `restore` needs to continue as if nothing had happened: tensors by name."""
@@ -222,10 +213,6 @@ class DivergedError(AgentError):
 
 class WorkerError(AgentError):
     """A worker has died."""
-
-
-class VariablesLostError(AgentError):
-    """What was learned since the last checkpoint is lost; restored from it, training can go on."""
 
 
 class DamagedError(Exception):

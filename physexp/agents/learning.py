@@ -1,7 +1,7 @@
-"""What learners share: the variables that training changes, the targets of whole episodes, and clipped gradients."""
+"""Parts that learners share: variables and their optimizer, targets of whole episodes, clipped gradients."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Generic, TypeVar
+from typing import Any, Generic, Self, TypeVar
 
 import numpy as np
 import torch
@@ -13,7 +13,7 @@ Network = TypeVar("Network", bound=networks.RecurrentNetwork)
 
 
 class Variables(Generic[Network]):
-    """All that training changes.
+    """All variables that training changes.
 
     Attributes:
       network: the network.
@@ -24,11 +24,11 @@ class Variables(Generic[Network]):
     """
 
     def __init__(self, network: Network, num_workers: int = 1, weight_decay: float = 0.0):
-        """Gives a network an optimizer, and counters to its workers.
+        """Makes an optimizer for a network, and counters at zero.
 
         Args:
           network: the network.
-          num_workers: how many workers there are.
+          num_workers: number of workers.
           weight_decay: each step shrinks the weights, but not the biases, by this times the learning rate (Loshchilov &
             Hutter, 2019).
         """
@@ -38,7 +38,7 @@ class Variables(Generic[Network]):
         weights = [parameter for name, parameter in self._trained.items() if "bias" not in name]
         groups = [{"params": weights, "weight_decay": weight_decay}, {"params": biases, "weight_decay": 0.0}]
         self.optimizer = torch.optim.AdamW(groups, eps=1e-5, foreach=False)
-        for parameter in self._trained.values():  # At once, so that they are there to be shared or restored.
+        for parameter in self._trained.values():  # Before the first step, so that they can be shared and restored.
             self.optimizer.state[parameter] = {
                 "step": torch.zeros(()),
                 "exp_avg": torch.zeros_like(parameter.data),
@@ -48,11 +48,11 @@ class Variables(Generic[Network]):
             torch.zeros(shape, dtype=torch.int64) for shape in ((), (), num_workers)
         )
 
-    def share_memory(self) -> "Variables":
+    def share_memory(self) -> Self:
         """Moves everything into memory that other processes can share; returns self."""
         self.network.share_memory()
         for value in self.tensors().values():
-            value.share_memory_()
+            value.share_memory_()  # type: ignore[no-untyped-call]
         return self
 
     def tensors(self) -> dict[str, torch.Tensor]:
@@ -71,7 +71,7 @@ class Variables(Generic[Network]):
         """Restores everything from what `save` returned.
 
         Raises:
-          ValueError: if the tensors do not fit, are not finite, or count what cannot be; nothing has changed then.
+          ValueError: if the tensors do not fit, are not finite, or have impossible counts; nothing is changed then.
         """
         own = self.tensors()
         try:
@@ -98,18 +98,38 @@ class Variables(Generic[Network]):
         self.optimizer.step()
 
     def count(self, num_frames: int) -> None:
-        """Counts an update from so many frames."""
+        """Counts an update that was made from `num_frames` environment steps."""
         self.frames += num_frames
         self.updates += 1
 
 
+class Learner(core.Learner):
+    """A learner whose state is its variables.
+
+    Attributes:
+      variables: all that training changes.
+    """
+
+    variables: Variables[Any]
+
+    def save(self) -> dict[str, torch.Tensor]:
+        """Returns copies of all variables, by name."""
+        return self.variables.save()
+
+    def restore(self, state: Mapping[str, torch.Tensor]) -> None:
+        """Takes up what `save` returned."""
+        self.variables.restore(state)
+
+
 def network_variables(tensors: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:
-    """Returns the network's variables by name, of what `Variables.save` returned."""
+    """Returns the network's part of what `Variables.save` returned, by name."""
     prefix = "network/"
     return {name.removeprefix(prefix): value for name, value in tensors.items() if name.startswith(prefix)}
 
 
-def targets(episodes: rounds.Round, values: torch.Tensor, discount: float, trace: float):
+def targets(
+    episodes: rounds.Round, values: torch.Tensor, discount: float, trace: float
+) -> tuple[torch.Tensor, torch.Tensor]:
     """Computes returns and advantages of a round's actions, packed, float32 [N] each.
 
     Args:
@@ -134,14 +154,14 @@ def actor_critic_gradients(
     config: config_lib.ActorCriticConfig,
     arrays: Callable[[], dict[str, np.ndarray]],
 ) -> tuple[list[torch.Tensor], dict[str, float]]:
-    """Returns the gradient of an actor-critic's loss for each parameter, clipped, and the figures of metrics.
+    """Returns the clipped gradient of an actor-critic's loss for each parameter, and the metrics of the loss.
 
     Args:
-      network: whose parameters they are of.
+      network: the network.
       parts: the loss of the policy, that of the baseline, and the entropy.
       entropy_cost: weight of the entropy.
       config: the agent's configuration.
-      arrays: returns what the loss was computed from.
+      arrays: returns the arrays that the loss was computed from.
 
     Raises:
       DivergedError: as `clipped_gradients`.
@@ -166,16 +186,16 @@ def clipped_gradients(
     """Returns the gradient of a loss for each parameter, clipped to a global norm, and the norm before clipping.
 
     Args:
-      network: whose parameters they are of.
+      network: the network.
       loss: the loss.
-      max_norm: the greatest global norm.
-      arrays: returns what the loss was computed from.
+      max_norm: the largest global norm.
+      arrays: returns the arrays that the loss was computed from.
 
     Raises:
       DivergedError: if the loss or the norm is not finite; it holds these arrays.
     """
     network.zero_grad()
-    loss.backward()
+    loss.backward()  # type: ignore[no-untyped-call]
     norm = torch.nn.utils.clip_grad_norm_(network.parameters(), max_norm)
     if not (torch.isfinite(loss) and torch.isfinite(norm)):
         raise core.DivergedError(f"loss {loss.item()} with gradient norm {norm.item()}", arrays())

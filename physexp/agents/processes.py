@@ -1,10 +1,10 @@
-"""Processes: how many at a time, in how much memory, what children inherit, and that none outlives its parent."""
+"""Processes: the cores and the memory that they may use, what children inherit, and how they end."""
 
 from collections.abc import Iterator
 import contextlib
 import math
 import multiprocessing
-from multiprocessing import resource_tracker
+from multiprocessing import context, process, resource_tracker
 import os
 from pathlib import Path
 import signal
@@ -13,15 +13,15 @@ import threading
 import types
 
 STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-"""Requests to end, from Ctrl-C, from schedulers and containers, and from a terminal that is gone."""
+"""Requests to end: from Ctrl-C, from schedulers and containers, and from a terminal that was closed."""
 
-_DEATH_SECONDS = 5.0  # For the system to take away what was killed.
+_DEATH_SECONDS = 5.0  # For the system to remove a killed process.
 _OWN_GROUPS = Path("/proc/self/cgroup")
-_GROUPS = Path("/sys/fs/cgroup")  # Mounted control groups: those of version 2, or a folder for each kind of 1.
+_GROUPS = Path("/sys/fs/cgroup")  # Control groups of version 2, or a folder for each kind of version 1.
 
 
 def num_cores() -> int:
-    """Returns how many cores this process may use: those that it may run on, or fewer by a control group's quota."""
+    """Returns the number of cores that this process may use: its affinity, or less by a control group's quota."""
     has_affinity = hasattr(os, "sched_getaffinity")  # macOS has none.
     cores = len(os.sched_getaffinity(0)) if has_affinity else os.cpu_count() or 1
     for group in _groups("cpu"):
@@ -33,7 +33,7 @@ def num_cores() -> int:
 
 
 def memory() -> int:
-    """Returns how much memory this process may use, bytes: the machine's, or less by a control group's limit."""
+    """Returns the memory that this process may use, bytes: the machine's, or less by a control group's limit."""
     installed = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     names = "memory.max", "memory.limit_in_bytes"
     limits = [limit for group in _groups("memory") for name in names for limit in _read(group, name)]
@@ -41,7 +41,7 @@ def memory() -> int:
 
 
 def _groups(kind: str) -> Iterator[Path]:
-    """Yields the control groups of a kind, of either version, that this process is in, and those around them."""
+    """Yields the control groups of a kind that this process is in, and their parents."""
     for line in _OWN_GROUPS.read_text(encoding="utf-8").splitlines() if _OWN_GROUPS.exists() else ():
         _, kinds, path = line.split(":", 2)
         if kind in kinds.split(",") or not kinds:
@@ -59,30 +59,30 @@ def _read(group: Path, *names: str) -> list[float]:
 
 
 @contextlib.contextmanager
-def unheard_by_children():
-    """Returns a context in which the stop signals are blocked, for the processes that are started in it.
+def stop_signals_blocked() -> Iterator[None]:
+    """Context in which the stop signals are blocked, for the processes that are started in it.
 
-    Terminals and schedulers send those signals to every process, but it is the parent that asks its children to stop.
-    A signal that comes meanwhile is delivered afterwards.
+    Terminals and schedulers send those signals to every process, but the parent decides when its children stop. A
+    signal that arrives meanwhile is delivered afterwards.
     """
     before = signal.pthread_sigmask(signal.SIG_BLOCK, STOP_SIGNALS)
     try:
-        resource_tracker.ensure_running()  # It makes some of them heard again, and ignores these alone by itself.
+        resource_tracker.ensure_running()  # It unblocks some of them, and ignores only those in its own process.
         signal.pthread_sigmask(signal.SIG_BLOCK, STOP_SIGNALS)
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def spawning():
-    """Returns the context that spawns processes; the tracker of its semaphores hears no stop signal, as they do not."""
-    with unheard_by_children():
+def spawning() -> context.SpawnContext:
+    """Returns the context of multiprocessing that spawns; its resource tracker ignores the stop signals."""
+    with stop_signals_blocked():
         return multiprocessing.get_context("spawn")
 
 
 @contextlib.contextmanager
-def without_script():
-    """Returns a context in which processes are spawned that do not run this program's script: it needs no guard."""
+def without_script() -> Iterator[None]:
+    """Context in which spawned processes do not run this program's script again, so it needs no `__main__` guard."""
     script, sys.modules["__main__"] = sys.modules["__main__"], types.ModuleType("__main__")
     try:
         yield
@@ -91,12 +91,12 @@ def without_script():
 
 
 @contextlib.contextmanager
-def inherited_by_workers():
-    """Returns a context in which workers are started: as `unheard_by_children`, and with one thread for torch."""
+def inherited_by_workers() -> Iterator[None]:
+    """Context in which workers are started: with the stop signals blocked, and with one thread for torch."""
     threads = os.environ.get("OMP_NUM_THREADS")
     os.environ["OMP_NUM_THREADS"] = "1"  # Read when a worker imports torch.
     try:
-        with unheard_by_children():
+        with stop_signals_blocked():
             yield
     finally:
         if threads is None:
@@ -106,7 +106,7 @@ def inherited_by_workers():
 
 
 def begin() -> None:
-    """Makes a child's process, first of all, ignore requests to end, and end when its parent does."""
+    """Makes a child's process ignore the stop signals, and end when its parent ends; call it first."""
     for number in STOP_SIGNALS:
         signal.signal(number, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
@@ -116,11 +116,11 @@ def _end_with_parent() -> None:
     parent = multiprocessing.parent_process()
     assert parent is not None
     parent.join()
-    os._exit(1)  # Whatever it is at, or waits for: nobody is left to want it.
+    os._exit(1)
 
 
-def kill(process) -> None:
-    """Ends a child for certain: one that is stopped, or hangs, takes no other signal."""
-    if process.pid is not None:
-        process.kill()
-        process.join(_DEATH_SECONDS)
+def kill(child: process.BaseProcess) -> None:
+    """Kills a child and waits for its end; SIGKILL also ends a child that is stopped or hangs."""
+    if child.pid is not None:
+        child.kill()
+        child.join(_DEATH_SECONDS)

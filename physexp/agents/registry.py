@@ -1,4 +1,4 @@
-"""All agents, by the name of their algorithm, on this machine and on a cluster."""
+"""All agents, by the name of their algorithm."""
 
 from collections.abc import Callable, Mapping
 
@@ -10,7 +10,7 @@ from physexp.agents.belief import networks as belief_networks
 from physexp.agents.ppo import agent as ppo
 
 AGENTS: Mapping[str, Callable[..., core.Agent]] = {"a3c": a3c.A3C, "belief": belief.Belief, "ppo": ppo.PPO}
-"""What makes an agent that trains on this machine, from what `make` takes."""
+"""The agents, each made from the arguments of `make`."""
 
 NETWORKS: Mapping[str, type[networks.RecurrentNetwork]] = {
     "a3c": networks.RecurrentActorCritic,
@@ -26,32 +26,11 @@ def make_network(environment: core.Batch, config: config_lib.AgentConfig) -> net
 
 
 @guests.own_torch()
-def make(
-    make_environment: core.EnvironmentFactory, config: config_lib.AgentConfig, tell: Callable[[str], None]
-) -> core.Agent:
+def make(make_environment: core.EnvironmentFactory, config: config_lib.AgentConfig) -> core.Agent:
     """Returns the agent of a configuration, as it is before training.
 
     Args:
       make_environment: makes a batch; it is called in other processes, too, so it must be picklable.
       config: the agent's configuration.
-      tell: called with a line when something has gone wrong that training survives.
     """
-    return AGENTS[config.algorithm](make_environment, config, tell)
-
-
-def make_on_cluster(
-    make_environment: core.EnvironmentFactory,
-    config: config_lib.AgentConfig,
-    tell: Callable[[str], None],
-    find_versions: Callable[[], dict[str, str]],
-) -> core.Agent:
-    """Returns the agent of a configuration that trains on the cluster that this process has joined.
-
-    Args:
-      make_environment, config, tell: as for `make`; the algorithm can run on a cluster.
-      find_versions: says what is installed; it must say the same on every machine.
-    """
-    from physexp.agents.a3c import distributed  # Ray is an extra, and takes a second to import.
-
-    agents: Mapping[str, Callable[..., core.Agent]] = {"a3c": distributed.DistributedA3C}
-    return agents[config.algorithm](make_environment, config, find_versions, tell)
+    return AGENTS[config.algorithm](make_environment, config)

@@ -1,4 +1,4 @@
-"""What training starts from: a network for an environment, and the seeds of workers and of rounds."""
+"""The start of training: the network for an environment, and the seeds of workers and of rounds."""
 
 from typing import TypeVar
 
@@ -23,7 +23,7 @@ def make_network(kind: type[Network], environment: core.Batch, config: config_li
 
 
 def initial_network(environment: core.Batch, config: config_lib.ActorCriticConfig) -> networks.RecurrentActorCritic:
-    """Returns the network that training starts from: with the initial policy that is asked for, and calibrated."""
+    """Returns an untrained network with the initial policy of the configuration, calibrated to the first images."""
     network = make_network(networks.RecurrentActorCritic, environment, config)
     network.initialize_policy(config.action_prior)
     if config.relative_pixels:
@@ -37,8 +37,8 @@ def worker_seed(seed: int, worker: int) -> int:
 
 
 def round_generator(seed: int, worker: int, episode: int) -> np.random.Generator:
-    """Returns the source of the actions in a worker's round of episodes with an index.
+    """Returns the random generator of the actions in a worker's round of episodes.
 
-    It is a function of these alone, so that a run that is resumed plays the same rounds.
+    It is a function of the arguments alone, so that a run that is resumed plays the same rounds.
     """
     return np.random.default_rng([seed, worker, episode])

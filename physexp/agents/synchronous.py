@@ -1,17 +1,20 @@
-"""What agents of one process have in common: they play a round of whole episodes, learn from it, and so on."""
+"""Agents of one process, which play a round of whole episodes and learn from it in turns."""
+
+from collections.abc import Generator, Mapping
+
+import torch
 
 from physexp.agents import core, guests, learning, rounds
 
 
-class SynchronousLearner(core.Learner):
-    """Plays a round at each step, with all that was learned from the rounds before.
+class SynchronousLearner(learning.Learner):
+    """Plays a round at each step, with the parameters that all rounds before have led to.
 
     Attributes:
-      variables: what training changes.
+      variables: all that training changes.
       last_round: the round that was played last.
     """
 
-    variables: learning.Variables
     last_round: rounds.Round
 
     @property
@@ -19,18 +22,9 @@ class SynchronousLearner(core.Learner):
         """Returns the index of the episodes that the next step plays."""
         return int(self.variables.rounds[0])
 
-    def get_variables(self):
-        return learning.network_variables(self.save())
-
-    def save(self):
-        return self.variables.save()
-
-    def restore(self, state):
-        self.variables.restore(state)
-
 
 class SynchronousAgent(core.Agent):
-    """Takes the steps of a learner, one after the other."""
+    """Takes the steps of a learner."""
 
     def __init__(self, learner: SynchronousLearner, frames: int, seed: int, num_threads: int):
         """Takes a learner.
@@ -39,29 +33,33 @@ class SynchronousAgent(core.Agent):
           learner: the learner.
           frames: environment steps to train for.
           seed: seed of its environments.
-          num_threads: threads for convolutions.
+          num_threads: threads for convolutions; without images one thread is faster.
         """
-        self._learner, self._most_frames, self._seed, self._num_threads = learner, frames, seed, num_threads
-        self._stopping = False
+        self._learner, self._max_frames, self._seed = learner, frames, seed
+        self._num_threads = num_threads if learner.variables.network.sees_images else 1
+        self._is_stopping = False
 
     @property
-    def frames(self):
-        return self._learner.variables.frames.item()
+    def frames(self) -> int:
+        """Returns the environment steps trained on."""
+        return int(self._learner.variables.frames)
 
-    def updates(self, poll_seconds=0.5):
-        # More of them than the images' convolutions can use only wait for each other.
-        num_threads = self._num_threads if self._learner.variables.network.sees_images else 1
-        while not self._stopping and self.frames < self._most_frames:
+    def updates(self, poll_seconds: float = 0.5) -> Generator[core.Update | None, None, None]:
+        """Yields each update until all frames are done or `stop` was called."""
+        while not self._is_stopping and self.frames < self._max_frames:
             episode = self._learner.next_episode
-            with guests.own_torch(num_threads):
+            with guests.own_torch(self._num_threads):
                 metrics = self._learner.step()
             yield core.Update(self._seed, episode, metrics, self._learner.last_round.record())
 
-    def stop(self):
-        self._stopping = True
+    def stop(self) -> None:
+        """Asks it to end after the update under way; may be called by a signal's handler."""
+        self._is_stopping = True
 
-    def save(self):
+    def save(self) -> dict[str, torch.Tensor]:
+        """Returns copies of all variables, by name."""
         return self._learner.save()
 
-    def restore(self, tensors):
+    def restore(self, tensors: Mapping[str, torch.Tensor]) -> None:
+        """Takes up what `save` returned; raises ValueError if it does not fit."""
         self._learner.restore(tensors)

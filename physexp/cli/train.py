@@ -14,7 +14,7 @@ from physexp.analysis.training import callbacks
 from physexp.analysis.training import config as config_lib
 from physexp.cli import options as options_lib
 from physexp.cli import printing
-from physexp.cli.arguments import Domain, OptionalAddress, OptionalPath, Switch, Task
+from physexp.cli.arguments import Domain, OptionalPath, Switch, Task
 
 Config = TypeVar("Config", bound=agent_config.AgentConfig)
 
@@ -31,7 +31,6 @@ class Train(Generic[Config, options_lib.Options]):
       run_dir: the run's folder; by default one named after the run, under runs/.
       tensorboard: write the metrics for TensorBoard too.
       resume: continue the run in that folder, with its own configuration.
-      cluster: train on a cluster of Ray: HOST:PORT of its head; auto for the one that runs here, or else a local one.
     """
 
     domains_of: ClassVar = staticmethod(options_lib.of_domain)
@@ -45,11 +44,9 @@ class Train(Generic[Config, options_lib.Options]):
     run_dir: OptionalPath = None
     tensorboard: Switch = False
     resume: Switch = False
-    cluster: OptionalAddress = None
 
     def run(self) -> None:
-        needed = {"ray": self.cluster is not None, "tensorboard": self.tensorboard}
-        extras.require(*(module for module, is_needed in needed.items() if is_needed))
+        extras.require(*(["tensorboard"] if self.tensorboard else []))
         from physexp.analysis.training import publishing, trainer, verdict
         from physexp.analysis.training import run as run_lib
 
@@ -66,16 +63,12 @@ class Train(Generic[Config, options_lib.Options]):
             if (config.domain, config.task) != (self.domain, self.task):
                 raise ValueError(f"{run.path} holds a run of {config.domain}/{config.task}; name that task")
             self._refuse_others(wanted, config, run.path)
-        trainer.check(config, self.cluster is not None)
+        trainer.check(config)
         try:
             with contextlib.ExitStack() as stack:
                 stack.enter_context(run.locked())
                 run.check_resumable() if self.resume else run.check_new()
                 is_finished = self.resume and run.is_finished
-                if self.cluster is not None:
-                    from physexp.analysis.experiments import cluster
-
-                    stack.enter_context(cluster.joined(self.cluster))
                 report = self._reports(stack, run, config)
                 on_checkpoint = None
                 if config.replay_every:
@@ -83,7 +76,7 @@ class Train(Generic[Config, options_lib.Options]):
 
                     on_checkpoint = training.Writer(run, config)
                 start = None if self.resume else config
-                trainer.train(run, report, self.cluster is not None, printing.warn, start, on_checkpoint)
+                trainer.train(run, report, printing.warn, start, on_checkpoint)
                 if is_finished:
                     frames = config.agent.frames
                     printing.warn(f"{run.path} has had its {frames:,} frames; to train longer, train anew with more")
@@ -138,7 +131,6 @@ class Train(Generic[Config, options_lib.Options]):
             printing.warn(f"there is no checkpoint in {run.path} yet: the same command starts anew")
             return
         words = ["physexp", "train", self.domain, self.task, "--run-dir", str(run.path), "--resume"]
-        words += ["--cluster", self.cluster] if self.cluster is not None else []
         words += ["--tensorboard"] if self.tensorboard else []
         printing.warn(
             f"the checkpoint after {int(paths[-1].stem):,} frames: {paths[-1]}", f"to go on: {shlex.join(words)}"

@@ -1,21 +1,30 @@
-"""The optimizer that workers share is one optimizer: two processes move the same statistics and the same weights."""
+"""A3C's workers share one network and one optimizer, and the learner can go on from what it saved."""
 
+import functools
 import math
+import os
 
 from dm_env import specs
 import numpy as np
 import pytest
 import torch
 from torch import multiprocessing
-from waiting import wait_until
+import trainers
 
 from physexp import suite
-from physexp.agents import acting, learning, networks
+from physexp.agents import acting, core, learning, networks
+from physexp.agents.a3c import agent as agent_lib
 from physexp.agents.a3c import config as config_lib
 from physexp.agents.a3c import learning as a3c
+from physexp.analysis.training import trainer
 
 torch.set_num_threads(1)  # As a worker does; more of them only wait for each other.
 CONFIG = config_lib.A3CConfig(num_workers=2, envs_per_worker=8, frames=10**9)
+
+
+@pytest.fixture
+def context():
+    return multiprocessing.get_context("spawn")
 
 
 def make_network():
@@ -24,39 +33,39 @@ def make_network():
     return networks.RecurrentActorCritic(spec, 8, lstm_units=16, observation_scale=10.0)
 
 
-def apply_constant_gradient(shared, gradient):
-    for parameter in shared.network.parameters():
-        parameter.grad = torch.full_like(parameter, gradient)
-    shared.optimizer.step()
-
-
-def learn_once(shared, worker, results):
-    torch.set_num_threads(1)
+def make_learner(shared, lock, worker, record=lambda *_: None):
     batch = suite.load_batch("which_is_heavier", "features", CONFIG.envs_per_worker, {"random": worker})
-    torch.manual_seed(0)
-    network = networks.RecurrentActorCritic(batch.observation_spec(), 8, lstm_units=16, observation_scale=10.0)
+    network = make_network()
 
     def play(number):
-        return acting.play_round(network, batch, number, acting.drawn(np.random.default_rng(worker)), keep_inputs=True)
+        generator = np.random.default_rng([worker, number])
+        return acting.play_round(network, batch, number, acting.drawn(generator), keep_inputs=True)
 
-    learner = a3c.A3CLearner(network, shared, play, worker, CONFIG)
-    metrics = learner.step()
-    results.put((metrics["updates"], learner.last_round.num_frames))
+    return a3c.A3CLearner(network, shared, lock, play, record, worker, CONFIG)
 
 
-@pytest.fixture
-def context():
-    return multiprocessing.get_context("spawn")
+def apply_constant_gradient(shared, gradient):
+    shared.apply([torch.full_like(parameter, gradient) for parameter in shared.network.parameters()], 0.001)
+
+
+def learn_once(shared, lock, worker, sender):
+    torch.set_num_threads(1)
+    make_learner(shared, lock, worker, lambda episode, metrics, round_: sender.send((metrics, round_))).step()
+
+
+def run_all(processes):
+    for process in processes:
+        process.start()
+    for process in processes:
+        process.join()
+        assert process.exitcode == 0
 
 
 def test_two_processes_move_one_set_of_adam_statistics(context):
     shared = learning.Variables(make_network(), num_workers=2).share_memory()
     before = [parameter.detach().clone() for parameter in shared.network.parameters()]
     for gradient in (1.0, 2.0):  # One process after the other, so that the order is known.
-        process = context.Process(target=apply_constant_gradient, args=(shared, gradient))
-        process.start()
-        process.join()
-        assert process.exitcode == 0
+        run_all([context.Process(target=apply_constant_gradient, args=(shared, gradient))])
     # Adam, beta1 = 0.9, beta2 = 0.999, learning rate 0.001, gradients 1 then 2:
     # exp_avg = 0.9 * (0.1 * 1) + 0.1 * 2 = 0.29; exp_avg_sq = 0.999 * (0.001 * 1) + 0.001 * 4 = 0.004999; step = 2.
     # First move: both corrected moments are 1: -0.001 * 1 / (1 + eps). Second: moments 0.29 / (1 - 0.81) and
@@ -71,58 +80,51 @@ def test_two_processes_move_one_set_of_adam_statistics(context):
 
 
 def test_two_learners_at_once_share_weights_statistics_and_counters(context):
-    shared = learning.Variables(make_network(), num_workers=2)
-    memory = a3c.SharedMemory(shared, context.Lock(), CONFIG.max_staleness)
+    shared, lock = learning.Variables(make_network(), num_workers=2).share_memory(), context.Lock()
     before = {name: value.clone() for name, value in shared.tensors().items()}
-    results = context.Queue()
-    processes = [context.Process(target=learn_once, args=(memory, worker, results)) for worker in range(2)]
-    for process in processes:
-        process.start()
-    reported = []
-
-    def have_both_reported():
-        while not results.empty():
-            reported.append(results.get())
-        return len(reported) == 2
-
-    wait_until(have_both_reported, "the reports of two learners")
-    for process in processes:
-        process.join()
-        assert process.exitcode == 0
-    results.close()
-    results.join_thread()
+    pipes = [context.Pipe(duplex=False) for _ in range(2)]
+    run_all(
+        [
+            context.Process(target=learn_once, args=(shared, lock, worker, sender))
+            for worker, (_, sender) in enumerate(pipes)
+        ]
+    )
+    updates = [receiver.recv() for receiver, _ in pipes]
+    assert sorted(metrics["updates"] for metrics, _ in updates) == [1, 2], "each saw the other's update, or came first"
+    assert int(shared.updates) == 2 and shared.rounds.tolist() == [1, 1]
+    assert int(shared.frames) == sum(played.num_frames for _, played in updates)
     after = shared.tensors()
-    assert sorted(updates for updates, _ in reported) == [1, 2], "each saw the other's update, or came first"
-    assert shared.updates.item() == 2
-    assert shared.rounds.tolist() == [1, 1]
-    assert shared.frames.item() == sum(frames for _, frames in reported)
-    steps = [value.item() for name, value in after.items() if name.endswith("/step")]
-    assert steps == [2.0] * len(list(shared.network.parameters()))
+    assert {value.item() for name, value in after.items() if name.endswith("/step")} == {2.0}
     for name in after:
         if name.startswith("network/") or name.endswith("/exp_avg"):
             assert not torch.equal(before[name], after[name]), f"{name} has not moved"
 
 
-def test_a_learner_restores_what_it_saved():
-    config = CONFIG.replace(num_workers=1)
-    shared = learning.Variables(make_network())
-    batch = suite.load_batch("which_is_heavier", "features", 8, {"random": 0})
-    network = networks.RecurrentActorCritic(batch.observation_spec(), 8, lstm_units=16, observation_scale=10.0)
-
-    def play(number):
-        return acting.play_round(network, batch, number, acting.drawn(np.random.default_rng(number)), keep_inputs=True)
-
-    memory = a3c.SharedMemory(shared, multiprocessing.get_context("spawn").Lock(), config.max_staleness)
-    learner = a3c.A3CLearner(network, memory, play, 0, config)
-    learner.run(2)
+def test_a_learner_goes_on_from_what_it_saved_to_the_same_variables(context):
+    learner = make_learner(learning.Variables(make_network()), context.Lock(), 0)
+    learner.step()
     saved = learner.save()
-    learner.run(3)
-    once = learner.save()
-    learner.restore(saved)
-    assert shared.updates.item() == 2
-    learner.run(3)
-    again = learner.save()
-    batch.close()
-    assert again["updates"].item() == 5
+    ends = []
+    for _ in range(2):
+        learner.restore(saved)
+        for _ in range(2):
+            learner.step()
+        ends.append(learner.save())
+    once, again = ends
+    assert int(again["updates"]) == 3
     for name in once:
-        assert torch.equal(once[name], again[name]), f"{name} differs after the same three updates"
+        assert torch.equal(once[name], again[name]), f"{name} differs after the same updates"
+
+
+def die_with(lock):
+    lock.acquire()
+    os._exit(0)
+
+
+def test_variables_are_not_saved_after_a_worker_died_in_an_update(tmp_path, context):
+    config = trainers.create(tmp_path / "run").config
+    agent = agent_lib.A3C(functools.partial(trainer.make_environment, config), config.agent)
+    agent.save()
+    run_all([context.Process(target=die_with, args=(agent._lock,))])
+    with pytest.raises(core.WorkerError, match="a worker was killed in the middle of an update"):
+        agent.save()

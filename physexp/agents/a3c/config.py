@@ -14,28 +14,25 @@ class A3CConfig(config.ActorCriticConfig):
     Attributes:
       num_workers: worker processes, which act and learn asynchronously on shared parameters.
       envs_per_worker: environments of each worker; an update is made from one episode in each. 1 in the paper.
-      max_staleness: a gradient is dropped if more updates than this were made since its parameters were read.
     """
 
     algorithm: ClassVar[str] = "a3c"
     metrics: ClassVar[Mapping[str, str]] = {
         **config.ActorCriticConfig.metrics,
-        "staleness": "updates of others between taking the parameters and applying the gradient",
+        "staleness": "updates of other workers between reading the parameters and applying the gradient",
     }
-    can_run_on_cluster: ClassVar[bool] = True
     allowed: ClassVar[Mapping[str, config.Check]] = {
         **config.ActorCriticConfig.allowed,
         "num_workers": config.at_least(1, 10_000),
         "envs_per_worker": config.at_least(1, 65_536),
-        "max_staleness": config.at_least(0),
     }
 
     num_workers: int = 2
     envs_per_worker: int = 256
-    max_staleness: int = 100
 
     @property
-    def title(self):
+    def title(self) -> str:
+        """Returns the learner's name in names of runs; that of the paper's variant says so."""
         hints = (self.action_prior, self.relative_pixels)
         is_as_in_paper = self.envs_per_worker == self.trace == self.observation_scale == 1 and not any(hints)
         return f"{self.algorithm}_paper" if is_as_in_paper else self.algorithm

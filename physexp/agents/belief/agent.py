@@ -1,7 +1,5 @@
 """The belief learner's agent: plays a round of whole episodes, learns from all that it has kept, and so on."""
 
-from collections.abc import Callable
-
 import numpy as np
 
 from physexp.agents import acting, core, devices, rounds, starting, synchronous
@@ -12,18 +10,12 @@ from physexp.agents.belief import learning, networks, replay
 class Belief(synchronous.SynchronousAgent):
     """Keeps a belief about the answer, and asks which interaction is worth its price; one process."""
 
-    def __init__(
-        self,
-        make_environment: core.EnvironmentFactory,
-        config: config_lib.BeliefConfig,
-        tell: Callable[[str], None] = lambda line: None,
-    ):
+    def __init__(self, make_environment: core.EnvironmentFactory, config: config_lib.BeliefConfig):
         """Makes the environments, the network, and room for episodes.
 
         Args:
           make_environment: makes the batch.
           config: the configuration.
-          tell: never called: nothing can go wrong that training survives.
 
         Raises:
           ValueError: if the episodes that are to be kept do not fit into memory.

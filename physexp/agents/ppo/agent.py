@@ -1,7 +1,5 @@
 """PPO's agent: plays a round of whole episodes, learns from it, and so on, in one process."""
 
-from collections.abc import Callable
-
 from physexp.agents import acting, core, devices, learning, rounds, starting, synchronous
 from physexp.agents.ppo import config as config_lib
 from physexp.agents.ppo import learning as ppo_learning
@@ -10,18 +8,12 @@ from physexp.agents.ppo import learning as ppo_learning
 class PPO(synchronous.SynchronousAgent):
     """Synchronous: each round is played with all that was learned from the rounds before."""
 
-    def __init__(
-        self,
-        make_environment: core.EnvironmentFactory,
-        config: config_lib.PPOConfig,
-        tell: Callable[[str], None] = lambda line: None,
-    ):
+    def __init__(self, make_environment: core.EnvironmentFactory, config: config_lib.PPOConfig):
         """Makes the environments and the network.
 
         Args:
           make_environment: makes the batch.
           config: the configuration.
-          tell: never called: nothing can go wrong that training survives.
         """
         self._config = config
         seed = starting.worker_seed(config.seed, 0)

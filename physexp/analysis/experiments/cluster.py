@@ -63,7 +63,7 @@ def _join(address: str, stack: contextlib.ExitStack) -> None:
         stack.enter_context(_on_the_loopback())
         mask = os.umask(0o077)  # The token is for this user.
         try:
-            with processes.unheard_by_children():
+            with processes.stop_signals_blocked():
                 ray.init(
                     LOCAL,
                     logging_level=logging.ERROR,

@@ -68,7 +68,7 @@ class Processes:
             raise futures.CancelledError
         ours, theirs = self._context.Pipe()
         process = self._context.Process(target=_begin, args=(theirs, self._work, arguments), name=name)
-        with self._starting, processes.unheard_by_children():
+        with self._starting, processes.stop_signals_blocked():
             process.start()
         theirs.close()
         try:

@@ -100,6 +100,7 @@ class TrainConfig:
             for name, value in fields["agent"].items()
         }
         algorithm = ALGORITHMS[agent.pop("algorithm", _UNNAMED)]
+        agent.pop("max_staleness", None)  # Until stored runs are converted.
         chosen = {name: fields[name] for name in _OF_FORMAT_1 if fields.get(name) is not None}
         others = {name: value for name, value in fields.items() if name not in _OF_FORMAT_1}
         task_kwargs = {**chosen, **fields.get("task_kwargs", {})}

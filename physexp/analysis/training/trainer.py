@@ -1,4 +1,4 @@
-"""Training: runs an agent on a task, and records it in a run's folder."""
+"""Training: runs an agent on a task and records it in a run's folder."""
 
 import contextlib
 import functools
@@ -6,7 +6,6 @@ import shutil
 
 from physexp import suite
 from physexp.agents import core, devices, guests, processes, registry
-from physexp.analysis.data import provenance
 from physexp.analysis.training import callbacks, stopping
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import recorder as recorder_lib
@@ -14,7 +13,7 @@ from physexp.analysis.training import run as run_lib
 from physexp.suite.engine import gl
 
 _WORKERS_PER_CORE = 32  # More would take memory (half a gigabyte each) and no less time.
-_CHECKPOINTS_AT_ONCE = 3  # Two are kept, and the next is written before the older one goes.
+_CHECKPOINTS_AT_ONCE = 3  # Two are kept, and the next is written before the older one is removed.
 
 
 def make_environment(config: config_lib.TrainConfig, seed: int, num_environments: int, num_threads: int):
@@ -23,97 +22,76 @@ def make_environment(config: config_lib.TrainConfig, seed: int, num_environments
     return suite.load_batch(config.domain, config.task, num_environments, task_kwargs, num_threads)
 
 
-def check(config: config_lib.TrainConfig, on_cluster: bool = False) -> None:
-    """Refuses what cannot be trained here, before anything is made of it.
+def make_agent(config: config_lib.TrainConfig) -> core.Agent:
+    """Returns the agent of a run, as it is before training."""
+    return registry.make(functools.partial(make_environment, config), config.agent)
+
+
+def check(config: config_lib.TrainConfig) -> None:
+    """Checks that a run can be trained on this machine, before anything is written.
 
     Raises:
-      ValueError: for a task that is none, for an agent that cannot be trained on a cluster, for more workers than this
-        machine can bear, for a GPU or an OpenGL library that is needed and is not here.
+      ValueError: for an unknown task, for a GPU or an OpenGL library that is needed and missing, or for more workers
+        than this machine can bear.
     """
     needs_gl = suite.load_task(config.domain, config.task, config.task_kwargs).sense.needs_gl
     try:
         if needs_gl:
             gl.check()
-        if not on_cluster:  # There each worker computes on what its own machine has.
-            devices.choose(config.agent.device, needs_gl)
+        devices.choose(config.agent.device, needs_gl)
     except RuntimeError as error:
         raise ValueError(str(error)) from None
-    if on_cluster and not config.agent.can_run_on_cluster:
-        able = [name for name, agent in config_lib.ALGORITHMS.items() if agent.can_run_on_cluster]
-        raise ValueError(
-            f"agent is {config.agent.algorithm}, which has one process; on a cluster train {' or '.join(able)}"
-        )
     cores = processes.num_cores()
-    most = _WORKERS_PER_CORE * cores
-    if not on_cluster and config.agent.num_workers > most:
+    if config.agent.num_workers > _WORKERS_PER_CORE * cores:
         raise ValueError(
             f"num_workers is {config.agent.num_workers}; this machine has {cores} cores: give at most "
-            f"{most}, or train on a cluster"
+            f"{_WORKERS_PER_CORE * cores}"
         )
-
-
-def make_agent(
-    config: config_lib.TrainConfig, on_cluster: bool = False, tell: callbacks.Tell = callbacks.ignore
-) -> core.Agent:
-    """Returns the agent of a run, as it is before training.
-
-    Args:
-      config: the run's.
-      on_cluster: train on the cluster that this process has joined.
-      tell: called with a line when a worker has died that can be replaced, or has fallen silent.
-    """
-    environments = functools.partial(make_environment, config)
-    if on_cluster:
-        return registry.make_on_cluster(environments, config.agent, tell, provenance.versions)
-    return registry.make(environments, config.agent, tell)
 
 
 @guests.own_torch()
 def train(
     run: run_lib.Run,
     report: callbacks.Report = callbacks.ignore,
-    on_cluster: bool = False,
     tell: callbacks.Tell = callbacks.ignore,
     start: config_lib.TrainConfig | None = None,
     on_checkpoint: recorder_lib.OnCheckpoint | None = None,
 ) -> None:
-    """Trains an agent, and keeps the run's folder locked meanwhile.
+    """Trains an agent, with the run's folder locked meanwhile.
 
-    Ctrl-C, SIGTERM or SIGHUP finishes the update and writes a checkpoint; a second one leaves at once. A start
-    that comes to nothing leaves nothing behind.
+    Ctrl-C, SIGTERM or SIGHUP ends training with a checkpoint; a second one leaves at once. A start that fails before
+    the first checkpoint leaves nothing behind.
 
     Args:
       run: a run that has been created, unless it is started here.
       report: called with each row of metrics.
-      on_cluster: train on the cluster that this process has joined.
-      tell: called with a line when something has gone wrong that training survives: a watcher that fails is such.
-      start: what to train from the start; None to go on with the run in the folder, from its last checkpoint if there
-        is one.
-      on_checkpoint: called after each checkpoint is written; `replay.training.Writer` is such a watcher.
+      tell: called with a line when something has gone wrong that training survives, such as a watcher that fails.
+      start: the configuration of a new run; None to continue the run in the folder, from its last checkpoint if it has
+        one.
+      on_checkpoint: called after each checkpoint is written.
 
     Raises:
       stopping.Interrupted: after one of these signals, when the checkpoint has been written.
       OSError: if the folder cannot be made or written to.
-      RuntimeError: if training cannot go on; it says where it stands.
-      ValueError: if another process is training in the run's folder, if there is too little room in it, if it holds a
-        run that would be started anew, or records without a checkpoint that would be resumed, or as `check`.
+      RuntimeError: if training cannot go on; the message names the last checkpoint.
+      ValueError: if another process is training in the run's folder, if it has too little room, if it holds a run that
+        would be started anew, or records without a checkpoint that would be resumed, or as `check`.
     """
     tell = callbacks.expendable(tell, callbacks.ignore, "the printing of lines")
     with run.locked():
         config = start or run.config
-        check(config, on_cluster)
+        check(config)
         if start is None:
             run.check_resumable()
         elif moved := run.create(start):
-            tell(f"what an earlier attempt without a checkpoint had recorded is now in {moved}")
+            tell(f"the records of an earlier attempt without a checkpoint are now in {moved}")
         try:
-            agent = make_agent(config, on_cluster, tell)
+            agent = make_agent(config)
             _check_room(run, agent)
             recorder = recorder_lib.Recorder(run, config, report, tell, on_checkpoint)
             recorder.resume(agent)
             with stopping.Interruption(agent.stop) as interruption:
-                while not _run(agent, recorder, run, tell):
-                    recorder.resume(agent)
+                _run(agent, recorder, run)
         finally:
             if start is not None:
                 run.discard()
@@ -122,7 +100,6 @@ def train(
 
 
 def _check_room(run: run_lib.Run, agent: core.Agent) -> None:
-    """Refuses a folder that is too full for checkpoints."""
     needed = _CHECKPOINTS_AT_ONCE * sum(value.nbytes for value in agent.save().values())
     free = shutil.disk_usage(run.path).free
     if free < needed:
@@ -132,8 +109,8 @@ def _check_room(run: run_lib.Run, agent: core.Agent) -> None:
         )
 
 
-def _run(agent: core.Agent, recorder: recorder_lib.Recorder, run: run_lib.Run, tell: callbacks.Tell) -> bool:
-    """Trains to the end; returns False if it has to go on from the last checkpoint."""
+def _run(agent: core.Agent, recorder: recorder_lib.Recorder, run: run_lib.Run) -> None:
+    """Trains to the end, or until a signal; raises RuntimeError if it cannot go on."""
     try:
         with contextlib.closing(agent.updates()) as updates:
             for update in updates:
@@ -142,21 +119,17 @@ def _run(agent: core.Agent, recorder: recorder_lib.Recorder, run: run_lib.Run, t
                 if recorder.checkpoint_is_due():
                     recorder.snapshot(agent.save())
         recorder.snapshot(agent.save())
-    except core.VariablesLostError as error:
-        tell(f"{error}; training goes on from {'the last checkpoint' if run.checkpointer.paths() else 'the start'}")
-        return False
     except core.AgentError as error:
         raise RuntimeError(f"training stopped: {error}{recorder.save_failure(error)}; {_standing(run)}") from None
     except OSError as error:
-        run.check_lock()  # Where the folder has gone, nothing in it can be written either.
+        run.check_lock()  # A folder that was moved is the cause of other errors.
         raise RuntimeError(
             f"training stopped: cannot write to {run.path}: {error.strerror}; put that right; {_standing(run)}"
         ) from None
-    return True
 
 
 def _standing(run: run_lib.Run) -> str:
-    """Returns what there is to go on from, in words."""
+    """Returns a phrase that names the last checkpoint."""
     paths = run.checkpointer.paths()
     if not paths:
         return "there is no checkpoint yet, so start it anew"
