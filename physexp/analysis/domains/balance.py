@@ -1,33 +1,21 @@
-"""What the analysis knows of Balance: its ideal and its columns."""
-
-from collections.abc import Mapping
-from typing import Any
+"""Facts about Balance: its ideal experimenter and its columns."""
 
 from physexp.analysis.domains import base
 
-_NAME = "balance"
 
-
-def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
-    """Returns the ideal experimenter; it plays from features."""
-    from physexp.analysis.ideal import counterfeit, resting
+def _apparatus(options):
+    from physexp.analysis.ideal import counterfeit
     from physexp.suite.domains import balance
 
-    def apparatus(options):
-        return counterfeit.Scale(balance.NUM_BLOCKS, balance.num_suspects(options.difficulty))
-
-    return resting.of_task(_NAME, task, task_kwargs, discount, apparatus, _tilt)
+    return counterfeit.Scale(balance.NUM_BLOCKS, balance.num_suspects(options.difficulty))
 
 
-def _tilt(observation) -> int:
-    return int(observation["tilt"][0])
-
-
-DOMAIN = base.Domain(
-    name=_NAME,
+DOMAIN = base.resting_domain(
+    "balance",
+    _apparatus,
+    read=lambda observation: int(observation["tilt"][0]),
     skill="use a tool",
     presets=base.PRESETS_OF_BITS,
     targets={"balance-features": ("mean_return", 0.72), "balance-pixels": ("mean_return", 0.72)},
-    ideal=base.Ideal(_NAME, _solve),
     hidden_columns=lambda hidden: {"weights": hidden},  # kg
 )

@@ -1,10 +1,11 @@
-"""What the analysis knows of a domain, as data. Imports nothing heavy, since the command line is made from it."""
+"""Facts about a domain that the analysis uses, as data. Imports nothing heavy: the command line is made from it."""
 
 from collections.abc import Callable, Mapping
 import dataclasses
 import functools
 from typing import TYPE_CHECKING, Any
 
+from physexp import checks
 from physexp.agents import config as agent_config
 from physexp.agents.a3c import config as a3c
 from physexp.agents.ppo import config as ppo
@@ -14,76 +15,95 @@ if TYPE_CHECKING:
 
     from physexp.agents import core
     from physexp.analysis.ideal import base as ideal
+    from physexp.analysis.ideal import resting, search
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class NoOptions:
-    """What can be chosen of an ideal experimenter where the task says all."""
+    """Options of an ideal experimenter that has none."""
 
 
-@dataclasses.dataclass(frozen=True)
 class Ideal:
-    """How to find the ideal experimenter of a domain's tasks. Calling it solves, once for each question.
+    """Finds the ideal experimenters of a domain's tasks; solves each question once.
 
-    A task that reveals the answer has the same ideal experimenter in every domain, who gives it at once.
+    A task that reveals the answer has the same ideal experimenter in every domain: it answers at once.
 
     Attributes:
-      domain: the domain's name.
-      solve: returns the `Solution` of a task, its `task_kwargs` and a discount, with further options by name; raises
-        ValueError for a value that makes no sense.
-      options: a dataclass of those further options, with their defaults.
+      options: a dataclass of the options that the ideal experimenter has besides the task's, with their defaults.
     """
 
-    domain: str
-    solve: "Callable[..., ideal.Solution]"
-    options: type = NoOptions
-    _found: "dict[str, ideal.Solution]" = dataclasses.field(default_factory=dict, init=False, repr=False, compare=False)
+    def __init__(self, domain: str, solve: "Callable[..., ideal.Solution]", options: type = NoOptions):
+        """Prepares the search.
+
+        Args:
+          domain: the domain's name.
+          solve: returns the `Solution` for a task, its `task_kwargs`, a discount, and the options by name.
+          options: see the class.
+        """
+        self.options = options
+        self._domain, self._solve = domain, solve
+        self._solutions: dict[str, ideal.Solution] = {}
 
     def __call__(self, task: str, task_kwargs: Mapping[str, Any], discount: float, **options: Any) -> "ideal.Solution":
-        asked = {name: value for name, value in task_kwargs.items() if name != "random"}
-        question = repr((task, sorted(asked.items()), discount, sorted(options.items())))
-        if question not in self._found:
-            self._found[question] = self._solve(task, asked, discount, options)
-        return self._found[question]
+        """Returns the ideal experimenter of a task.
 
-    def _solve(self, task, task_kwargs, discount, options) -> "ideal.Solution":
+        Args:
+          task, task_kwargs: as for `suite.load`; the seed is ignored.
+          discount: the agent's gamma, above 0 and at most 1.
+          **options: options of the ideal experimenter, fields of `options`.
+
+        Raises:
+          ValueError: for an unknown task or a value that is not allowed.
+        """
+        asked = {name: value for name, value in task_kwargs.items() if name != "random"}
+        discount = checks.discount("discount", discount)
+        self.options(**options)  # Checks them.
+        question = repr((task, sorted(asked.items()), discount, sorted(options.items())))
+        if question not in self._solutions:
+            self._solutions[question] = self._find(task, asked, discount, options)
+        return self._solutions[question]
+
+    def _find(self, task, task_kwargs, discount, options) -> "ideal.Solution":
         if not task_kwargs.get("reveal"):
-            if task_kwargs.get("step_variation"):
+            if variation := task_kwargs.get("step_variation"):
                 raise ValueError(
-                    f"step_variation is {task_kwargs['step_variation']}; "
-                    "give 0: the ideal experimenter is known where all control steps are alike"
+                    f"step_variation is {variation}; give 0: the ideal experimenter needs control steps of equal length"
                 )
-            return self.solve(task, task_kwargs, discount, **options)
-        if options:
-            name, value = next(iter(options.items()))
-            raise ValueError(
-                f"{name} is {value}; leave it out with reveal: what is revealed is told apart from the start"
-            )
+            return self._solve(task, task_kwargs, discount, **options)
+        for name, value in options.items():
+            raise ValueError(f"{name} is {value}; leave it out with reveal: the answer is known from the start")
         from physexp.analysis.ideal import revealed
 
-        return revealed.Solution(self.domain, task, task_kwargs, discount)
+        return revealed.Solution(self._domain, task, task_kwargs, discount)
 
 
 def nothing(hidden: "np.ndarray") -> "Mapping[str, np.ndarray]":
-    """Returns no columns: those of a domain without columns of its own."""
+    """Returns no columns, for domains that declare none."""
     return {}
+
+
+@functools.cache
+def _discount(domain_name: str) -> float:
+    from physexp import suite
+
+    return suite.load_task(domain_name, suite.TASKS_BY_DOMAIN[domain_name][0]).discount
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Domain:
-    """What the analysis knows of a domain.
+    """Facts about a domain.
 
     Attributes:
       name: the domain's name, as `suite.load` takes it.
-      skill: what it asks of an agent beyond others, in a few words.
-      presets: by task and algorithm, the configuration to train with where nothing else is asked for, but for the
-        discount, which is the domain's. A task or an algorithm that is not there has the algorithm's defaults.
+      skill: the skill that it tests, in a few words.
+      presets: default configurations for training, by task and algorithm. Their discount is replaced by the domain's.
+        Tasks and algorithms without a preset use the algorithm's defaults.
       labels: by task, the short name of a condition, in which `{option}` stands for an option's value.
-      targets: by the names of the agents that come with the package, what each must reach: a figure of its evaluation
-        and the least value.
-      ideal: how to find the ideal experimenter; None where none is known.
-      baselines: by task, experimenters that nobody trained, by name, as functions that make their actors.
-      hidden_columns: returns columns for tables of episodes, by name, [N, ...], of hidden properties, [N, ...].
+      targets: by the names of the agents that come with the package, the least value of a statistic of their
+        evaluation: the statistic's name, and the value.
+      ideal: finds the ideal experimenter; None if none is known.
+      baselines: by task and name, functions that make the actors of hand-written baselines.
+      hidden_columns: returns columns for tables of episodes, by name, [N, ...], from hidden properties, [N, ...].
     """
 
     name: str
@@ -95,50 +115,100 @@ class Domain:
     baselines: "Mapping[str, Mapping[str, Callable[[], core.Actor]]]" = dataclasses.field(default_factory=dict)
     hidden_columns: "Callable[[np.ndarray], Mapping[str, np.ndarray]]" = nothing
 
-    @functools.cached_property
+    @property
     def discount(self) -> float:
-        """Gamma of the returns that are scored, as the domain's tasks have it."""
-        from physexp import suite
-
-        return suite.load_task(self.name, suite.TASKS_BY_DOMAIN[self.name][0]).discount
+        """Gamma of the returns that are scored: that of the domain's tasks."""
+        return _discount(self.name)
 
     def ideal_with(self, task_kwargs: Mapping[str, Any]) -> Ideal | None:
-        """Returns how to find the ideal experimenter of tasks with these options.
+        """Returns `ideal` if it is exact with these options, otherwise None.
 
-        None with noise, variation or step variation, unless the answer is revealed.
+        Noise, variation and step variation make it inexact, unless the answer is revealed.
         """
-        is_alike = not any(task_kwargs.get(name) for name in ("noise", "variation", "step_variation"))
-        return self.ideal if is_alike or task_kwargs.get("reveal") else None
+        is_inexact = any(task_kwargs.get(name) for name in ("noise", "variation", "step_variation"))
+        return None if is_inexact and not task_kwargs.get("reveal") else self.ideal
 
     def label(self, task: str, task_kwargs: Mapping[str, Any]) -> str:
-        """Returns the short name of a task with these options; domain and task where it has no other."""
+        """Returns the short name of a task with these options; by default, its domain and task."""
         try:
             return self.labels[task].format_map(task_kwargs)
         except KeyError:
             return f"{self.name} {task}"
 
 
+def resting_domain(
+    name: str,
+    apparatus: "Callable[[Any], resting.Apparatus]",
+    read: "Callable[[Mapping[str, np.ndarray]], int]",
+    **facts: Any,
+) -> Domain:
+    """Returns a domain whose apparatus rests between interactions, so that its ideal experimenter is exact.
+
+    Args:
+      name: the domain's name.
+      apparatus: returns the apparatus for the task's options.
+      read: returns the reading in an observation of features.
+      **facts: other attributes of `Domain`.
+    """
+
+    def solve(task: str, task_kwargs: Mapping[str, Any], discount: float) -> "resting.Solution":
+        from physexp import suite
+        from physexp.analysis.ideal import resting
+
+        played = suite.load_task(name, task, task_kwargs)
+        return resting.solve(
+            apparatus(played.options),
+            discount,
+            played.rules.step_limit,
+            read=read if "features" in suite.tags(name, task) else None,
+            label=lambda hidden: int(played.answers(hidden[None])[0]),
+        )
+
+    return Domain(name=name, ideal=Ideal(name, solve), **facts)
+
+
+def search_domain(
+    name: str, hypotheses: "Callable[[], tuple[np.ndarray, np.ndarray]]", read_as: str = "features", **facts: Any
+) -> Domain:
+    """Returns a domain with finitely many hidden properties, whose ideal experimenter is found by search.
+
+    Args:
+      name: the domain's name.
+      hypotheses: returns all values of the hidden property, [H, ...], and their probabilities, float64 [H].
+      read_as: as for `hypotheses.Hypotheses`.
+      **facts: other attributes of `Domain`.
+    """
+
+    def solve(task: str, task_kwargs: Mapping[str, Any], discount: float) -> "search.Solution":
+        from physexp.analysis.ideal import hypotheses as hypotheses_lib
+        from physexp.analysis.ideal import search
+
+        known = hypotheses_lib.Hypotheses(name, task, *hypotheses(), task_kwargs, read_as=read_as)
+        return search.solve(known, 0.0, discount)
+
+    return Domain(name=name, ideal=Ideal(name, solve), **facts)
+
+
 def ppo_like(preset: a3c.A3CConfig, **changes) -> ppo.PPOConfig:
-    """Returns a configuration of PPO with the hyperparameters that A3C's has too, and with changes."""
+    """Returns a configuration of PPO with the hyperparameters that it shares with A3C, and with changes."""
     shared = {field.name: getattr(preset, field.name) for field in dataclasses.fields(agent_config.ActorCriticConfig)}
     return ppo.PPOConfig(**{**shared, **changes})
 
 
-# Where readings are bits, rewards tell of the last of several only, so policies must stay broad until those are used:
-# much entropy at first, and many episodes to an update.
+# One bit a reading: the reward depends on several readings together, so the policy must stay broad until it uses them
+# all. Hence much entropy at first, and many episodes in an update.
 A3C_OF_BITS = a3c.A3CConfig(
     frames=3_000_000,
     envs_per_worker=128,
     learning_rate=3e-3,
-    trace=0.95,
+    gae_lambda=0.95,
     entropy_cost=0.2,
     final_entropy_cost=0.002,
     observation_scale=2.0,
 )
 PPO_OF_BITS = ppo_like(A3C_OF_BITS, frames=1_200_000, num_environments=512)
 
-# Such readings make few different images, and only different ones pass the convolutions: the larger an update, the
-# cheaper.
+# Such tasks show few different images, and equal images pass the convolutions once: large updates are cheap.
 A3C_OF_FEW_IMAGES = A3C_OF_BITS.replace(frames=1_500_000, envs_per_worker=64, learning_rate=1e-3, observation_scale=8.0)
 PPO_OF_FEW_IMAGES = ppo_like(A3C_OF_FEW_IMAGES, num_environments=1024)
 

@@ -1,4 +1,4 @@
-"""An experimenter for Towers that nobody trained: cubes whose distance changes are not glued."""
+"""A hand-written baseline for Towers: neighbouring cubes whose distance changes are not glued."""
 
 from collections.abc import Sequence
 import math
@@ -7,17 +7,17 @@ import numpy as np
 
 from physexp.agents import core
 
-# m. Distances of glued cubes change by at most 0.04 um, by rounding to float32; those of other neighbours by more in
-# all but one of 20,000 towers with variation, as soon as they are touched.
+# m. Distances of glued cubes change by at most 0.04 um, by rounding to float32. Distances of other neighbours change by
+# more at the first touch in all but one of 20,000 towers with variation.
 _CHANGE = 1e-7
 _DEVIATIONS = 8  # Standard deviations of the noise that count as no change.
 
 
 class GlueRule(core.EpisodicActor):
-    """Takes neighbours for glued while their distance has not changed.
+    """Takes neighbours for glued until their distance changes.
 
-    It repeats its interactions until a cube has moved. Then it answers with the number of bodies that it has seen; with
-    noise, as soon as a control step has separated no more neighbours. In the last step in time it answers in any case.
+    It repeats its interactions until a cube has moved, then answers with the number of bodies. With noise, it waits
+    until a control step separates no further neighbours. In the last step before the time limit it always answers.
     """
 
     def __init__(
@@ -31,11 +31,11 @@ class GlueRule(core.EpisodicActor):
         """Makes the rule.
 
         Args:
-          interactions: the interactions that it repeats, in turn.
+          interactions: the interactions to repeat, in turn.
           num_interactions: number of interactions of the task.
           noise: standard deviation of readings, m.
-          wait: number of interactions before the answer; by default the rule decides that as above.
-          step_limit: most actions in an episode, the answer included.
+          wait: number of interactions before the answer; by default, as described above.
+          step_limit: maximum number of actions in an episode, including the answer.
         """
         self._wait, self._is_noisy, self._step_limit = wait, noise > 0, step_limit
         self._interactions, self._num_interactions = tuple(interactions), num_interactions

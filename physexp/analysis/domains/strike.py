@@ -1,34 +1,25 @@
-"""What the analysis knows of Strike: its ideal and its columns."""
-
-from collections.abc import Mapping
-from typing import Any
+"""Facts about Strike: presets, its ideal experimenter and its columns."""
 
 from physexp.analysis.domains import base
 
-_NAME = "strike"
 
-
-def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
-    """Returns the ideal experimenter, to whom every difference in what is observed is one."""
+def _hypotheses():
     import numpy as np
 
-    from physexp.analysis.ideal import hypotheses, search
     from physexp.suite.domains import strike
 
-    pucks = np.arange(len(strike.PUCKS))
-    prior = np.full(len(pucks), 1 / len(pucks))
-    known = hypotheses.Hypotheses(_NAME, task, pucks, prior, task_kwargs, read_as="features")
-    return search.solve(known, 0.0, discount)
+    number = len(strike.PUCKS)
+    return np.arange(number), np.full(number, 1 / number)
 
 
-DOMAIN = base.Domain(
-    name=_NAME,
+DOMAIN = base.search_domain(
+    "strike",
+    _hypotheses,
     skill="learn for a goal",
     presets={
         **base.PRESETS_OF_BITS,
         "pixels": {**base.PRESETS_OF_BITS["pixels"], "ppo": base.PPO_OF_FEW_IMAGES.replace(frames=3_000_000)},
     },
     targets={"strike-features": ("mean_return", 0.75), "strike-pixels": ("mean_return", 0.70)},
-    ideal=base.Ideal(_NAME, _solve),
     hidden_columns=lambda hidden: {"puck": hidden},  # An index in `strike.PUCKS`.
 )

@@ -1,4 +1,4 @@
-"""What the analysis knows of Towers: presets, the paper's names of conditions, its ideal, its columns."""
+"""Facts about Towers: presets, the paper's names of conditions, its ideal experimenter and its columns."""
 
 from collections.abc import Mapping
 import dataclasses
@@ -6,6 +6,7 @@ import functools
 import math
 from typing import TYPE_CHECKING, Any
 
+from physexp import checks
 from physexp.agents.a3c import config as a3c
 from physexp.agents.ppo import config as ppo
 from physexp.analysis.domains import base
@@ -16,11 +17,11 @@ if TYPE_CHECKING:
 _NAME = "towers"
 _NUM_LABELS = 5
 
-# Simulation is what a tower costs, not learning: small updates and many of them. Blocks move by their own size.
+# Towers spend their time in simulation, not in learning: many small updates. Blocks move by their own size.
 _FEATURES = a3c.A3CConfig(
     envs_per_worker=32,
     learning_rate=3e-3,
-    trace=0.5,
+    gae_lambda=0.5,
     entropy_cost=0.01,
     final_entropy_cost=0.001,
     observation_scale=10.0,
@@ -29,30 +30,30 @@ _PIXELS = _FEATURES.replace(learning_rate=1e-3, observation_scale=16.0)
 
 
 def _prior(num_interactions: int, label: float) -> tuple[float, ...]:
-    """Returns an action prior that prefers interactions: an answer before the tower was touched can only be a guess."""
+    """Returns initial logits that prefer interactions: before the tower is touched, an answer is a guess."""
     return (0.0,) * num_interactions + (label,) * _NUM_LABELS
 
 
 _DIRECT = _prior(20, -1.0)
 # Only hits teach labels. A fist that moves at random hits the tower ten times in a thousand frames; one that prefers
-# +x, where the tower is, forty times. Until labels are known, what moves seem worth is noise, which carries the fist
-# off unless entropy relative to this preference holds it.
+# +x, where the tower is, forty times. Until labels are learned, the estimated values of moves are noise, and the fist
+# drifts off unless the divergence from this preference is penalized.
 _FIST = (1.0, *_prior(3, -2.0))
 
 _A3C = {
-    "direct_features": _FEATURES.replace(frames=1_000_000, action_prior=_DIRECT),
-    "fist_features": _FEATURES.replace(frames=400_000, action_prior=_FIST, entropy_cost=0.05, relative_entropy=True),
-    "direct_pixels": _PIXELS.replace(frames=400_000, action_prior=_DIRECT),
-    # Small steps, of the values' loss hardly any, keep 3136 inputs from saturating the LSTM before labels are known. A
-    # trace of 0 keeps the luck of answers out of what moves seem worth.
+    "direct_features": _FEATURES.replace(frames=1_000_000, initial_logits=_DIRECT),
+    "fist_features": _FEATURES.replace(frames=400_000, initial_logits=_FIST, entropy_cost=0.05, kl_to_prior=True),
+    "direct_pixels": _PIXELS.replace(frames=400_000, initial_logits=_DIRECT),
+    # Small steps, and a small weight of the value loss, keep 3136 inputs from saturating the LSTM before labels are
+    # learned. A lambda of 0 keeps the luck of answers out of the advantages of moves.
     "fist_pixels": _PIXELS.replace(
         frames=600_000,
-        action_prior=_FIST,
+        initial_logits=_FIST,
         learning_rate=3e-4,
-        trace=0.0,
+        gae_lambda=0.0,
         baseline_cost=0.05,
         entropy_cost=0.1,
-        relative_entropy=True,
+        kl_to_prior=True,
     ),
 }
 
@@ -67,9 +68,9 @@ def _ppo(task: str, learning_rate: float, entropy_cost: float) -> ppo.PPOConfig:
     )
 
 
-# Never to answer a tower is worth as much as to answer at random. Several steps on one round get there before anything
-# has been learned, unless the entropy holds them back: more of it for the fist, whose hits are rare at first. It counts
-# beside advantages that are standardized, which A3C's are not. From pixels only small steps learn.
+# Never to answer is worth as much as to answer at random. Several updates on one batch end there before anything is
+# learned, unless enough entropy prevents it: more for the fist, whose hits are rare at first. Entropy costs are larger
+# than A3C's because PPO standardizes advantages. From pixels only small steps learn.
 _PPO = {
     "direct_features": _ppo("direct_features", 1e-3, 0.05),
     "direct_pixels": _ppo("direct_pixels", 1e-4, 0.05),
@@ -80,14 +81,17 @@ _PPO = {
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class IdealOptions:
-    """Options of the ideal experimenter, which knows the physics.
+    """Options of the ideal experimenter, which knows the physics."""
 
-    Attributes:
-      resolution: the smallest difference that can be observed: in metres for features, in differing pixels for images;
-        at 0 every bit counts.
-    """
+    resolution: float = checks.checked(
+        0.0,
+        checks.at_least(0, "m, or pixels"),
+        help="smallest difference that it can observe: in m for features, in differing pixels for images; 0 for every "
+        "bit",
+    )
 
-    resolution: float = 0.0
+    def __post_init__(self) -> None:
+        checks.check_fields(self)
 
 
 def hypotheses(task: str, task_kwargs: Mapping[str, Any] | None = None, nuisances=None):
@@ -102,10 +106,10 @@ def hypotheses(task: str, task_kwargs: Mapping[str, Any] | None = None, nuisance
 
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolution: float = IdealOptions.resolution):
-    """Returns the ideal experimenter, an observer of some resolution.
+    """Returns the ideal experimenter with some resolution.
 
-    With noise or variation, the value is that of a rule, and the bound that of experimenters of this resolution that
-    know everything in which an episode differs except the glue, and read without noise.
+    With noise or variation, the lower bound is the value of a rule, and the upper bound that of an experimenter with
+    this resolution that reads without noise and knows all random parameters of an episode except the glue.
     """
     from physexp import suite
     from physexp.analysis.ideal import bounds, search
@@ -114,18 +118,18 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolu
         return search.solve(hypotheses(task, task_kwargs), resolution, discount, tolerance=_TOLERANCES.get(task))
     if task not in _RULES:
         raise ValueError(f"task is {task!r}; with noise or variation, choose from {', '.join(_RULES)}")
-    told = {name: value for name, value in task_kwargs.items() if name != "noise"}
+    noiseless = {name: value for name, value in task_kwargs.items() if name != "noise"}
     upper = [
-        search.solve(hypotheses(task, told, nuisances), resolution, discount)
-        for nuisances in _drawn_nuisances(task, told)
+        search.solve(hypotheses(task, noiseless, nuisances), resolution, discount)
+        for nuisances in _drawn_nuisances(task, noiseless)
     ]
-    step_limit = suite.load_task(_NAME, task, dict(task_kwargs)).rules.step_limit
+    step_limit = suite.load_task(_NAME, task, task_kwargs).rules.step_limit
     play = functools.partial(rule, task, task_kwargs.get("noise") or 0.0, step_limit=step_limit)
     return bounds.Solution(_NAME, task, task_kwargs, discount, play, lambda: [each.bound for each in upper])
 
 
 def _drawn_nuisances(task: str, task_kwargs: Mapping[str, Any]):
-    """Returns the circumstances of episodes of `bounds`, [_NUM_NUISANCES, number of them]; [None] without variation."""
+    """Returns the random variation in episodes of `bounds`, [_NUM_NUISANCES, number of values]; [None] without any."""
     import numpy as np
 
     from physexp import suite
@@ -134,16 +138,16 @@ def _drawn_nuisances(task: str, task_kwargs: Mapping[str, Any]):
 
     if not task_kwargs.get("variation"):
         return [None]
-    count = suite.load_task(_NAME, task, dict(task_kwargs)).num_nuisances
+    count = suite.load_task(_NAME, task, task_kwargs).num_nuisances
     seeds = np.array([suite.environment_seed(bounds.SEED, number) for number in range(_NUM_NUISANCES)])
     return task_kwargs["variation"] * seeding.variations(seeds, np.zeros_like(seeds), count)
 
 
 _NUM_NUISANCES = 16
-# m and m/s: a fist that wanders may stand at any of countless places, so when actions are judged, one search stands for
-# all situations that differ by less than half of the fist's move in a control step.
+# m and m/s. A moving fist can stand in countless places. Judging actions, one search serves all states that differ by
+# less than half of the fist's move in a control step.
 _TOLERANCES = dict.fromkeys(("fist_features", "fist_pixels"), 0.05)
-_COARSE = 0.001  # m, the resolution of an observer that is compared with the ideal one.
+_COARSE = 0.001  # m, the resolution of the baseline `lookup`.
 _RULES = {
     "direct_features": (4, 14),  # Push cube 1 to +x, and cube 3 to +y.
     "fist_features": (0,),  # Move the fist to +x, where the tower is.
@@ -158,27 +162,15 @@ def rule(task: str, noise: float = 0.0, wait: int | None = None, step_limit: flo
 
 
 @functools.cache
-def _num_interactions(task: str) -> int:
-    """Returns the number of interactions of a task, which takes longer to load than an episode of a rule."""
+def _num_interactions(task: str) -> int:  # Cached, since loading a task takes longer than playing an episode.
     from physexp import suite
 
     return suite.load_task(_NAME, task).num_interactions
 
 
-@functools.cache
-def _seen(task: str):
-    """Returns the best policy of an observer of 1 mm, in a task without variation."""
-    return _solve(task, {}, DOMAIN.discount, resolution=_COARSE)
-
-
 def _lookup(task: str) -> "core.Actor":
-    """Returns an actor that plays that policy, and takes each tower for the nearest of the 16."""
-    return _seen(task).actor()
-
-
-_BASELINES = {
-    task: {"rule": functools.partial(rule, task), "lookup": functools.partial(_lookup, task)} for task in _RULES
-}
+    """Returns an actor with a resolution of 1 mm, which takes each tower for the nearest of the 16 usual ones."""
+    return DOMAIN.ideal(task, {}, DOMAIN.discount, resolution=_COARSE).actor()
 
 
 DOMAIN = base.Domain(
@@ -193,6 +185,8 @@ DOMAIN = base.Domain(
         "towers-fist_pixels": ("mean_return", 0.93),
     },
     ideal=base.Ideal(_NAME, _solve, IdealOptions),
-    baselines=_BASELINES,
+    baselines={
+        task: {"rule": functools.partial(rule, task), "lookup": functools.partial(_lookup, task)} for task in _RULES
+    },
     hidden_columns=lambda hidden: {"pattern": hidden},  # An index in `tower.PATTERNS`.
 )

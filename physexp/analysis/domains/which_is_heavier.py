@@ -1,63 +1,64 @@
-"""What the analysis knows of Which is Heavier: presets, the paper's names of conditions, its ideal, its columns."""
+"""Facts about Which is Heavier: presets, the paper's names of conditions, its ideal experimenter, its columns."""
 
 from collections.abc import Mapping
 import dataclasses
 import functools
 from typing import Any
 
+from physexp import checks
 from physexp.agents.a3c import config as a3c
 from physexp.analysis.domains import base
 
 _NAME = "which_is_heavier"
+_MOST_BLOCKS = 20  # The grids of the ideal experimenter grow with their number.
 
-_FEATURES = a3c.A3CConfig(envs_per_worker=128, trace=0.98, observation_scale=80.0)
-# Every frame passes the convolutions, which is what pixels cost: small updates, and no frame more than is needed.
-_PIXELS = a3c.A3CConfig(frames=500_000, envs_per_worker=64, learning_rate=1e-3, trace=0.9, observation_scale=8.0)
+_FEATURES = a3c.A3CConfig(envs_per_worker=128, gae_lambda=0.98, observation_scale=80.0)
+# Every frame passes the convolutions, which makes frames expensive: few of them, in small updates.
+_PIXELS = a3c.A3CConfig(frames=500_000, envs_per_worker=64, learning_rate=1e-3, gae_lambda=0.9, observation_scale=8.0)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class IdealOptions:
-    """What can be chosen of the ideal experimenter, to whom one poke reveals a mass exactly.
+    """Options of the ideal experimenter, to which one poke reveals a mass exactly."""
 
-    Attributes:
-      blocks: how many blocks; by default the task's.
-    """
+    blocks: int | None = checks.checked(
+        None, checks.optional(checks.whole(2, _MOST_BLOCKS)), help="number of blocks, 2 to 20; by default the task's"
+    )
 
-    blocks: int | None = None
+    def __post_init__(self) -> None:
+        checks.check_fields(self)
 
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks: int | None = None):
     """Returns the ideal experimenter; with another number of blocks than the task's it cannot play.
 
-    With noise it is a policy that counts with it; with variation, the ideal one without, which takes all readings for
-    those of a usual episode. Nobody earns more than where there is neither, since the force of all pokes, once known,
-    tells each mass exactly.
+    With noise, it is a policy that takes the noise into account. With variation, it is the policy without variation,
+    which reads all heights as if the force were the usual one. The upper bound is the value without noise and
+    variation: once the force of all pokes is known, each poke tells a mass exactly.
     """
-    from physexp import checks, suite
+    from physexp import suite
     from physexp.analysis.ideal import bounds, calibration, noisy, odd_one_out
     from physexp.suite.domains import which_is_heavier
 
     if not bounds.is_certain(task_kwargs):
         if blocks is not None:
-            raise ValueError(
-                f"blocks is {blocks}; give none where there is noise or variation, since it has to be played"
-            )
+            raise ValueError(f"blocks is {blocks}; leave it out with noise or variation: the policy has to be played")
         usual = _solve(task, bounds.made_certain(task_kwargs), discount)
         make_actor = usual.actor
         if not task_kwargs.get("variation"):
             make_actor = noisy.players(usual, _NAME, task, "heights", task_kwargs)
         return bounds.Solution(_NAME, task, task_kwargs, discount, make_actor, lambda: [usual.value])
-    played = suite.load_task(_NAME, task, dict(task_kwargs))
+    played = suite.load_task(_NAME, task, task_kwargs)
     prior = which_is_heavier.prior(played.options.difficulty)
     if blocks is not None:
-        prior = dataclasses.replace(prior, num_things=checks.integer("blocks", blocks, 2, odd_one_out.MOST_THINGS))
+        prior = dataclasses.replace(prior, num_things=blocks)
     can_read = "features" in suite.tags(_NAME, task) and blocks is None
-    find_read = functools.partial(calibration.calibrate, _NAME, task, "heights", dict(task_kwargs))
-    return odd_one_out.solve(prior, discount, played.rules.step_limit, find_read if can_read else None)
+    find_read = functools.partial(calibration.calibrate, _NAME, task, "heights", task_kwargs)
+    return odd_one_out.Solution(prior, discount, played.rules.step_limit, find_read if can_read else None)
 
 
 def _hidden_columns(hidden):
-    """Returns masses, on the paper's scale, and by how much the heaviest block is heavier than the second."""
+    """Returns the masses, on the paper's scale, and the difference between the two largest."""
     from physexp.suite.domains import which_is_heavier
 
     return {"masses": hidden, "mass_gap": which_is_heavier.mass_gaps(hidden)}

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from physexp import checks, suite
+from physexp import suite
 from physexp.agents import core
 from physexp.analysis.ideal import base, rollouts
 
@@ -56,7 +56,7 @@ class Solution:
         """
         suite.load_task(domain, task, dict(task_kwargs))  # Refuses now what could not be played later.
         self._played = (domain, task, dict(task_kwargs))
-        self.discount = checks.discount("discount", discount)
+        self.discount = discount
         self._make_actor = make_actor
         self._find_bounds = find_bounds
 

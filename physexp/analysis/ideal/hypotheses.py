@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from physexp import suite
-from physexp.suite.engine import batch, declarations
-from physexp.suite.engine import task as task_lib
+from physexp.suite.engine import contract, declarations, snapshots
 
 _NUM_THREADS = 2  # That simulate.
 
@@ -20,7 +19,7 @@ class Hypotheses:
     Physics is deterministic: a hypothesis and a sequence of actions make one trajectory.
 
     Attributes:
-      task: what is played, a `QuestionTask`.
+      task: the task that is played.
       hidden: the hypotheses: all values that the hidden property can have, [H, ...].
       prior: their probabilities, float64 [H].
       answers: the right label of each, int64 [H].
@@ -59,13 +58,13 @@ class Hypotheses:
         self._nuisances = nuisances
 
     @functools.cached_property
-    def start(self) -> batch.Moment:
+    def start(self) -> snapshots.Snapshot:
         """Where the hypotheses stand before the first action."""
         return self._moment(range(len(self.hidden)))
 
     def step(
-        self, moment: batch.Moment, members: Sequence[int], actions: Sequence[int]
-    ) -> list[tuple[np.ndarray, batch.Moment]]:
+        self, moment: snapshots.Snapshot, members: Sequence[int], actions: Sequence[int]
+    ) -> list[tuple[np.ndarray, snapshots.Snapshot]]:
         """Tries interactions, each from the same moment.
 
         Args:
@@ -86,12 +85,12 @@ class Hypotheses:
             found.append((apart, self._moment(members, number)))
         return found
 
-    def _moment(self, members: Sequence[int], copy: int = 0) -> batch.Moment:
+    def _moment(self, members: Sequence[int], copy: int = 0) -> snapshots.Snapshot:
         """Returns where hypotheses stand in one of their simulations."""
-        saved = self._reading.save(copy * len(self.hidden) + np.asarray(members))
+        saved = snapshots.take(self._reading, copy * len(self.hidden) + np.asarray(members))
         return dataclasses.replace(saved, environments=np.asarray(members))
 
-    def observe(self, moment: batch.Moment, members: Sequence[int], action: int) -> Mapping[str, np.ndarray]:
+    def observe(self, moment: snapshots.Snapshot, members: Sequence[int], action: int) -> Mapping[str, np.ndarray]:
         """Returns what is observed after an interaction, arrays with a leading axis [n]; arguments as for `step`."""
         return self._step(self._observing, dataclasses.replace(moment, observed={}), members, [action])
 
@@ -99,7 +98,7 @@ class Hypotheses:
         """Returns what is observed after each of the actions, arrays with a leading axis [number of them * n]."""
         size = len(self.hidden)
         # However long an episode was, its time does not run out here.
-        environments.restore(moment.at_step(0).repeated(len(actions), size))
+        snapshots.restore(environments, moment.with_step_count(0).repeated(len(actions), size))
         acting = (size * np.arange(len(actions))[:, None] + np.asarray(members)).ravel()
         timestep = environments.step(np.repeat(actions, len(members)), acting)
         self.steps += len(acting)
@@ -120,7 +119,7 @@ class Hypotheses:
     def _observing(self) -> suite.BatchEnvironment:
         return self._reading if self._read is self.task else self._begun(self.task)
 
-    def _begun(self, task: task_lib.QuestionTask) -> suite.BatchEnvironment:
+    def _begun(self, task: contract.Task) -> suite.BatchEnvironment:
         """Returns environments in which each hypothesis is true once for each interaction."""
         hidden = np.concatenate([self.hidden] * task.num_interactions)
         environments = suite.BatchEnvironment(task, len(hidden), _NUM_THREADS)

@@ -15,7 +15,6 @@ import numpy as np
 from scipy import interpolate, special
 from scipy.stats import qmc
 
-from physexp import checks
 from physexp.agents import core
 from physexp.analysis.ideal import base
 from physexp.suite.engine import priors, rules
@@ -24,8 +23,7 @@ _LARGEST_NODES, _RATIO_NODES = 400, 33
 _QUADRATURE_NODES = 48  # Per half of each density; many more where there is only one state to integrate from.
 _EPISODES = 2**17  # Of the histogram; drawn evenly (Sobol), so that its error is far below 0.001.
 _NEGLIGIBLE = 1e-9  # Of a return.
-MOST_THINGS = 20
-_EASIEST = 1e6
+_EASIEST = 1e6  # The largest difficulty for which the grid is exact enough.
 
 Read = Callable[[Mapping[str, np.ndarray], int], float]
 """Reads the value of the thing that an interaction has touched from the observation after it."""
@@ -93,6 +91,10 @@ class Solution:
     discount: float
     step_limit: float = math.inf
     find_read: Callable[[], Read] | None = dataclasses.field(default=None, compare=False)
+
+    def __post_init__(self):
+        if self.prior.difficulty > _EASIEST:
+            raise ValueError(f"difficulty is {self.prior.difficulty}; give a number from 1 to {_EASIEST:g}")
 
     @property
     def value(self) -> float:
@@ -257,29 +259,6 @@ def _evenly_drawn_episodes(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
     """Returns touches and success, as `Solution.play` does, of episodes whose values are spread evenly."""
     draws = qmc.Sobol(solution.prior.num_things + 1, rng=0).random(_EPISODES).clip(1e-12, 1 - 1e-12)
     return solution.play(solution.prior.from_uniforms(draws))
-
-
-def solve(
-    prior: priors.OddOneOut,
-    discount: float,
-    step_limit: float = math.inf,
-    find_read: Callable[[], Read] | None = None,
-) -> Solution:
-    """Returns the best policy; its value is found to better than 0.0001.
-
-    Args:
-      prior: of 2 to 20 things, with a difficulty in [1, 1e6].
-      discount: the agent's gamma, above 0 and at most 1.
-      step_limit, find_read: as in `Solution`.
-
-    Raises:
-      ValueError: for a value that makes no sense.
-    """
-    difficulty = prior.difficulty
-    if not (isinstance(difficulty, (int, float)) and 1 <= difficulty <= _EASIEST):
-        raise ValueError(f"difficulty is {difficulty!r}; give a number in [1, {_EASIEST:g}] (the paper's beta)")
-    checks.integer("num_things", prior.num_things, 2, MOST_THINGS)
-    return Solution(prior, checks.discount("discount", discount), step_limit, find_read)
 
 
 @functools.lru_cache(maxsize=512)

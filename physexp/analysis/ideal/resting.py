@@ -12,12 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from physexp import checks, suite
 from physexp.agents import core
 from physexp.analysis.ideal import base
 from physexp.suite.engine import rules
 
-_MOST_STEPS = 100_000
 _TIE = 1e-12  # Returns that differ by less are equal: the shorter way is taken.
 
 State = tuple[int, Hashable]
@@ -283,26 +281,29 @@ class _Player(core.EpisodicActor):
         self._step += 1
 
 
-def solve(apparatus: Apparatus, discount: float, step_limit: int) -> Solution:
+def solve(
+    apparatus: Apparatus,
+    discount: float,
+    step_limit: int,
+    read: Callable[[Mapping[str, np.ndarray]], int] | None = None,
+    label: Callable[[np.ndarray], int] | None = None,
+) -> Solution:
     """Finds the best policy, exactly.
 
-    An answer after n interactions earns discount^n, times -1 where it is wrong, and so does silence at the last step.
+    An answer after n interactions earns discount^n, times -1 if it is wrong; no answer earns discount^(step_limit - 1)
+    times -1.
 
     Args:
-      apparatus: what is experimented with.
-      discount: the agent's gamma, above 0 and at most 1.
-      step_limit: steps in an unanswered episode, from 1 to 100 000.
-
-    Raises:
-      ValueError: for a value that makes no sense.
+      apparatus: the apparatus.
+      discount: the agent's gamma.
+      step_limit: number of steps in an unanswered episode.
+      read, label: as in `Solution`.
     """
-    discount = checks.discount("discount", discount)
-    steps = checks.integer("step_limit", step_limit, 1, _MOST_STEPS)
     states = _States(apparatus)
     answers = apparatus.num_interactions + states.label
-    policy, worth = [answers], [states.answer]  # At the last step nothing is worth more than an answer.
+    policy, worth = [answers], [states.answer]  # In the last step an answer is best.
     best, at_random, length = states.answer, states.answer, np.zeros(len(answers))
-    for _ in range(steps - 1):
+    for _ in range(step_limit - 1):
         before = best, at_random, length
         values = discount * states.after(best)
         most = values.max(axis=1)
@@ -314,32 +315,6 @@ def solve(apparatus: Apparatus, discount: float, step_limit: int) -> Solution:
         worth.append(best)
         at_random = np.maximum(states.answer, discount * states.after(at_random).mean(axis=1))
         if all(np.array_equal(*pair) for pair in zip(before, (best, at_random, length), strict=True)):
-            break  # Nor does it change with more steps.
-    return Solution(apparatus, discount, steps, float(best[0]), float(at_random[0]), states, policy, worth)
-
-
-def of_task(
-    domain: str,
-    task: str,
-    task_kwargs: Mapping[str, Any],
-    discount: float,
-    apparatus: Callable[[Any], Apparatus],
-    read: Callable[[Mapping[str, np.ndarray]], int],
-) -> Solution:
-    """Returns the best policy of a task; it plays from features.
-
-    Args:
-      domain, task, task_kwargs: as for `suite.load`.
-      discount: the agent's gamma, above 0 and at most 1.
-      apparatus: returns what is experimented with, of the task's options.
-      read: returns the reading of an observation of features.
-
-    Raises:
-      ValueError: for a value that makes no sense.
-    """
-    played = suite.load_task(domain, task, dict(task_kwargs))
-    return dataclasses.replace(
-        solve(apparatus(played.options), discount, played.rules.step_limit),
-        read=read if "features" in suite.tags(domain, task) else None,
-        label=lambda hidden: int(played.answers(hidden[None])[0]),
-    )
+            break  # More steps change nothing.
+    value, random_value = float(best[0]), float(at_random[0])
+    return Solution(apparatus, discount, step_limit, value, random_value, states, policy, worth, read, label)

@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from physexp import checks, suite
+from physexp import suite
 from physexp.agents import core
 from physexp.analysis.ideal import base
 from physexp.suite.engine import rules
-from physexp.suite.engine import task as task_lib
+from physexp.suite.engine import observing
 
 
 class Solution:
@@ -23,7 +23,7 @@ class Solution:
         Raises:
           ValueError: for a value that makes no sense.
         """
-        self.discount = checks.discount("discount", discount)
+        self.discount = discount
         self._task = suite.load_task(domain, task, dict(task_kwargs))
 
     def actor(self) -> core.Actor:
@@ -65,7 +65,7 @@ class _Player(core.EpisodicActor):
         """Does nothing: each observation tells all."""
 
     def _choose(self, observation) -> int:
-        return self._num_interactions + int(observation[task_lib.ANSWER].argmax())
+        return self._num_interactions + int(observation[observing.ANSWER].argmax())
 
     def _note(self, action, next_timestep):
         """Does nothing: each observation tells all."""

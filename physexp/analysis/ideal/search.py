@@ -7,7 +7,6 @@ found by search over sequences of actions, with a lower and an upper bound: wher
 from collections.abc import Sequence
 import dataclasses
 import functools
-import math
 from typing import Any
 
 import numpy as np
@@ -237,14 +236,6 @@ def solve(
     Raises:
       ValueError: for a value that makes no sense.
     """
-    if not (isinstance(resolution, (int, float)) and 0 <= resolution < math.inf):
-        raise ValueError(f"resolution is {resolution!r}; give a finite number >= 0 (m, or pixels)")
-    checks.discount("discount", discount)
-    for name, limit in (("max_depth", max_depth), ("max_steps", max_steps)):
-        if not isinstance(limit, int) or limit < 1:
-            raise ValueError(f"{name} is {limit!r}; give an integer >= 1")
-    if objective not in OBJECTIVES:
-        raise ValueError(f"objective is {objective!r}; choose from {', '.join(OBJECTIVES)}")
     return Solution(hypotheses, resolution, discount, objective, max_depth, max_steps, tolerance)
 
 

@@ -11,7 +11,7 @@ import itertools
 import numpy as np
 
 from physexp.analysis.ideal import hypotheses as hypotheses_lib
-from physexp.suite.engine import batch
+from physexp.suite.engine import snapshots
 
 Group = tuple[int, ...]  # Hypotheses that cannot be told apart, in increasing order.
 Parts = list[tuple[float, Group]]  # What a group splits into: probabilities, given the group, and groups.
@@ -67,7 +67,7 @@ class Situation:
       like: the situation that stands for it in searches: itself, or one that is the same within the tolerance.
     """
 
-    moment: batch.Moment
+    moment: snapshots.Snapshot
     groups: tuple[Group, ...]
     linked: np.ndarray
     after: "dict[int, tuple[dict[Group, Parts], Situation]]" = dataclasses.field(default_factory=dict)
@@ -158,7 +158,7 @@ class Situations:
             situation.after[action] = self._following(situation, members, apart, moment)
 
     def _following(
-        self, situation: Situation, members: list[int], apart: np.ndarray, moment: batch.Moment
+        self, situation: Situation, members: list[int], apart: np.ndarray, moment: snapshots.Snapshot
     ) -> tuple[dict[Group, Parts], Situation]:
         """Returns the parts into which an action splits the groups of a situation, and the situation that follows.
 

@@ -22,7 +22,7 @@ def posterior(masses, difficulty):
 
 
 def solve(difficulty, discount, blocks=4, step_limit=math.inf):
-    return odd_one_out.solve(priors.OddOneOut(blocks, difficulty), discount, step_limit)
+    return odd_one_out.Solution(priors.OddOneOut(blocks, difficulty), discount, step_limit)
 
 
 def draw(generator, count, difficulty, blocks=4):
