@@ -215,5 +215,5 @@ class WorkerError(AgentError):
     """A worker has died."""
 
 
-class DamagedError(Exception):
-    """A checkpoint has changed since it was written."""
+class DamagedError(ValueError):
+    """A file has changed since it was written."""

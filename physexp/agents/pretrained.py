@@ -1,11 +1,7 @@
-"""Trained agents that come with the package: weights in half precision, and a card with their provenance."""
+"""Trained agents that come with the package: one file each, with the weights in half precision and a model card."""
 
-from collections.abc import Mapping, Sequence
-import contextlib
+from collections.abc import Mapping
 import dataclasses
-import hashlib
-import json
-import os
 from pathlib import Path
 from typing import Any
 
@@ -14,16 +10,12 @@ import numpy as np
 import torch
 
 from physexp import checks
-from physexp.agents import acting, checkpointing, config, files, guests, networks, registry
+from physexp.agents import acting, config, core, files, guests, networks, registry
+from physexp.agents import tensors as tensors_lib
 
 FOLDER = Path(__file__).with_name("pretrained_agents")
 """The best agent of each task; those of other learners are in a folder of the learner's name."""
 _KINDS = {kind.__name__: kind for kind in registry.NETWORKS.values()}
-_WAITING = ".next.safetensors"  # Weights of a card that is about to be written, or has just been.
-
-
-class _MissingError(ValueError):
-    """There is no such agent."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -45,208 +37,132 @@ class Pretrained:
 
 
 def name(domain: str, task: str, options: Mapping[str, Any]) -> str:
-    """Returns the name of an agent's files: domain, task, and each option that was chosen for the task."""
+    """Returns the name of an agent's file: domain, task, and each option that was chosen for the task."""
     chosen = sorted((option, value) for option, value in options.items() if value is not None)
     return "-".join([domain, task, *(f"{option}{config.shown(value)}" for option, value in chosen)])
 
 
 def names(folder: Path = FOLDER) -> list[str]:
     """Returns the names of the agents in a folder and in the folders of learners in it, as `a3c/towers-fist_pixels`."""
-    cards = [*folder.glob("*.json"), *folder.glob("*/*.json")]
-    return sorted(card.relative_to(folder).with_suffix("").as_posix() for card in cards)
+    paths = [*folder.glob("*.safetensors"), *folder.glob("*/*.safetensors")]
+    return sorted(path.relative_to(folder).with_suffix("").as_posix() for path in paths)
 
 
 def load(
-    domain: str, task: str, *values: Any, agent: str | None = None, folder: str | Path = FOLDER, **options: Any
+    domain: str, task: str, *, agent: str | None = None, folder: str | Path = FOLDER, **options: Any
 ) -> Pretrained:
     """Loads a trained agent.
 
     Args:
       domain, task: what it plays.
-      values: of the options that the task had in training, in the order of the agents' names.
       agent: the learner that trained it, as `a3c`; None for the best agent.
       folder: where the agents are.
-      options: the same as `values` by name. By default those of the agent whose card says that it is the task's
-        default.
+      options: the options that the task had in training. By default those of the only agent of the task, or of the one
+        whose card says that it is the task's default.
 
     Raises:
-      OSError: if its files cannot be read.
-      ValueError: where there is no such agent, and it lists those that there are; or if its files are damaged.
+      OSError: if its file cannot be read.
+      ValueError: if there is no such agent; it lists the agents that there are. Also if the file is damaged.
     """
     folder = Path(folder).expanduser()
-    for what, value in (("domain", domain), ("task", task), ("agent", agent)):
-        if not isinstance(value, str) and (what, value) != ("agent", None):
-            raise ValueError(f"{what} is {value!r}; give a name")
-    if agent is not None:
-        return _load_of(agent, domain, task, values, folder, options)
-    positions = options_of(domain, task, folder) if values else []
-    given = dict(zip(positions, values, strict=False))
-    if twice := sorted({*given} & {*options}):
-        raise ValueError(f"{twice[0]} is given twice, {given[twice[0]]!r} and {options[twice[0]]!r}; give it once")
-    given |= options
-    if len(values) > len(positions) and any(value is not None for value in values[len(positions) :]):
-        raise _MissingError(
-            f"no trained agent of {domain}/{task} has options {', '.join(map(repr, values))}; there are: "
-            f"{', '.join(names(folder)) or 'none'}"
-        )
-    wanted = name(domain, task, given)
-    if wanted == name(domain, task, {}) and wanted not in names(folder):
-        wanted = _default(domain, task, folder) or wanted
-    return load_named(wanted, folder)
+    wanted = name(domain, task, options)
+    for place in (folder,) if agent is None else (folder / agent, folder):
+        stem = wanted
+        if wanted == name(domain, task, {}) and wanted not in names(place):
+            cards = _cards(domain, task, place)
+            stem = next((each for each, card in cards.items() if len(cards) == 1 or card.get("default")), wanted)
+        if stem in names(place) and agent in (None, card_named(stem, place)["agent"]["algorithm"]):
+            return load_named(stem, place)
+    learner = "" if agent is None else f" of {agent}"
+    raise ValueError(f"no trained agent{learner} is named {wanted}; there are: {', '.join(names(folder)) or 'none'}")
 
 
-def _load_of(
-    learner: str, domain: str, task: str, values: Sequence[Any], folder: Path, options: Mapping[str, Any]
-) -> Pretrained:
-    """Loads the agent of a learner: from the learner's folder, or the best one, if that is the learner's."""
-    for each in (folder / learner, folder):
-        with contextlib.suppress(_MissingError):
-            found = load(domain, task, *values, folder=each, **options)
-            if found.card["agent"]["algorithm"] == learner:
-                return found
-    raise _MissingError(
-        f"no trained agent of {domain}/{task} with these options is {learner}'s; there are: "
-        f"{', '.join(names(folder)) or 'none'}"
-    )
+def options_of(domain: str, task: str, folder: Path = FOLDER) -> set[str]:
+    """Returns the names of the options in which the agents of a task differ."""
+    return {option for card in _cards(domain, task, folder).values() for option in card["task_kwargs"]}
 
 
-def options_of(domain: str, task: str, folder: Path = FOLDER) -> list[str]:
-    """Returns the names of the options that tell the agents of a task apart, in the order of the agents' names."""
-    return sorted({option for card in _with_options(domain, task, folder).values() for option in card["task_kwargs"]})
-
-
-def _with_options(domain: str, task: str, folder: Path) -> dict[str, dict[str, Any]]:
-    """Returns the cards, by name, of the agents of a task for which options were chosen; raises as `load`."""
+def _cards(domain: str, task: str, folder: Path) -> dict[str, dict[str, Any]]:
+    """Returns the cards of a task's agents for which options were chosen, by name."""
     prefix = f"{name(domain, task, {})}-"
     return {stem: card_named(stem, folder) for stem in names(folder) if stem.startswith(prefix)}
 
 
-def _default(domain: str, task: str, folder: Path) -> str | None:
-    """Returns the agent to take where no option is given: the only one, or the one whose card says so."""
-    cards = _with_options(domain, task, folder)
-    return next((stem for stem, card in cards.items() if len(cards) == 1 or card.get("default") is True), None)
-
-
 def card_named(stem: str, folder: Path = FOLDER) -> dict[str, Any]:
-    """Reads the card of the agent whose files have this name, not its network; raises as `load`."""
-    return _read_card(_path(stem, folder))
+    """Returns the card of the agent whose file has this name, without reading its weights; raises as `load`."""
+    return tensors_lib.read_facts(folder / f"{stem}.safetensors")
 
 
 def load_named(stem: str, folder: Path = FOLDER) -> Pretrained:
-    """Loads the trained agent whose files have this name; raises as `load`."""
-    path = _path(stem, folder)
-    card = _read_card(path)
-    with _explained(path), torch.device("meta"):  # Nothing is made that its weights do not fit.
-        like = _network(card["network"]).state_dict()
+    """Loads the agent whose file has this name; raises as `load`."""
+    return load_file(folder / f"{stem}.safetensors")
+
+
+def load_file(path: Path) -> Pretrained:
+    """Loads the agent in a file; raises as `load`."""
+    weights, card = tensors_lib.read(path)
     try:
-        weights = _read_weights(path, card, like)
-    except ValueError:
-        if files.read_json(path) == card:
-            raise
-        return load_named(stem, folder)  # Another has just been written.
-    network = _network(card["network"])
-    network.load_state_dict(weights)
+        with torch.device("meta"):  # Memory is taken only for a network of the size of these weights.
+            like = _make(card["network"]).state_dict()
+        frozen = card["network"].get("frozen", {"seed": 0, "names": []})
+        tensors_lib.check(weights, {each: value for each, value in like.items() if each not in frozen["names"]})
+        network = halve(_make(card["network"], frozen["seed"]))
+        network.load_state_dict(weights, strict=False)
+        if frozen["names"] and _digest(network, frozen["names"]) != frozen["sha256"]:
+            raise ValueError(f"torch {torch.__version__} draws other convolutions from seed {frozen['seed']}")
+    except (KeyError, TypeError, ValueError, AttributeError, RuntimeError, ArithmeticError) as error:
+        what = f"its card lacks {error}" if isinstance(error, KeyError) else files.reason(error)
+        raise core.DamagedError(f"{path} holds no agent of this version ({what}); publish the agent again") from None
     return Pretrained(network.eval(), card)
 
 
-def _path(stem: str, folder: Path) -> Path:
-    """Returns the path of a card."""
-    if stem not in names(folder):
-        raise _MissingError(f"no trained agent is named {stem}; there are: {', '.join(names(folder)) or 'none'}")
-    path = folder / f"{stem}.json"
-    return path.resolve() if folder.is_relative_to(FOLDER) else path  # Some installers put links in place of files.
-
-
-@contextlib.contextmanager
-def _explained(path: Path):
-    """Returns a context in which it is told in one line that a card is not what was written."""
-    try:
-        yield
-    except (KeyError, TypeError, ValueError, AttributeError, RuntimeError, ArithmeticError) as error:
-        what = "lacks " + str(error) if isinstance(error, KeyError) else " ".join(str(error).split())[:200]
-        raise ValueError(f"{path} is not what was written: {what}; publish the agent again") from None
-
-
-def _read_card(path: Path) -> dict[str, Any]:
-    """Reads a card; refuses one that was changed since it was written, or belongs to another agent."""
-    card = files.read_json(path)
-    with _explained(path):
-        if card["card_sha256"] != checkpointing.json_digest({**card, "card_sha256": None}):
-            raise ValueError("its checksum differs")
-        if (found := name(card["domain"], card["task"], card["task_kwargs"])) != path.stem:
-            raise ValueError(f"it is of {found}")
-    return card
-
-
-@guests.own_torch()
-def _network(facts: dict[str, Any]) -> networks.RecurrentNetwork:
-    """Returns the network that the facts on a card describe, with some weights."""
+def _make(facts: Mapping[str, Any], seed: int = 0) -> networks.RecurrentNetwork:
+    """Returns the network that the facts on a card describe, with weights drawn from a seed."""
     observation_spec = {
         key: specs.Array(tuple(shape), np.dtype(dtype), key) for key, (shape, dtype) in facts["observations"].items()
     }
     for key, value in facts["hyperparameters"].items():
         if not checks.is_number(value) and not isinstance(value, str):
             raise ValueError(f"{key} is {value!r}")
-    return _KINDS[facts["kind"]](observation_spec, facts["num_actions"], **facts["hyperparameters"])
-
-
-def _read_weights(card_path: Path, card: dict[str, Any], like: dict[str, torch.Tensor]) -> dict[str, torch.Tensor]:
-    """Reads the weights that a card is about, under their temporary name where their writer was killed."""
-    path, waiting = card_path.with_suffix(".safetensors"), card_path.with_suffix(_WAITING)
-    if waiting.exists():
-        with contextlib.suppress(ValueError, FileNotFoundError):  # Of another card, or just put in place.
-            return checkpointing.read_agent(waiting, like, card["sha256"])
-    return checkpointing.read_agent(path, like, card["sha256"])
+    with guests.own_torch():
+        torch.default_generator.manual_seed(seed)
+        return _KINDS[facts["kind"]](observation_spec, facts["num_actions"], **facts["hyperparameters"])
 
 
 def save(network: networks.RecurrentNetwork, card: Mapping[str, Any], folder: Path = FOLDER) -> Path:
-    """Writes a trained agent; returns the path of its card. Interrupted at any time, it leaves the old one or the new.
+    """Writes a trained agent in place of the one that has its name, if there is one; returns the path of its file.
+
+    Frozen parameters that follow from the agent's seed are not stored but drawn again when the agent is loaded.
 
     Args:
       network: its network; floating-point weights are kept in half precision.
-      card: all that is known of it, with `domain`, `task`, `task_kwargs` and `network` as `load` reads them.
+      card: its provenance, with `domain`, `task`, `task_kwargs`, `seed` and `network` as `load` reads them.
       folder: where the agents are; made when needed.
 
     Raises:
       OSError: if it cannot be written.
       ValueError: if weights are not finite in half precision; nothing is written then.
     """
-    weights = checkpointing.agent_bytes(network.state_dict())
-    content = sealed({**card, "sha256": hashlib.sha256(weights).hexdigest()})
+    weights = tensors_lib.halved(network.state_dict())
+    drawn = halve(_make(card["network"], card["seed"])).state_dict()
+    frozen = [each for each, value in network.named_parameters() if not value.requires_grad]
+    if frozen and all(torch.equal(weights[each].float(), drawn[each]) for each in frozen):
+        weights = {each: value for each, value in weights.items() if each not in frozen}
+        follows = {"seed": card["seed"], "names": frozen, "sha256": _digest(network, frozen)}
+        card = {**card, "network": {**card["network"], "frozen": follows}}
     folder.mkdir(parents=True, exist_ok=True)
-    path = folder / f"{name(card['domain'], card['task'], card['task_kwargs'])}.json"
-    waiting = path.with_suffix(_WAITING)
-    with files.locked(folder):
-        _put_in_place(path)  # What the last writer was killed over.
-        try:
-            files.write_atomically(waiting, weights)
-            files.write_atomically(path, content)  # From here on, the agent is the new one.
-        finally:
-            _put_in_place(path)
-            waiting.unlink(missing_ok=True)  # Where the card could not be written.
+    path = folder / f"{name(card['domain'], card['task'], card['task_kwargs'])}.safetensors"
+    tensors_lib.write(path, weights, card)
     return path
 
 
-def _put_in_place(card_path: Path) -> None:
-    """Gives the weights that a card is about their final name, where their writer was killed before it did."""
-    waiting = card_path.with_suffix(_WAITING)
-    # Without a card, or with one that is damaged, they are nobody's.
-    with contextlib.suppress(FileNotFoundError, ValueError, KeyError, TypeError):
-        wanted = files.read_json(card_path)["sha256"]
-        with files.open_plain(waiting) as file:
-            found = hashlib.sha256(file.read()).hexdigest()
-        if found == wanted:
-            os.replace(waiting, card_path.with_suffix(".safetensors"))
+def _digest(network: networks.RecurrentNetwork, names_: list[str]) -> str:
+    variables = network.state_dict()
+    return tensors_lib.digest({each: variables[each].half() for each in names_})
 
 
-def sealed(card: Mapping[str, Any]) -> bytes:
-    """Returns a card as it is kept in a file, with a checksum of itself."""
-    plain = json.loads(json.dumps({**card, "card_sha256": None}))  # As it will be read: JSON has no tuples.
-    return (json.dumps({**plain, "card_sha256": checkpointing.json_digest(plain)}, indent=1) + "\n").encode()
-
-
-def halved(network: networks.RecurrentNetwork) -> networks.RecurrentNetwork:
-    """Rounds a network's weights, in place, to what half precision keeps of them."""
+def halve(network: networks.RecurrentNetwork) -> networks.RecurrentNetwork:
+    """Rounds a network's weights, in place, to half precision; returns the network."""
     with torch.no_grad():
         for value in network.state_dict().values():
             if value.is_floating_point():

@@ -1,4 +1,4 @@
-"""Locks a folder: one process at a time writes into it, and no lock file is left when none does."""
+"""Locks a folder, so that one process at a time writes into it."""
 
 from collections.abc import Callable, Iterator
 import contextlib
@@ -7,14 +7,14 @@ from pathlib import Path
 
 import filelock
 
-_ATTEMPTS = 100  # Each but the first because an owner has just ended, and removed the folder that it had made.
+_ATTEMPTS = 100  # Each but the first because another process has just ended, and removed the folder that it had made.
 
 
 @contextlib.contextmanager
 def locked(folder: Path, busy: str) -> Iterator[Callable[[], bool]]:
     """Returns a context in which no other process holds the lock of a folder; the operating system ends it at a kill.
 
-    The folder is made if need be. A folder that was made, and is empty in the end, is removed again.
+    The folder is made if need be, and removed again if it is empty in the end.
 
     Args:
       folder: the folder.
@@ -24,18 +24,18 @@ def locked(folder: Path, busy: str) -> Iterator[Callable[[], bool]]:
       A function that returns whether the lock file is still in its place: somebody may remove it, or move the folder.
 
     Raises:
-      OSError: if the folder cannot be made or written to, or the lock file is a link.
+      OSError: if the folder cannot be made or written to.
       ValueError: if another process holds the lock, or the folder is a file or lies below one.
     """
     path = folder / ".lock"
-    missing = [folder for folder in (folder, *folder.parents) if not folder.exists()]
+    made = [parent for parent in (folder, *folder.parents) if not parent.exists()]
     lock = filelock.FileLock(path, blocking=False)
     try:
-        _take(lock, path, busy)
-        taken = os.lstat(path)
+        _acquire(lock, folder, busy)
+        taken = path.stat()
 
         def is_in_place() -> bool:
-            return os.path.lexists(path) and os.path.samestat(taken, os.lstat(path))
+            return path.exists() and os.path.samestat(taken, path.stat())
 
         try:
             yield is_in_place
@@ -45,20 +45,21 @@ def locked(folder: Path, busy: str) -> Iterator[Callable[[], bool]]:
                     path.unlink()
             lock.release()
     finally:
-        for made in missing:
-            with contextlib.suppress(OSError):  # It holds something.
-                made.rmdir()
+        for parent in made:
+            with contextlib.suppress(OSError):  # It is not empty.
+                parent.rmdir()
 
 
-def _take(lock: filelock.BaseFileLock, path: Path, busy: str) -> None:
+def _acquire(lock: filelock.BaseFileLock, folder: Path, busy: str) -> None:
     for _ in range(_ATTEMPTS):
         try:
-            lock.acquire()  # Makes the folder.
+            folder.mkdir(parents=True, exist_ok=True)
+            lock.acquire()
             return
         except filelock.Timeout:
             raise ValueError(busy) from None
-        except (FileExistsError, FileNotFoundError, NotADirectoryError):
-            if any(os.path.lexists(one) and not one.is_dir() for one in path.parents):
-                raise ValueError(f"{path.parent} is a file or lies below one; choose another folder") from None
-            # Otherwise the lock's last owner has removed the folder meanwhile.
-    raise FileNotFoundError(f"{path.parent} cannot be made; choose another folder")
+        except (FileExistsError, NotADirectoryError):
+            raise ValueError(f"{folder} is a file or lies below one; choose another folder") from None
+        except FileNotFoundError:
+            continue
+    raise FileNotFoundError(f"{folder} cannot be made; choose another folder")

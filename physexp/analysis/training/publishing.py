@@ -1,19 +1,19 @@
-"""Publishing: turns a run's agent into one that comes with the package, with a card of its provenance."""
+"""Publishing: writes a run's agent into one file with a card of its provenance."""
 
 import dataclasses
 from pathlib import Path
 from typing import Any
 
 from physexp import suite
-from physexp.agents import checkpointing, pretrained
 from physexp.agents import config as agent_config
+from physexp.agents import pretrained, tensors
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import finding, playing
 from physexp.analysis.training import run as run_lib
 
 
 def publish(run: run_lib.Run, folder: Path, num_episodes: int, replaces: bool = False) -> Path:
-    """Evaluates a run's agent as it will be kept, in half precision, and writes it and its card; returns the card.
+    """Evaluates a run's agent as it will be kept, in half precision, and writes it with its card; returns the path.
 
     Args:
       run: a run with a checkpoint.
@@ -30,13 +30,13 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int, replaces: bool = 
     name = pretrained.name(config.domain, config.task, config.task_kwargs)
     if name in pretrained.names(folder) and not replaces:
         raise FileExistsError(
-            f"{folder / name}.json is an agent already; give --replace to put this one in its place, or another "
-            "--output-dir"
+            f"{folder / name}.safetensors is an agent already; give --replace to put this one in its place, or "
+            "another --output-dir"
         )
     frames, seconds = progress(run)
     network = finding.load_network(run)
-    checkpointing.agent_bytes(network.state_dict())  # Refuses weights that cannot be kept before anything is played.
-    network = pretrained.halved(network)
+    tensors.halved(network.state_dict())  # Refuses weights that cannot be kept before anything is played.
+    network = pretrained.halve(network)
     figures = {
         way: playing.play(network, config, num_episodes, greedy=way == "greedy").summary(config.agent.discount)
         for way in ("drawn", "greedy")
@@ -97,7 +97,7 @@ def command(config: config_lib.TrainConfig) -> str:
     return " ".join(words)
 
 
-def _flag(name: str, value) -> list[str]:
+def _flag(name: str, value: Any) -> list[str]:
     flag = name.replace("_", "-")
     if isinstance(value, bool):
         return [f"--{flag}" if value else f"--no-{flag}"]

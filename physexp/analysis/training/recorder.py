@@ -11,7 +11,7 @@ import pyarrow
 import torch
 
 from physexp import checks, suite
-from physexp.agents import checkpointing, core, files, learning
+from physexp.agents import core, files, learning
 from physexp.analysis.data import episodes as episodes_lib
 from physexp.analysis.data import provenance
 from physexp.analysis.training import callbacks
@@ -80,8 +80,7 @@ class Recorder:
             self._check_facts(facts)
             agent.restore(tensors)
 
-        most = checkpointing.num_bytes(agent.save().values())
-        found = self._run.checkpointer.latest(self._tell, accept, most)
+        found = self._run.checkpointer.latest(self._tell, accept)
         if found is None:
             self._run.rewind(-1)
             return

@@ -1,16 +1,16 @@
 """The weights in a run's folder: checkpoints while training goes on, the network alone once it is over."""
 
 from collections.abc import Mapping
-import os
 from pathlib import Path
 
 import torch
 
 from physexp.agents import checkpointing, learning
+from physexp.agents import tensors as tensors_lib
 
 
 class Weights:
-    """What a run has learned.
+    """The weights of a run.
 
     Attributes:
       checkpointer: writes and reads checkpoints.
@@ -23,12 +23,17 @@ class Weights:
 
     def variables(self, like: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:
         """Returns the network's variables by name; see `Run.variables`."""
-        if os.path.lexists(self._agent_path):  # A link to nowhere is refused as any other is.
-            return checkpointing.read_agent(self._agent_path, like)
+        if self._agent_path.exists():
+            tensors, _ = tensors_lib.read(self._agent_path)
+            try:
+                tensors_lib.check(tensors, like)
+            except ValueError as error:
+                raise ValueError(f"{self._agent_path} {error}; put back the agent's own") from None
+            return tensors
 
         def accept(tensors, facts):
             try:
-                checkpointing.check(learning.network_variables(tensors), like)
+                tensors_lib.check(learning.network_variables(tensors), like)
             except ValueError as error:
                 raise ValueError(f"the network {error}; put back the run's own, or remove it") from None
 
@@ -37,7 +42,8 @@ class Weights:
     def keep_network(self) -> None:
         """Writes the network of the last checkpoint, in half precision, unless that has been done; see `Run`."""
         if not self._agent_path.exists():
-            checkpointing.write_agent(self._agent_path, self._network(self.checkpointer.latest()))
+            variables = self._network(self.checkpointer.latest())
+            tensors_lib.write(self._agent_path, tensors_lib.halved(variables), {})
 
     def _network(self, checkpoint) -> dict[str, torch.Tensor]:
         if checkpoint is None:
