@@ -77,7 +77,7 @@ from physexp.analysis.training import playing
 from physexp.analysis.training import config as config_lib, run as run_lib, trainer
 agents = [
     ppo.PPOConfig(num_threads=1, num_environments=16, num_minibatches=2, frames=500),
-    belief.BeliefConfig(num_environments=16, frames_per_step=64, frames=500),
+    belief.BeliefConfig(frames_per_update=64, frames=500),
     a3c.A3CConfig(num_workers=1, envs_per_worker=16, frames=500),
 ]
 if __name__ == "__main__":

@@ -24,8 +24,8 @@ PHYSEXP = Path(sys.executable).with_name("physexp")
 
 SMALL = {
     "a3c": a3c.A3CConfig(num_workers=1, envs_per_worker=32, checkpoint_seconds=0.2),
-    "belief": belief.BeliefConfig(num_environments=32, frames_per_step=64, checkpoint_seconds=0.2),
-    "ppo": ppo.PPOConfig(num_threads=1, num_environments=32, num_epochs=1, num_minibatches=2, checkpoint_seconds=0.2),
+    "belief": belief.BeliefConfig(frames_per_update=64, checkpoint_seconds=0.2),
+    "ppo": ppo.PPOConfig(num_threads=1, num_environments=32, num_minibatches=2, checkpoint_seconds=0.2),
 }
 """An agent of each algorithm that makes small updates, in one process."""
 

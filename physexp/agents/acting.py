@@ -1,6 +1,7 @@
 """Acting with a network: one episode in any environment, or a round of whole episodes side by side in a batch."""
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import dm_env
 import numpy as np
@@ -8,8 +9,8 @@ import torch
 
 from physexp.agents import core, networks, rounds
 
-Choose = Callable[[torch.Tensor, np.ndarray, int], np.ndarray]
-"""Maps logits [N, A], the indices of the environments, int [N], and the number of the step to actions, int64 [N]."""
+Choose = Callable[[networks.Output, np.ndarray, int], np.ndarray]
+"""Maps a network's output, the indices of the environments, int [N], and the number of the step to actions, [N]."""
 
 
 def as_tensors(observation: Mapping[str, np.ndarray]) -> dict[str, torch.Tensor]:
@@ -31,15 +32,14 @@ def draw(probabilities: np.ndarray, generator: np.random.Generator) -> np.ndarra
 
 def drawn(generator: np.random.Generator) -> Choose:
     """Returns a choice that draws actions from the policy."""
-    return lambda logits, environments, step: sample(logits, generator)
+    return lambda output, environments, step: sample(output.logits, generator)
 
 
-def likeliest(logits: torch.Tensor, environments: np.ndarray, step: int) -> np.ndarray:
+def likeliest(output: networks.Output, environments: np.ndarray, step: int) -> np.ndarray:
     """Chooses the likeliest actions."""
-    return logits.cpu().numpy().argmax(axis=1)
+    return output.logits.cpu().numpy().argmax(axis=1)
 
 
-@torch.no_grad()
 def play_round(
     network: networks.RecurrentNetwork,
     environment: core.Batch,
@@ -56,9 +56,9 @@ def play_round(
       environment: the batch.
       episode: index of the episode that every environment starts.
       choose: chooses the actions, as `drawn(generator)` and `likeliest` do.
-      keep_inputs: keep the network's inputs, with the graph that made them where it is learned from, so that what is
-        seen passes the torso only once.
-      keep_behaviour: keep observations, probabilities and values, to learn with other parameters, too.
+      keep_inputs: keep the encoded observations with the graph that made them, so that learning from them does not
+        encode them again.
+      keep_behaviour: keep observations, probabilities and values, so that a network with other parameters can learn.
     """
     timestep = environment.reset(episode=episode)
     active = np.arange(environment.num_environments)
@@ -70,33 +70,39 @@ def play_round(
         observation = timestep.observation
         with torch.set_grad_enabled(keep_inputs):
             inputs = network.encode(as_tensors(observation))
-        logits, values, state = network.step(inputs, state)
-        actions = choose(logits, active, len(steps))
-        state = network.note(torch.from_numpy(actions), state)
+        with torch.no_grad():
+            output, state = network.step(inputs, state)
+            actions = choose(output, active, len(steps))
+            state = network.observe_action(torch.from_numpy(actions), state)
         timestep = environment.step(actions, active)
         steps.append((active, actions, timestep.reward))
         if keep_inputs:
             encoded.append(inputs)
         if keep_behaviour:
-            chosen = torch.log_softmax(logits.cpu(), dim=-1).gather(1, torch.from_numpy(actions)[:, None])[:, 0]
-            behaviour.append(rounds.BehaviourData(as_tensors(observation), chosen, values.cpu()))
+            behaviour.append(_behaviour(observation, output, actions))
         lengths[active] += 1
         going = timestep.step_type != dm_env.StepType.LAST
         if not going.all():
-            kept = torch.from_numpy(np.flatnonzero(going)).to(logits.device)
+            kept = torch.from_numpy(np.flatnonzero(going)).to(network.device)
             active, state = active[going], tuple(part[:, kept] for part in state)
             timestep = timestep._replace(observation={k: v[going] for k, v in timestep.observation.items()})
     actions, rewards = (np.zeros((len(steps), len(lengths)), dtype) for dtype in (np.int64, np.float32))
     for t, (active, taken, reward) in enumerate(steps):
         actions[t, active], rewards[t, active] = taken, reward
-    with torch.set_grad_enabled(keep_inputs):
-        kept_inputs = torch.cat(encoded) if keep_inputs else None
+    kept_inputs = torch.cat(encoded) if keep_inputs else None
     joined = _joined(behaviour) if keep_behaviour else None
     return rounds.Round(actions, rewards, lengths, environment.correct_answers, kept_inputs, joined)
 
 
+def _behaviour(
+    observation: Mapping[str, np.ndarray], output: networks.Output, actions: np.ndarray
+) -> rounds.BehaviourData:
+    log_probabilities = torch.log_softmax(output.logits.cpu(), dim=-1)
+    chosen = log_probabilities.gather(1, torch.from_numpy(actions)[:, None])[:, 0]
+    return rounds.BehaviourData(as_tensors(observation), chosen, output.values.cpu())
+
+
 def _joined(parts: Sequence[rounds.BehaviourData]) -> rounds.BehaviourData:
-    """Concatenates the behaviour data of all steps."""
     return rounds.BehaviourData(
         {name: torch.cat([part.observation[name] for part in parts]) for name in parts[0].observation},
         torch.cat([part.log_probabilities for part in parts]),
@@ -110,7 +116,7 @@ class RecurrentActor(core.EpisodicActor):
     Attributes:
       policy: probabilities of the actions when the last one was selected, float64 [A].
       value: the network's estimate of the return then.
-      belief: probabilities of the labels then, float64 [L]; None where the network has only a policy.
+      belief: probabilities of the labels then, float64 [L]; None if the network has only a policy.
     """
 
     policy: np.ndarray
@@ -124,18 +130,18 @@ class RecurrentActor(core.EpisodicActor):
         self._state = network.initial_state(1)
 
     @torch.inference_mode()
-    def _choose(self, observation) -> int:
+    def _choose(self, observation: Mapping[str, Any]) -> int:
         tensors = {name: torch.as_tensor(value)[None] for name, value in observation.items()}
-        logits, values, self._state = self._network.step(self._network.encode(tensors), self._state)
-        self.policy, self.value = torch.softmax(logits[0].double(), dim=-1).cpu().numpy(), float(values[0])
-        beliefs = self._network.beliefs(logits)
-        self.belief = None if beliefs is None else beliefs[0].double().cpu().numpy()
-        return int(logits.argmax() if self._greedy else sample(logits, self._generator)[0])
+        output, self._state = self._network.step(self._network.encode(tensors), self._state)
+        self.policy = torch.softmax(output.logits[0].double(), dim=-1).cpu().numpy()
+        self.value = float(output.values[0])
+        self.belief = None if output.beliefs is None else output.beliefs[0].double().cpu().numpy()
+        return int(output.logits.argmax() if self._greedy else sample(output.logits, self._generator)[0])
 
-    def _begin(self, timestep):
+    def _begin(self, timestep: dm_env.TimeStep) -> None:
         self._network.check(timestep.observation)
         self._state = self._network.initial_state(1)
 
     @torch.inference_mode()
-    def _note(self, action, next_timestep):
-        self._state = self._network.note(torch.tensor([action]), self._state)
+    def _note(self, action: int, next_timestep: dm_env.TimeStep) -> None:
+        self._state = self._network.observe_action(torch.tensor([action]), self._state)

@@ -6,8 +6,12 @@ from typing import Any, Generic, Self, TypeVar
 import numpy as np
 import torch
 
-from physexp.agents import checkpointing, core, losses, networks, rounds
 from physexp.agents import config as config_lib
+from physexp.agents import core, losses, networks, rounds
+from physexp.agents import tensors as tensors_lib
+
+MAX_GRADIENT_NORM = 1.0
+"""Gradients are clipped to this norm: single batches of whole episodes can have ten times the usual one."""
 
 Network = TypeVar("Network", bound=networks.RecurrentNetwork)
 
@@ -75,7 +79,7 @@ class Variables(Generic[Network]):
         """
         own = self.tensors()
         try:
-            checkpointing.check(tensors, own)
+            tensors_lib.check(tensors, own)
         except ValueError as error:
             raise ValueError(f"the checkpoint {error}") from None
         frames, updates, rounds = (tensors[name].reshape(-1).tolist() for name in ("frames", "updates", "rounds"))
@@ -168,7 +172,7 @@ def actor_critic_gradients(
     """
     policy_loss, baseline_loss, entropy = parts
     loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
-    gradients, norm = clipped_gradients(network, loss, config.max_gradient_norm, arrays)
+    gradients, norm = clipped_gradients(network, loss, arrays)
     return gradients, {
         "policy_loss": policy_loss.item(),
         "baseline_loss": baseline_loss.item(),
@@ -180,7 +184,6 @@ def actor_critic_gradients(
 def clipped_gradients(
     network: torch.nn.Module,
     loss: torch.Tensor,
-    max_norm: float,
     arrays: Callable[[], dict[str, np.ndarray]],
 ) -> tuple[list[torch.Tensor], float]:
     """Returns the gradient of a loss for each parameter, clipped to a global norm, and the norm before clipping.
@@ -188,7 +191,6 @@ def clipped_gradients(
     Args:
       network: the network.
       loss: the loss.
-      max_norm: the largest global norm.
       arrays: returns the arrays that the loss was computed from.
 
     Raises:
@@ -196,7 +198,7 @@ def clipped_gradients(
     """
     network.zero_grad()
     loss.backward()  # type: ignore[no-untyped-call]
-    norm = torch.nn.utils.clip_grad_norm_(network.parameters(), max_norm)
+    norm = torch.nn.utils.clip_grad_norm_(network.parameters(), MAX_GRADIENT_NORM)
     if not (torch.isfinite(loss) and torch.isfinite(norm)):
         raise core.DivergedError(f"loss {loss.item()} with gradient norm {norm.item()}", arrays())
     gradients = [parameter.grad for parameter in network.parameters()]

@@ -1,7 +1,8 @@
-"""The networks: what agents have in common, torsos, and the paper's recurrent actor-critic on top (Section 4)."""
+"""The interface of networks, torsos, and the paper's recurrent actor-critic (Section 4)."""
 
 import abc
 from collections.abc import Mapping, Sequence
+import dataclasses
 from typing import Any
 
 from dm_env import specs
@@ -12,10 +13,30 @@ from torch import nn
 from physexp.agents import config as config_lib
 from physexp.agents import core, devices, lstm
 
+LSTM_UNITS = 100
+"""Hidden units of the actor-critic's LSTM (paper, Section 4)."""
+
 Observation = Mapping[str, torch.Tensor]
 
 State = tuple[torch.Tensor, ...]
-"""What a network remembers of N episodes, tensors [1, N, ...]."""
+"""The memory of N episodes, tensors [1, N, ...]."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Output:
+    """The output of a network at one time step of N episodes.
+
+    Attributes:
+      logits: of the policy, [N, A].
+      values: estimates of the return, [N].
+      action_values: estimates of the return of each action, [N, A]; None if the network has only a policy.
+      beliefs: probabilities of the labels, [N, L]; None if the network has only a policy.
+    """
+
+    logits: torch.Tensor
+    values: torch.Tensor
+    action_values: torch.Tensor | None = None
+    beliefs: torch.Tensor | None = None
 
 
 class RecurrentNetwork(nn.Module, abc.ABC):
@@ -29,7 +50,7 @@ class RecurrentNetwork(nn.Module, abc.ABC):
 
     @abc.abstractmethod
     def __init__(self, observation_spec: Mapping[str, specs.Array], num_actions: int, **hyperparameters: Any):
-        """Builds the network for what is observed and so many actions; its weights follow torch's global seed."""
+        """Builds the network for an observation spec; its weights follow torch's global seed."""
         super().__init__()
         self._observed = {name: tuple(array.shape) for name, array in observation_spec.items()}
 
@@ -49,7 +70,7 @@ class RecurrentNetwork(nn.Module, abc.ABC):
     @staticmethod
     @abc.abstractmethod
     def hyperparameters(environment: core.Batch, config: Any) -> dict[str, Any]:
-        """Returns the further arguments to build a network of, numbers and strings by name."""
+        """Returns the further arguments of `__init__`, numbers and strings by name."""
 
     @property
     def device(self) -> torch.device:
@@ -62,25 +83,13 @@ class RecurrentNetwork(nn.Module, abc.ABC):
 
     @abc.abstractmethod
     def encode(self, observation: Observation) -> torch.Tensor:
-        """Maps observations, arrays [N, ...], to what `step` takes, float32 [N, F]."""
+        """Encodes observations, arrays [N, ...], for `step`, float32 [N, F]."""
 
     @abc.abstractmethod
-    def step(self, inputs: torch.Tensor, state: State) -> tuple[torch.Tensor, torch.Tensor, State]:
-        """Computes one time step of many episodes.
+    def step(self, inputs: torch.Tensor, state: State) -> tuple[Output, State]:
+        """Computes one time step of N episodes from encoded observations, [N, F]; returns the output and next state."""
 
-        Args:
-          inputs: what `encode` returned, [N, F].
-          state: what is remembered of the steps before.
-
-        Returns:
-          Logits [N, A], values [N] and the next state.
-        """
-
-    def beliefs(self, logits: torch.Tensor) -> torch.Tensor | None:
-        """Returns the probabilities of the labels, [N, L], of logits [N, A]; by default None: it has only a policy."""
-        return None
-
-    def note(self, actions: torch.Tensor, state: State) -> State:
+    def observe_action(self, actions: torch.Tensor, state: State) -> State:
         """Returns the state updated with the actions taken, int64 [N]; by default, the state unchanged."""
         return state
 
@@ -196,7 +205,6 @@ class RecurrentActorCritic(RecurrentNetwork):
         observation_spec: Mapping[str, specs.Array],
         num_actions: int,
         *,
-        lstm_units: int,
         observation_scale: float,
     ):
         """Builds the network; its weights follow torch's global seed.
@@ -204,7 +212,7 @@ class RecurrentActorCritic(RecurrentNetwork):
         Args:
           observation_spec: what is observed.
           num_actions: how many actions there are.
-          lstm_units, observation_scale: see `ActorCriticConfig`.
+          observation_scale: see `ActorCriticConfig`.
 
         Raises:
           ValueError: if what is observed is neither features nor one image.
@@ -212,13 +220,14 @@ class RecurrentActorCritic(RecurrentNetwork):
         super().__init__(observation_spec, num_actions)
         self.sees_images = sees_images(observation_spec)
         self.torso = (PixelTorso if self.sees_images else FeatureTorso)(observation_spec, observation_scale)
-        self.lstm = lstm.LSTM(self.torso.num_outputs, lstm_units)
-        self.policy = nn.Linear(lstm_units, num_actions)
-        self.value = nn.Linear(lstm_units, 1)
+        self.lstm = lstm.LSTM(self.torso.num_outputs, LSTM_UNITS)
+        self.policy = nn.Linear(LSTM_UNITS, num_actions)
+        self.value = nn.Linear(LSTM_UNITS, 1)
 
     @staticmethod
     def hyperparameters(environment: core.Batch, config: config_lib.ActorCriticConfig) -> dict[str, Any]:
-        return {"lstm_units": config.lstm_units, "observation_scale": config.observation_scale}
+        """Returns the further arguments of `__init__`."""
+        return {"observation_scale": config.observation_scale}
 
     def initial_state(self, batch_size: int) -> lstm.State:
         """Returns the state at an episode's start: zeros, hidden and cell each [1, batch_size, units]."""
@@ -237,19 +246,22 @@ class RecurrentActorCritic(RecurrentNetwork):
           ValueError: if there are some, but not as many as actions.
         """
         if logits and len(logits) != self.policy.out_features:
-            raise ValueError(f"action_prior has {len(logits)} logits; give {self.policy.out_features}, or none")
+            raise ValueError(f"initial_logits has {len(logits)} logits; give {self.policy.out_features}, or none")
         if logits:
             self.policy.bias.data += torch.tensor(logits)
 
-    def encode(self, observation):
+    def encode(self, observation: Observation) -> torch.Tensor:
+        """Returns the gates' inputs from observations; see `RecurrentNetwork`."""
         with devices.autocast(self.device, self.sees_images):
             inputs, places = self.torso.distinct(observation)
             projected = self.lstm.project(inputs.to(self.device)).float()
             return projected if places is None else projected[places]
 
-    def step(self, inputs, state):
-        outputs, state = self.lstm.step(inputs, state)
-        return *self._heads(outputs), state
+    def step(self, inputs: torch.Tensor, state: State) -> tuple[Output, State]:
+        """Computes one time step; see `RecurrentNetwork`."""
+        hidden, cell = state
+        outputs, state = self.lstm.step(inputs, (hidden, cell))
+        return Output(*self._heads(outputs)), state
 
     def unroll(self, inputs: torch.Tensor, batch_sizes: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
         """Computes whole episodes from their first steps, packed: sorted from the longest to the shortest, no padding.
@@ -263,5 +275,5 @@ class RecurrentActorCritic(RecurrentNetwork):
         """
         return self._heads(self.lstm.unroll(inputs, batch_sizes))
 
-    def _heads(self, outputs):
+    def _heads(self, outputs: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
         return self.policy(outputs), self.value(outputs).squeeze(-1)

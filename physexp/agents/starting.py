@@ -25,7 +25,7 @@ def make_network(kind: type[Network], environment: core.Batch, config: config_li
 def initial_network(environment: core.Batch, config: config_lib.ActorCriticConfig) -> networks.RecurrentActorCritic:
     """Returns an untrained network with the initial policy of the configuration, calibrated to the first images."""
     network = make_network(networks.RecurrentActorCritic, environment, config)
-    network.initialize_policy(config.action_prior)
+    network.initialize_policy(config.initial_logits)
     if config.relative_pixels:
         network.calibrate(acting.as_tensors(environment.reset().observation))
     return network

@@ -12,7 +12,7 @@ from physexp.analysis.training import recorder, records, trainer
 from physexp.analysis.training import run as run_lib
 
 SMALL = ppo.PPOConfig(
-    num_threads=1, num_environments=4, num_minibatches=2, num_epochs=1, lstm_units=8, frames=60, checkpoint_seconds=1e-9
+    num_threads=1, num_environments=4, num_minibatches=2, frames=60, checkpoint_seconds=1e-9
 )
 """One process, and a checkpoint after each of its few updates."""
 
@@ -41,10 +41,6 @@ OPTIONS = [
     4,
     "--num-minibatches",
     2,
-    "--num-epochs",
-    1,
-    "--lstm-units",
-    8,
     "--frames",
     SMALL.frames,
     "--checkpoint-seconds",

@@ -4,35 +4,32 @@ from collections.abc import Mapping
 import dataclasses
 from typing import ClassVar
 
+from physexp import checks
 from physexp.agents import config
+from physexp.checks import checked
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class A3CConfig(config.ActorCriticConfig):
-    """Hyperparameters of A3C; a value out of range raises ValueError.
-
-    Attributes:
-      num_workers: worker processes, which act and learn asynchronously on shared parameters.
-      envs_per_worker: environments of each worker; an update is made from one episode in each. 1 in the paper.
-    """
+    """Hyperparameters of A3C; a value out of range raises ValueError."""
 
     algorithm: ClassVar[str] = "a3c"
     metrics: ClassVar[Mapping[str, str]] = {
         **config.ActorCriticConfig.metrics,
         "staleness": "updates of other workers between reading the parameters and applying the gradient",
     }
-    allowed: ClassVar[Mapping[str, config.Check]] = {
-        **config.ActorCriticConfig.allowed,
-        "num_workers": config.at_least(1, 10_000),
-        "envs_per_worker": config.at_least(1, 65_536),
-    }
-
-    num_workers: int = 2
-    envs_per_worker: int = 256
+    num_workers: int = checked(
+        2, checks.whole(1, 10_000), "worker processes, which act and learn asynchronously on shared parameters"
+    )
+    envs_per_worker: int = checked(
+        256,
+        checks.whole(1, 65_536),
+        "environments of each worker; an update is made from one episode in each. 1 in the paper",
+    )
 
     @property
     def title(self) -> str:
         """Returns the learner's name in names of runs; that of the paper's variant says so."""
-        hints = (self.action_prior, self.relative_pixels)
-        is_as_in_paper = self.envs_per_worker == self.trace == self.observation_scale == 1 and not any(hints)
+        hints = (self.initial_logits, self.relative_pixels)
+        is_as_in_paper = self.envs_per_worker == self.gae_lambda == self.observation_scale == 1 and not any(hints)
         return f"{self.algorithm}_paper" if is_as_in_paper else self.algorithm

@@ -53,7 +53,7 @@ class A3CLearner(learning.Learner):
             episode = int(variables.rounds[self._worker])
         learning_rate, entropy_cost = config.at(frames)
         episodes = self._play(episode)
-        parts = round_losses(self._network, episodes, config.discount, config.trace, config.entropy_prior)
+        parts = round_losses(self._network, episodes, config.discount, config.gae_lambda, config.entropy_prior)
         gradients, metrics = learning.actor_critic_gradients(
             self._network, parts, entropy_cost, config, episodes.arrays
         )

@@ -1,61 +1,55 @@
-"""How the belief learner acts while it learns."""
+"""The behaviour policy of the belief learner."""
 
 import numpy as np
-import torch
 
-from physexp.agents import acting, starting
+from physexp.agents import acting, networks, starting
 from physexp.agents.belief import config as config_lib
-from physexp.agents.belief import networks
 
-_RANDOM_ANSWERS = 0.1  # Share of the answers that are drawn from all labels alike.
-_LEAST = 1 / 30  # How much is explored where least is, of what is explored where most is.
+_EVAL_FRACTION = 0.25  # Share of the episodes that are played greedily; they measure how well the agent plays.
+_EARLY_STOP_FRACTION = 0.5  # Share of the others that are answered after a random number of interactions.
+_EPSILON_MAX = 0.6  # Share of random interactions in the environment that explores most.
+_EPSILON_RATIO = 1 / 30  # Of the smallest to the largest epsilon.
+_RANDOM_ANSWERS = 0.1  # Share of the answers that are drawn uniformly.
 
 
-class Explorer:
-    """Acts in one round of episodes: greedily in the first of them, and so as to learn in the others.
+class BehaviourPolicy:
+    """Chooses the actions of one round: greedily in the first episodes, and exploring in the others.
 
     There some interactions are drawn at random, in some environments more than in others (Horgan et al., 2018); some
-    episodes are answered after a number of interactions that was drawn; and answers are drawn from the belief, some of
-    them from all labels alike: a label that is never answered is never found to be right.
+    episodes are answered after a random number of interactions; and answers are drawn from the belief, some of them
+    uniformly: a label that is never answered is never found to be right.
 
     Attributes:
       are_greedy: which episodes it plays greedily, bool [B].
-      beliefs: the belief in the answer that each episode ended with, float64 [B]; NaN where it has none.
+      beliefs: the belief in the answer that each episode ended with, float64 [B]; NaN if it had no answer.
     """
 
-    def __init__(
-        self,
-        network: networks.BeliefNetwork,
-        config: config_lib.BeliefConfig,
-        number: int,
-    ):
-        """Draws, for the round `number`, the most interactions of each of its episodes."""
-        num_environments, generator = config.num_environments, starting.round_generator(config.seed, 0, number)
-        self.beliefs = np.full(num_environments, np.nan)
-        self._network, self._generator = network, generator
-        self.are_greedy = np.arange(num_environments) < round(config.greedy * num_environments)
-        self._exploration = np.zeros(num_environments)
-        self._exploration[~self.are_greedy] = config.exploration * np.geomspace(
-            1, _LEAST, int((~self.are_greedy).sum())
-        )
-        is_cut = (generator.random(num_environments) < config.cut) & ~self.are_greedy
-        drawn = generator.integers(config.most_interactions + 1, size=num_environments)
-        self._most = np.where(is_cut, drawn, config.most_interactions)
+    def __init__(self, num_interactions: int, config: config_lib.BeliefConfig, number: int):
+        """Draws, for the round `number`, the maximum of interactions of each of its episodes."""
+        size, generator = config_lib.NUM_ENVIRONMENTS, starting.round_generator(config.seed, 0, number)
+        self.beliefs = np.full(size, np.nan)
+        self._num_interactions, self._generator = num_interactions, generator
+        self.are_greedy = np.arange(size) < round(_EVAL_FRACTION * size)
+        num_exploring = int((~self.are_greedy).sum())
+        self._epsilons = np.zeros(size)
+        self._epsilons[~self.are_greedy] = _EPSILON_MAX * np.geomspace(1, _EPSILON_RATIO, num_exploring)
+        stops_early = (generator.random(size) < _EARLY_STOP_FRACTION) & ~self.are_greedy
+        drawn = generator.integers(config.max_interactions + 1, size=size)
+        self._max_interactions = np.where(stops_early, drawn, config.max_interactions)
 
-    def choose(self, logits: torch.Tensor, active: np.ndarray, step: int) -> np.ndarray:
+    def choose(self, output: networks.Output, active: np.ndarray, step: int) -> np.ndarray:
         """Returns actions; see `acting.Choose`."""
-        generator, num_interactions = self._generator, self._network.num_interactions
-        worths = self._network.worths(logits).cpu().numpy().astype(np.float64)
-        interacting, answering = worths[:, :num_interactions], worths[:, num_interactions:]
-        is_greedy = self.are_greedy[active]
-        is_random = generator.random(len(worths)) < self._exploration[active]
-        drawn = generator.integers(num_interactions, size=len(worths))
+        assert output.action_values is not None
+        generator, num_interactions = self._generator, self._num_interactions
+        values = output.action_values.cpu().numpy().astype(np.float64)
+        interacting, answering = values[:, :num_interactions], values[:, num_interactions:]
+        is_random = generator.random(len(values)) < self._epsilons[active]
+        drawn = generator.integers(num_interactions, size=len(values))
         interactions = np.where(is_random, drawn, interacting.argmax(1))
         beliefs = (answering + 1) / 2
-        shares = (1 - _RANDOM_ANSWERS) * beliefs + _RANDOM_ANSWERS / beliefs.shape[1]
-        labels = np.where(is_greedy, beliefs.argmax(1), acting.draw(shares, generator))
-        is_over = step >= self._most[active]
-        is_enough = (answering.max(1) >= interacting.max(1)) & ~is_random
-        is_answer = is_over | is_enough
+        probabilities = (1 - _RANDOM_ANSWERS) * beliefs + _RANDOM_ANSWERS / beliefs.shape[1]
+        labels = np.where(self.are_greedy[active], beliefs.argmax(1), acting.draw(probabilities, generator))
+        is_sure = (answering.max(1) >= interacting.max(1)) & ~is_random
+        is_answer = (step >= self._max_interactions[active]) | is_sure
         self.beliefs[active] = np.where(is_answer, beliefs[np.arange(len(beliefs)), labels], np.nan)
         return np.where(is_answer, num_interactions + labels, interactions)

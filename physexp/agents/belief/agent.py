@@ -8,7 +8,7 @@ from physexp.agents.belief import learning, networks, replay
 
 
 class Belief(synchronous.SynchronousAgent):
-    """Keeps a belief about the answer, and asks which interaction is worth its price; one process."""
+    """Keeps a belief about the answer, and estimates the value of each interaction; one process."""
 
     def __init__(self, make_environment: core.EnvironmentFactory, config: config_lib.BeliefConfig):
         """Makes the environments, the network, and room for episodes.
@@ -20,17 +20,15 @@ class Belief(synchronous.SynchronousAgent):
         Raises:
           ValueError: if the episodes that are to be kept do not fit into memory.
         """
-        seed = starting.worker_seed(config.seed, 0)
-        self._environment = make_environment(seed, config.num_environments, config.num_threads)
+        seed, num_environments = starting.worker_seed(config.seed, 0), config_lib.NUM_ENVIRONMENTS
+        self._environment = make_environment(seed, num_environments, config.num_threads)
         network = starting.make_network(networks.BeliefNetwork, self._environment, config)
         network.calibrate(acting.as_tensors(self._environment.reset().observation))
         network.to(devices.choose(config.device, network.sees_images))
-        num_rounds = config.replay_episodes // config.num_environments
+        num_rounds = config.replay_episodes // num_environments
         dtype = np.float16 if network.sees_images else np.float32
-        episodes = replay.Replay(
-            num_rounds, config.most_interactions + 1, config.num_environments, network.num_inputs, dtype
-        )
-        learner = learning.BeliefLearner(learning.Variables(network, episodes, config.weight_decay), self._play, config)
+        episodes = replay.Replay(num_rounds, config.max_interactions + 1, num_environments, network.num_inputs, dtype)
+        learner = learning.BeliefLearner(learning.Variables(network, episodes), self._play, config)
         super().__init__(learner, config.frames, seed, config.num_threads)
 
     def _play(self, network: networks.BeliefNetwork, number: int, choose: acting.Choose) -> rounds.Round:

@@ -1,6 +1,6 @@
-"""What a belief and the values of interactions are trained towards; pure functions on tensors [T, B] of whole episodes.
+"""Targets and losses of beliefs and of the values of interactions; pure functions on tensors [T, B] of whole episodes.
 
-With `b` the belief over the labels after some steps of an episode, to answer then is worth `S = 2 max(b) - 1`.
+With `b` the belief over the labels after some steps of an episode, an answer is worth `S = 2 max(b) - 1`.
 """
 
 import torch
@@ -9,15 +9,15 @@ from torch.nn import functional
 _NUM_BINS = 10  # Of confidence, in which calibration is measured.
 
 
-def worth_of_answers(beliefs: torch.Tensor) -> torch.Tensor:
+def answer_values(beliefs: torch.Tensor) -> torch.Tensor:
     """Returns the expected rewards of answers that are right with these probabilities, a tensor of any shape."""
     return 2 * beliefs - 1
 
 
-def hindsight(logits: torch.Tensor, answers: torch.Tensor, are_right: torch.Tensor) -> torch.Tensor:
-    """Returns what an answer and its reward tell of the label, by Bayes' rule.
+def label_posterior(logits: torch.Tensor, answers: torch.Tensor, are_right: torch.Tensor) -> torch.Tensor:
+    """Returns the probabilities of the labels after an answer and its reward, by Bayes' rule.
 
-    A right answer is the label. A wrong one is not, and leaves the others as likely as they were to each other:
+    The label of a right answer is known. After a wrong one the others keep their relative probabilities:
     `p[l] = b[l] / (1 - b[a])` for the labels other than the answer `a`. With these as targets, a step on the
     cross-entropy is one on the likelihood of the reward, `log b[a]` for +1 and `log(1 - b[a])` for -1 (expectation
     maximization: Dempster, Laird & Rubin, 1977); and it is the target of earlier steps too, which know less.
@@ -40,7 +40,7 @@ def belief_loss(logits: torch.Tensor, labels: torch.Tensor, are_counted: torch.T
 
     Args:
       logits: of the beliefs of K members, [K, T, B, L].
-      labels: what the label is, probabilities [B, L].
+      labels: probabilities of the labels, [B, L].
       are_counted: which steps count, bool [K, T, B].
     """
     return _means(-(labels * logits.log_softmax(dim=-1)).sum(-1), are_counted)
@@ -51,13 +51,13 @@ def value_loss(values: torch.Tensor, targets: torch.Tensor, are_counted: torch.T
 
     Args:
       values: by K members, [K, T, B].
-      targets: what they were worth, [T, B].
+      targets: their targets, [T, B].
       are_counted: which steps count, bool [K, T, B].
     """
     return _means((values - targets).square(), are_counted)
 
 
-def _means(errors, are_counted):
+def _means(errors: torch.Tensor, are_counted: torch.Tensor) -> torch.Tensor:
     return (errors * are_counted).sum((1, 2)) / are_counted.sum((1, 2)).clamp(min=1)
 
 
@@ -68,23 +68,23 @@ def interaction_targets(
     are_last: torch.Tensor,
     rewards: torch.Tensor,
     discount: float,
-    trace: float,
+    lambda_: float,
 ) -> torch.Tensor:
-    """Returns what the interactions of whole episodes were worth.
+    """Returns the targets of the values of interactions.
 
     The target of an interaction is `gamma * V` of the step that follows it, `V = max(S, max Q)`, and at the last step
-    `V = S`: nothing follows there that `Q` could be learned from, and a target that took it would follow its
-    extrapolation. As long as the interactions that follow are greedy, the return from there counts by `lambda` instead
-    of `V` (Watkins' Q(lambda): Watkins, 1989). An interaction that ends the episode is worth its reward.
+    `V = S`: nothing follows there that `Q` could be learned from, so a target with `Q` would follow its extrapolation.
+    As long as the interactions that follow are greedy, the return from there counts by `lambda` instead of `V`
+    (Watkins' Q(lambda): Watkins, 1989). The target of an interaction that ends the episode is its reward.
 
     Args:
       answering: S, [T, B].
       interacting: max Q, [T, B].
-      are_greedy: whether the interaction that was taken is the one of max Q, bool [T, B].
+      are_greedy: whether the interaction taken is the one of max Q, bool [T, B].
       are_last: which step is the last of its episode, bool [T, B].
       rewards: of the last actions, [B].
       discount: gamma.
-      trace: lambda.
+      lambda_: weight of the return against the values.
 
     Returns:
       Targets [T, B]; they mean nothing where no interaction was taken.
@@ -94,20 +94,20 @@ def interaction_targets(
     targets = rewards.expand_as(values).clone()
     for step in range(len(values) - 2, -1, -1):
         following = torch.where(
-            goes_on[step + 1], torch.lerp(values[step + 1], targets[step + 1], trace), values[step + 1]
+            goes_on[step + 1], torch.lerp(values[step + 1], targets[step + 1], lambda_), values[step + 1]
         )
         targets[step] = torch.where(are_last[step], rewards, discount * following)
     return targets
 
 
 def calibration_error(confidences: torch.Tensor, outcomes: torch.Tensor) -> float:
-    """Returns how far confidence is from the share of right answers, expected (ECE: Naeini et al., 2015).
+    """Returns the expected calibration error of confidences (ECE: Naeini et al., 2015).
 
     Confidence is sorted into ten bins of equal width.
 
     Args:
-      confidences: beliefs in what was answered, [N].
-      outcomes: 1 where that was right, 0 where it was wrong, [N].
+      confidences: beliefs in the answers, [N].
+      outcomes: 1 for a right answer, 0 for a wrong one, [N].
     """
     bins = (confidences * _NUM_BINS).long().clamp(0, _NUM_BINS - 1)
     gaps = torch.zeros(_NUM_BINS, dtype=confidences.dtype).index_add_(0, bins, confidences - outcomes)

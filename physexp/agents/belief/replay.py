@@ -1,47 +1,15 @@
-"""The replay memory: whole episodes, of which the oldest are replaced first."""
+"""The replay memory of whole episodes; new ones replace the oldest."""
 
 from collections.abc import Callable
-import dataclasses
 import functools
 import math
 
 import numpy as np
 import torch
 
-from physexp.agents import acting, processes, rounds
+from physexp.agents import acting, networks, processes, rounds
 
-_LARGEST_SHARE = 0.5  # Of the memory that there is.
-
-
-@dataclasses.dataclass(frozen=True)
-class Episodes:
-    """Episodes to learn from, B of them, padded to the longest.
-
-    Attributes:
-      inputs: the network's encoding of what was seen before each action, [N, F], of the steps that were played: all
-        first steps, then all second steps, and so on.
-      actions: int64 [T, B].
-      rewards: of the last actions, float32 [B].
-      lengths: actions in each episode, int64 [B].
-      answers: the right labels, int64 [B]; to be learned from only where they are revealed.
-      judges: the member of the network that judges each episode and does not learn from it, int64 [B], ascending.
-    """
-
-    inputs: torch.Tensor
-    actions: torch.Tensor
-    rewards: torch.Tensor
-    lengths: torch.Tensor
-    answers: torch.Tensor
-    judges: torch.Tensor
-
-    @property
-    def played(self) -> torch.Tensor:
-        """Returns which steps were played, bool [T, B]."""
-        return torch.arange(len(self.actions))[:, None] < self.lengths
-
-    def arrays(self) -> dict[str, np.ndarray]:
-        """Returns everything as plain arrays by name."""
-        return {name: value.numpy() for name, value in vars(self).items()}
+_LARGEST_SHARE = 0.5  # Of the machine's memory.
 
 
 class Replay:
@@ -51,14 +19,14 @@ class Replay:
     them again.
 
     Attributes:
-      actions: what was done, int16 [R, T, B], for the last R rounds; -1 where nothing was.
+      actions: the actions of the last R rounds, int16 [R, T, B]; -1 after an episode's end.
     """
 
     def __init__(self, num_rounds: int, longest: int, num_environments: int, num_inputs: int, dtype: type):
-        """Makes room for rounds of episodes of at most `longest` actions, and for what was seen, as numbers of a type.
+        """Makes room for rounds of episodes of at most `longest` actions, and for their inputs as numbers of a type.
 
         Raises:
-          ValueError: if they would take more than half of the memory that there is.
+          ValueError: if they would take more than half of the machine's memory.
         """
         steps = num_rounds, longest, num_environments
         num_bytes = math.prod(steps) * num_inputs * np.dtype(dtype).itemsize
@@ -86,7 +54,7 @@ class Replay:
         self._answers[slot] = played.answers
 
     def restore(self, play: Callable[[int, acting.Choose], rounds.Round], num_rounds: int) -> None:
-        """Plays the rounds in `actions` again, to get back what was observed.
+        """Plays the rounds in `actions` again, for their inputs, rewards and answers.
 
         Args:
           play: plays the round of a number, and keeps its inputs.
@@ -96,28 +64,38 @@ class Replay:
         for number in range(max(0, num_rounds - len(actions)), num_rounds):
             self.add(play(number, functools.partial(_again, actions[number % len(actions)])), number)
 
-    def sample(self, generator: np.random.Generator, size: int, num_members: int, num_rounds: int) -> Episodes:
-        """Returns episodes of the last of so many rounds, drawn with replacement, as many for each judge.
+    def sample(
+        self, generator: np.random.Generator, size: int, ensemble_size: int, num_rounds: int
+    ) -> tuple[rounds.Round, torch.Tensor]:
+        """Draws episodes of the last of `num_rounds` rounds with replacement, equally many for each held-out member.
 
-        Every K-th environment has the same one of K judges. `size` is a multiple of K, and there are K environments.
+        Every K-th environment has the same one of K held-out members. `size` is a multiple of K, and there are at least
+        K environments.
+
+        Returns:
+          The episodes, B of them, and their held-out members, int64 [B], ascending.
         """
-        judges = np.arange(size) * num_members // size
+        held_out = np.arange(size) * ensemble_size // size
         slots = generator.integers(min(num_rounds, len(self.actions)), size=size)
-        num_theirs = (self.actions.shape[2] - 1 - judges) // num_members + 1
-        environments = generator.integers(num_theirs) * num_members + judges
-        lengths = (self.actions[slots, :, environments] >= 0).sum(1).numpy()
+        num_theirs = (self.actions.shape[2] - 1 - held_out) // ensemble_size + 1
+        environments = generator.integers(num_theirs) * ensemble_size + held_out
+        actions = self.actions.numpy()[slots, :, environments]
+        lengths = (actions >= 0).sum(1)
         longest = lengths.max()
         steps, columns = np.nonzero(np.arange(longest)[:, None] < lengths)
-        return Episodes(
-            torch.from_numpy(self._inputs[slots[columns], steps, environments[columns]]),
-            self.actions[slots, :, environments].T[:longest].long().clamp(min=0),
-            torch.from_numpy(self._rewards[slots, environments]),
-            torch.from_numpy(lengths),
-            torch.from_numpy(self._answers[slots, environments]),
-            torch.from_numpy(judges),
+        rewards = np.zeros((longest, size), np.float32)
+        rewards[lengths - 1, np.arange(size)] = self._rewards[slots, environments]
+        inputs = torch.from_numpy(self._inputs[slots[columns], steps, environments[columns]])
+        episodes = rounds.Round(
+            actions.T[:longest].astype(np.int64).clip(min=0),
+            rewards,
+            lengths,
+            self._answers[slots, environments],
+            inputs,
         )
+        return episodes, torch.from_numpy(held_out)
 
 
-def _again(actions: np.ndarray, logits: torch.Tensor, active: np.ndarray, step: int) -> np.ndarray:
-    """Chooses what was done before, [T, B]; see `acting.Choose`."""
+def _again(actions: np.ndarray, output: networks.Output, active: np.ndarray, step: int) -> np.ndarray:
+    """Chooses the actions of before, [T, B]; see `acting.Choose`."""
     return actions[step, active]

@@ -8,6 +8,9 @@ import torch
 from physexp.agents import learning, losses, rounds, synchronous
 from physexp.agents.ppo import config as config_lib
 
+_NUM_EPOCHS = 4  # Passes over the episodes in each update, as usual for PPO.
+_CLIP = 0.2  # The probability ratio is clipped to [1 - clip, 1 + clip]; the value of Schulman et al.
+
 
 class PPOLearner(synchronous.SynchronousLearner):
     """Takes rounds of episodes, moves the variables."""
@@ -25,14 +28,14 @@ class PPOLearner(synchronous.SynchronousLearner):
         self.variables, self._play, self._config = variables, play, config
 
     def step(self) -> dict[str, float]:
-        """Plays a round, and goes through it several times, in parts of whole episodes."""
+        """Plays a round, and goes through it several times, in minibatches of whole episodes."""
         config, variables = self._config, self.variables
         episode = self.next_episode
         learning_rate, entropy_cost = config.at(int(variables.frames))
         self.last_round = episodes = self._play(episode)
         generator = np.random.default_rng([config.seed, episode])
         figures = []
-        for _ in range(config.num_epochs):
+        for _ in range(_NUM_EPOCHS):
             for chosen in np.array_split(generator.permutation(len(episodes.lengths)), config.num_minibatches):
                 figures.append(self._learn(episodes.select(chosen), learning_rate, entropy_cost))
         variables.rounds += 1
@@ -51,7 +54,7 @@ class PPOLearner(synchronous.SynchronousLearner):
         config, network, behaviour = self._config, self.variables.network, episodes.behaviour
         assert behaviour is not None
         logits, values = network.unroll(network.encode(behaviour.observation), episodes.batch_sizes)
-        returns, advantages = learning.targets(episodes, behaviour.values, config.discount, config.trace)
+        returns, advantages = learning.targets(episodes, behaviour.values, config.discount, config.gae_lambda)
         device = logits.device
         parts = losses.clipped_losses(
             logits,
@@ -60,7 +63,7 @@ class PPOLearner(synchronous.SynchronousLearner):
             behaviour.log_probabilities.to(device),
             returns.to(device),
             _standardized(advantages).to(device),
-            config.clip,
+            _CLIP,
             config.entropy_prior,
         )
         gradients, metrics = learning.actor_critic_gradients(network, parts, entropy_cost, config, episodes.arrays)

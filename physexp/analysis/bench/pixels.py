@@ -87,7 +87,7 @@ def _batch_drawing(name: str) -> Callable[[], int]:
     touched = np.ones((BATCH, len(apparatus.held)), bool)
 
     def draw() -> int:
-        task.look(apparatus, state, touched, starts, rows, observations)
+        task.observer.look(apparatus, state, touched, starts, rows, observations)
         return BATCH
 
     return draw
@@ -162,9 +162,9 @@ def _bare_network_rate(task: measuring.Task) -> float:
     frames, start = 0, 0.0
     for repetition in range(10**9):
         with torch.no_grad():
-            state = network.initial_state(config.envs_per_worker)
+            state: networks.State = network.initial_state(config.envs_per_worker)
             for seen in images:
-                _, _, state = network.step(network.encode({"pixels": seen}), state)
+                _, state = network.step(network.encode({"pixels": seen}), state)
         network.zero_grad()
         logits, values = network.unroll(network.encode({"pixels": images.flatten(0, 1)}), batch_sizes)
         sum(losses.actor_critic_losses(logits, values, actions, returns, returns)).backward()

@@ -9,7 +9,7 @@ from physexp.analysis.experiments import base, claims, conditions, ideal_towers,
 _WHOLE = "belief"
 # Without replay only the last round is learned from.
 VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {
-    "belief_no_replay": ("without replay", {"replay_episodes": belief.BeliefConfig.num_environments}),
+    "belief_no_replay": ("without replay", {"replay_episodes": belief.NUM_ENVIRONMENTS}),
     "belief_last_step": ("belief at the last step alone", {"every_step": False}),
     "belief_lstm": ("an LSTM in place of attention", {"memory": "lstm"}),
     "belief_revealed": ("answers revealed", {"answers_revealed": True}),

@@ -28,6 +28,28 @@ DEFAULT_ALGORITHM = belief.BeliefConfig.algorithm
 _UNNAMED = a3c.A3CConfig.algorithm  # Names of runs, and configurations of format 1, leave the paper's learner out.
 _OF_FORMAT_1 = ("difficulty", "control_timestep")  # Fields that now are in `task_kwargs`; null for the task's default.
 
+_RENAMED = {
+    "trace": "gae_lambda",
+    "relative_entropy": "kl_to_prior",
+    "action_prior": "initial_logits",
+    "most_interactions": "max_interactions",
+    "frames_per_step": "frames_per_update",
+}
+_GONE = (
+    *(
+        "learning_rate",
+        "max_gradient_norm",
+        "lstm_units",
+        "max_staleness",
+        "num_epochs",
+        "clip",
+        "num_members",
+        "units",
+    ),
+    *("num_environments", "greedy", "cut", "exploration", "gae_lambda", "batch_size", "dropout", "weight_decay"),
+    *("num_members", "averaging"),
+)
+
 
 def preset(domain: str = "", task: str = "", *, algorithm: str = DEFAULT_ALGORITHM) -> agent_config.AgentConfig:
     """Returns the configuration to train a task's agent with; without a preset, the algorithm's defaults.
@@ -100,7 +122,9 @@ class TrainConfig:
             for name, value in fields["agent"].items()
         }
         algorithm = ALGORITHMS[agent.pop("algorithm", _UNNAMED)]
-        agent.pop("max_staleness", None)  # Until stored runs are converted.
+        agent = {_RENAMED.get(name, name): value for name, value in agent.items()}  # Until stored runs are converted.
+        known = {field.name for field in dataclasses.fields(algorithm)}
+        agent = {name: value for name, value in agent.items() if name in known or name not in _GONE}
         chosen = {name: fields[name] for name in _OF_FORMAT_1 if fields.get(name) is not None}
         others = {name: value for name, value in fields.items() if name not in _OF_FORMAT_1}
         task_kwargs = {**chosen, **fields.get("task_kwargs", {})}

@@ -3,7 +3,6 @@
 from collections.abc import Callable
 
 import numpy as np
-import torch
 
 from physexp.agents import acting, devices, guests, networks
 from physexp.analysis import domains
@@ -93,8 +92,8 @@ def ideal_return(config: config_lib.TrainConfig) -> float | None:
 def randomized(choose: acting.Choose, num_interactions: int, generator: np.random.Generator) -> acting.Choose:
     """Returns a choice whose interaction actions are drawn uniformly; labeling actions pass (paper, Section 5.3)."""
 
-    def choose_anew(logits: torch.Tensor, environments: np.ndarray, step: int) -> np.ndarray:
-        actions = choose(logits, environments, step)
+    def choose_anew(output: networks.Output, environments: np.ndarray, step: int) -> np.ndarray:
+        actions = choose(output, environments, step)
         drawn = generator.integers(num_interactions, size=len(actions))
         return np.where(actions < num_interactions, drawn, actions)
 

@@ -516,7 +516,7 @@ def test_a_noisy_episode_is_enacted_as_it_was_without_an_ideal(tmp_path):
         domain="which_is_heavier",
         task="features",
         task_kwargs={"noise": noise},
-        agent=belief_config.BeliefConfig(units=4),
+        agent=belief_config.BeliefConfig(),
     )
     batch = suite.load_batch(config.domain, config.task, 2, config.task_kwargs)
     network = starting.make_network(belief_networks.BeliefNetwork, batch, config.agent)
@@ -554,7 +554,7 @@ def test_an_agent_with_a_belief_shows_it_instead_of_its_policy(tmp_path):
     config = config_lib.TrainConfig(
         domain="which_is_heavier",
         task="features",
-        agent=belief_config.BeliefConfig(units=4, seed=fresh_seed()),
+        agent=belief_config.BeliefConfig(seed=fresh_seed()),
     )
     environment = suite.load_batch(config.domain, config.task, 2)
     network = starting.make_network(belief_networks.BeliefNetwork, environment, config.agent)

@@ -16,8 +16,8 @@ def _first_policy(run):
     network = finding.load_network(run)
     heights = torch.full((1, 4), 0.1)
     with torch.no_grad():
-        logits, _, _ = network.step(network.encode({"heights": heights}), network.initial_state(1))
-    return torch.softmax(logits[0], 0).numpy()
+        output, _ = network.step(network.encode({"heights": heights}), network.initial_state(1))
+    return torch.softmax(output.logits[0], 0).numpy()
 
 
 @pytest.mark.long
@@ -26,7 +26,7 @@ def _first_policy(run):
 def test_a_large_bonus_makes_the_policy_the_priors_or_uniform(algorithm, relative, tmp_path):
     # A bonus of 100 leaves rewards of 1 no say, so what is left is where the bonus is largest.
     # Several steps in each update: fewer are needed.
-    several_steps = {"num_environments": 256, "num_epochs": 4, "num_minibatches": 4} if algorithm == "ppo" else {}
+    several_steps = {"num_environments": 256, "num_minibatches": 4} if algorithm == "ppo" else {}
     run = trainers.create(
         tmp_path / "run",
         algorithm,
@@ -35,8 +35,8 @@ def test_a_large_bonus_makes_the_policy_the_priors_or_uniform(algorithm, relativ
         learning_rate=0.02,
         entropy_cost=100.0,
         final_entropy_cost=100.0,
-        action_prior=PRIOR,
-        relative_entropy=relative,
+        initial_logits=PRIOR,
+        kl_to_prior=relative,
         **several_steps,
     )
     trainer.train(run)

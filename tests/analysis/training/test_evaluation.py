@@ -209,7 +209,7 @@ def test_whole_rounds_are_played_until_there_are_enough_steps(untrained):
     assert played.length[:-256].sum() < 5000
 
 
-@pytest.mark.parametrize("changes", [{"num_members": 16, "units": 4}, {"memory": "lstm"}, {"most_interactions": 39}])
+@pytest.mark.parametrize("changes", [{"memory": "lstm"}, {"max_interactions": 39}])
 def test_a_belief_learner_of_any_size_is_found_in_its_checkpoint(changes, tmp_path):
     """It keeps four networks there, with Adam's statistics, and what was done in the episodes of its replay."""
     run = trainers.create(tmp_path / "run", "belief", frames=100, replay_episodes=100_000, **changes)

@@ -13,7 +13,7 @@ from physexp.analysis.training import playing, trainer
 HIGH_ENTROPY = {"entropy_cost": 0.15, "final_entropy_cost": 0.03}
 SHORT = {
     "a3c": {"frames": 400_000, "num_workers": 2, "envs_per_worker": 64, **HIGH_ENTROPY},
-    "belief": {"frames": 7_000, "num_environments": 16, "frames_per_step": 4, "answers_revealed": True},
+    "belief": {"frames": 7_000, "frames_per_update": 4, "answers_revealed": True},
 }
 
 

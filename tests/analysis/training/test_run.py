@@ -320,8 +320,8 @@ def test_metrics_that_are_too_large_for_any_run_are_refused_before_they_are_read
 
 def test_a_configuration_that_makes_no_sense_is_refused_with_its_file_named(run):
     path = run.path / "config.json"
-    path.write_text(path.read_text().replace('"lstm_units": 100', '"lstm_units": -100'))
-    with pytest.raises(ValueError, match=r"config\.json is not what was written: lstm_units is -100") as caught:
+    path.write_text(path.read_text().replace('"num_workers": 1', '"num_workers": -1'))
+    with pytest.raises(ValueError, match=r"config\.json is not what was written: num_workers is -1") as caught:
         _ = run.config
     assert str(caught.value).startswith(str(run.path)) and "\n" not in str(caught.value)
 

@@ -76,7 +76,7 @@ def test_a_preset_is_of_the_algorithm_and_has_its_domain_s_discount(names, algor
 def test_a_task_with_a_preset_of_its_own_has_that_and_another_one_the_defaults():
     fist = config_lib.preset("towers", "fist_features", algorithm="ppo")
     preset = domains.find("towers").presets["fist_features"]["ppo"]
-    assert fist == preset.replace(discount=0.98) and fist.action_prior
+    assert fist == preset.replace(discount=0.98) and fist.initial_logits
     defaults = config_lib.preset("threshold", "features", algorithm="belief")
     assert "belief" not in domains.find("threshold").presets.get("features", {})
     assert defaults.replace(discount=0.9) == config_lib.ALGORITHMS["belief"](discount=0.9)
