@@ -75,7 +75,7 @@ def verify(path):
 
 
 def _network(path):
-    network, config = finding.find_agent(str(path))
+    network, config, _ = finding.find_agent(str(path))
     return _bytes(network), config
 
 

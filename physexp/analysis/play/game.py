@@ -95,7 +95,7 @@ def _others(domain: str, task: str, kwargs: dict[str, Any], show) -> tuple[dict[
     others: dict[str, core.Actor] = {}
     discount = domains.find(domain).discount
     try:
-        network, config = finding.shipped_agent(domain, task, kwargs)
+        network, config, _ = finding.shipped_agent(domain, task, kwargs)
     except ValueError:
         trained = "".join(f" at {name} {agent_config.shown(value)}" for name, value in kwargs.items())
         show(f"There is no agent trained{trained} to compare you with.\n")

@@ -1,9 +1,10 @@
 """Finds trained agents: those of runs, published ones, and those that come with the package."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+import dataclasses
 import difflib
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,6 +15,20 @@ from physexp.analysis.data import untrusted
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
+
+
+class Agent(NamedTuple):
+    """A trained agent.
+
+    Attributes:
+      network: its network.
+      config: the configuration of its training: the task, its options, and the learner.
+      provenance: returns command, commit, frames and seconds of its training.
+    """
+
+    network: networks.RecurrentNetwork
+    config: config_lib.TrainConfig
+    provenance: Callable[[], Mapping[str, Any]]
 
 
 def load_network(run: run_lib.Run) -> networks.RecurrentNetwork:
@@ -30,10 +45,8 @@ def load_network(run: run_lib.Run) -> networks.RecurrentNetwork:
     return network.eval()
 
 
-def find_agent(
-    target: str, task_kwargs: Mapping[str, Any] | None = None
-) -> tuple[networks.RecurrentNetwork, config_lib.TrainConfig]:
-    """Returns a trained agent's network, and what it plays.
+def find_agent(target: str, task_kwargs: Mapping[str, Any] | None = None) -> Agent:
+    """Returns a trained agent.
 
     Args:
       target: the folder of a run; the file of a published agent (`FOLDER/NAME.safetensors`); or an agent that comes
@@ -47,10 +60,10 @@ def find_agent(
     path, wanted = Path(target).expanduser(), task_kwargs or {}
     domain, _, task = target.partition("/")
     if agent := published(target):
-        found = agent.network, config_of(agent.card)
+        found = _of_card(agent)
     elif path.exists():
         run = run_lib.Run(path)
-        found = load_network(run), run.config
+        found = Agent(load_network(run), run.config, lambda: provenance(run))
     elif (domain, task) in suite.ALL_TASKS:
         found = shipped_agent(domain, task, wanted)
     else:
@@ -60,7 +73,7 @@ def find_agent(
             f"(NAME.safetensors), or a trained agent: "
             f"{', '.join(close) or 'DOMAIN/TASK, as `physexp tasks` lists them'}"
         )
-    _check_options(target, found[1], wanted)
+    _check_options(target, found.config, wanted)
     return found
 
 
@@ -75,23 +88,20 @@ def published(target: str) -> pretrained.Pretrained | None:
         if path.suffix != ".safetensors":
             raise ValueError(f"{target} is no agent; give the folder of a run, or a published agent (NAME.safetensors)")
         untrusted.check(path, untrusted.MAX_AGENT)
-        return _checked(pretrained.load_file(path))
-    return _checked(pretrained.load_named(target)) if target in pretrained.names() and not path.exists() else None
+        return pretrained.load_file(path)
+    return pretrained.load_named(target) if target in pretrained.names() and not path.exists() else None
 
 
-def shipped_agent(
-    domain: str, task: str, task_kwargs: Mapping[str, Any]
-) -> tuple[networks.RecurrentNetwork, config_lib.TrainConfig]:
-    """Returns the network of the agent that comes with the package for a task with these options, and what it plays.
+def shipped_agent(domain: str, task: str, task_kwargs: Mapping[str, Any]) -> Agent:
+    """Returns the agent that comes with the package for a task with these options.
 
     Raises:
       ValueError: if there is none; it lists those that there are.
     """
     options = {name: value for name, value in task_kwargs.items() if name in pretrained.options_of(domain, task)}
-    agent = _checked(pretrained.load(domain, task, **options))
-    config = config_of(agent.card)
-    _check_options(f"{domain}/{task}", config, task_kwargs)
-    return agent.network, config
+    agent = _of_card(pretrained.load(domain, task, **options))
+    _check_options(f"{domain}/{task}", agent.config, task_kwargs)
+    return agent
 
 
 def _check_options(target: str, config: config_lib.TrainConfig, wanted: Mapping[str, Any]) -> None:
@@ -108,12 +118,12 @@ def _check_options(target: str, config: config_lib.TrainConfig, wanted: Mapping[
             raise ValueError(f"{target} {what}, and {name} is {value}; leave that out, or name another agent")
 
 
-def _checked(agent: pretrained.Pretrained) -> pretrained.Pretrained:
-    """Refuses an agent whose network does not fit the task on its card."""
+def _of_card(agent: pretrained.Pretrained) -> Agent:
+    """Returns a published agent; refuses one whose network does not fit the task on its card."""
     config = config_of(agent.card)
     if {**agent.card["network"], "frozen": None} != {**network_facts(config), "frozen": None}:
         raise ValueError(f"the agent of {config.task_name} has a network that cannot play it; publish it again")
-    return agent
+    return Agent(agent.network, config, lambda: agent.card)
 
 
 def network_facts(config: config_lib.TrainConfig) -> dict[str, Any]:
@@ -144,3 +154,45 @@ def config_of(card: Mapping[str, Any]) -> config_lib.TrainConfig:
         return config_lib.TrainConfig.from_json(facts)
     except (KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"an agent's card lacks its configuration: {error!r}; publish the agent again") from None
+
+
+def provenance(run: run_lib.Run) -> dict[str, Any]:
+    """Returns command, commit, frames and seconds of a run's training.
+
+    Raises:
+      ValueError: if its metrics do not say how long it was trained.
+    """
+    path = run.path / "metrics.csv"
+    try:
+        last = run.metrics()[-1]
+        frames, seconds = int(last["frames"]), round(last["seconds"])
+        if frames < 0 or seconds < 0:
+            raise ValueError("negative numbers")
+    except (IndexError, KeyError, TypeError, ValueError, OverflowError):
+        raise ValueError(
+            f"{path} does not say in its last row how long the agent was trained; resume the run or put the file back"
+        ) from None
+    commit = run.facts.get("commit", "not recorded")
+    return {"command": command(run.config), "commit": commit, "frames": frames, "seconds": seconds}
+
+
+def command(config: config_lib.TrainConfig) -> str:
+    """Returns the command that trains such a run, with the options that differ from the task's preset."""
+    words = ["physexp", "train", config.domain, config.task, "--agent", config.agent.algorithm]
+    for name, value in config.task_kwargs.items():
+        words += _flag(name, value)
+    preset = dataclasses.asdict(config_lib.preset(config.domain, config.task, algorithm=config.agent.algorithm))
+    for name, value in dataclasses.asdict(config.agent).items():
+        if value != preset[name]:
+            words += _flag(name, value)
+    return " ".join(words)
+
+
+def _flag(name: str, value: Any) -> list[str]:
+    flag = name.replace("_", "-")
+    if isinstance(value, bool):
+        return [f"--{flag}" if value else f"--no-{flag}"]
+    return [
+        f"--{flag}",
+        *(agent_config.shown(item) for item in (value if isinstance(value, (list, tuple)) else [value])),
+    ]

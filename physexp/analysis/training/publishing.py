@@ -1,11 +1,9 @@
 """Publishing: writes a run's agent into one file with a card of its provenance."""
 
-import dataclasses
 from pathlib import Path
 from typing import Any
 
 from physexp import suite
-from physexp.agents import config as agent_config
 from physexp.agents import pretrained, tensors
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import finding, playing
@@ -33,7 +31,7 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int, replaces: bool = 
             f"{folder / name}.safetensors is an agent already; give --replace to put this one in its place, or "
             "another --output-dir"
         )
-    frames, seconds = progress(run)
+    trained = finding.provenance(run)
     network = finding.load_network(run)
     tensors.halved(network.state_dict())  # Refuses weights that cannot be kept before anything is played.
     network = pretrained.halve(network)
@@ -46,13 +44,10 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int, replaces: bool = 
         "task": config.task,
         "task_kwargs": dict(config.task_kwargs),
         "default": is_default(config),
-        "command": command(config),
-        "commit": created.get("commit", "not recorded"),
+        **trained,
         "versions": created.get("versions", "not recorded"),
         "renderer": created.get("renderer", "not recorded"),
         "seed": config.agent.seed,
-        "frames": frames,
-        "seconds": seconds,
         "evaluation": {"seed": playing.SEED, **figures},
         "agent": config.to_json()["agent"],
         "network": finding.network_facts(config),
@@ -64,44 +59,3 @@ def is_default(config: config_lib.TrainConfig) -> bool:
     """Returns whether an agent plays the task as it is where no option is chosen."""
     options: Any = suite.options(config.domain)
     return options(**{**config.task_kwargs, "random": 0}) == options(random=0)
-
-
-def progress(run: run_lib.Run) -> tuple[int, int]:
-    """Returns the frames that a run's agent was trained on, and the seconds that took.
-
-    Raises:
-      ValueError: if the run does not say so.
-    """
-    path = run.path / "metrics.csv"
-    try:
-        last = run.metrics()[-1]
-        frames, seconds = int(last["frames"]), round(last["seconds"])
-        if frames < 0 or seconds < 0:
-            raise ValueError("negative numbers")
-    except (IndexError, KeyError, TypeError, ValueError, OverflowError):
-        raise ValueError(
-            f"{path} does not say in its last row how long the agent was trained; resume the run or put the file back"
-        ) from None
-    return frames, seconds
-
-
-def command(config: config_lib.TrainConfig) -> str:
-    """Returns the command that trains such a run: what differs from the task's preset is spelled out."""
-    words = ["physexp", "train", config.domain, config.task, "--agent", config.agent.algorithm]
-    for name, value in config.task_kwargs.items():
-        words += _flag(name, value)
-    preset = dataclasses.asdict(config_lib.preset(config.domain, config.task, algorithm=config.agent.algorithm))
-    for name, value in dataclasses.asdict(config.agent).items():
-        if value != preset[name]:
-            words += _flag(name, value)
-    return " ".join(words)
-
-
-def _flag(name: str, value: Any) -> list[str]:
-    flag = name.replace("_", "-")
-    if isinstance(value, bool):
-        return [f"--{flag}" if value else f"--no-{flag}"]
-    return [
-        f"--{flag}",
-        *(agent_config.shown(item) for item in (value if isinstance(value, (list, tuple)) else [value])),
-    ]

@@ -537,7 +537,7 @@ def test_a_noisy_episode_is_enacted_as_it_was_without_an_ideal(tmp_path):
 
 @pytest.mark.parametrize(("domain", "task"), TASKS)
 def test_an_episode_known_by_its_seed_and_index_is_enacted_as_it_was(domain, task):
-    network, config = finding.find_agent(f"{domain}/{task}")
+    network, config, _ = finding.find_agent(f"{domain}/{task}")
     played = playing.play(network, config, 3, seed=fresh_seed())
     for index in range(3):
         episode = recording.reenact(
@@ -645,7 +645,7 @@ def test_agents_with_equal_options_given_or_default_are_compared(tmp_path):
 
 
 def test_a_selection_holds_the_episodes_of_its_name():
-    network, config = finding.find_agent("which_is_heavier/features")
+    network, config, _ = finding.find_agent("which_is_heavier/features")
     play = functools.partial(playing.play, network, config)
     everything = play(256, seed=5)
     kinds = ("any", "right", "wrong", "longest", "hardest")

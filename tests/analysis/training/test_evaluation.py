@@ -138,9 +138,9 @@ def test_every_episode_can_be_rebuilt_from_its_seed_number_and_actions(untrained
 
 @pytest.mark.parametrize("base", [name for name in pretrained.names() if "/" not in name])
 def test_every_agent_is_found_by_name_and_by_its_options(base):
-    network, config = finding.find_agent(base)
+    network, config, _ = finding.find_agent(base)
     for name in (base, config.task_name):
-        other, other_config = finding.find_agent(name, config.task_kwargs)
+        other, other_config, _ = finding.find_agent(name, config.task_kwargs)
         assert other_config == config
         assert all(torch.equal(value, network.state_dict()[key]) for key, value in other.state_dict().items())
 
