@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from physexp.suite.engine import declarations, options, seeding, senses, task
+from physexp.suite.engine import contract, declarations, options, seeding, senses
 from physexp.suite.parts import arena, block
 
 NUM_BLOCKS = 3
@@ -21,45 +21,41 @@ class Options(options.Options):
     time_limit: float = 2.0  # s
 
 
-class WhichIsBolted(task.QuestionTask):
+class WhichIsBolted(contract.Task):
     """Three blocks that rise when they are pulled, but for one."""
 
     question = "Which block is bolted to the floor?"
-    num_structures = NUM_BLOCKS  # Bolted is what is compiled in: one model for each answer.
+    largest_hidden = NUM_BLOCKS - 1
 
-    def __init__(self, options, sense):
-        """Builds the scene."""
+    def build(self):
+        """Returns the scene, with what actions do and what is seen."""
         room = arena.Laboratory(mat_size=[0.3, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.2], fovy=14.5)
         room.mjcf_model.option.gravity = [0, 0, 0]
         room.mjcf_model.option.flag.contact = "disable"
-        self._rails, self._heights = [], []
+        self._rails, heights = [], []
         for k in range(NUM_BLOCKS):
             frame = room.attach(block.Block(rgba=block.COLORS[k], mass=1.0, name=f"block_{k}"))
             frame.pos = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, block.HALF_SIZE]
             rail = frame.add("joint", name="rail", type="slide", axis=[0, 0, 1], stiffness=20, damping=10)
             room.mjcf_model.actuator.add("motor", name=f"pull_{k}", joint=rail)
-            self._heights.append(room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=rail))
+            heights.append(room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=rail))
             self._rails.append(rail)
-        super().__init__(room, options, sense)
+        return contract.Scene(
+            arena=room,
+            interactions=[
+                declarations.Interaction(f"pull block {k}", control, f"block_{k}", (0.0, 0.0, PULL_FORCE))
+                for k, control in enumerate(PULL_FORCE * np.eye(NUM_BLOCKS))
+            ],
+            readings={
+                "heights": declarations.Reading(
+                    heights, (NUM_BLOCKS,), "how far each block is above its rest", unit="m", noisy=True
+                )
+            },
+            label_names=[f"block {k} is bolted" for k in range(NUM_BLOCKS)],
+            num_structures=NUM_BLOCKS,  # The bolt is compiled in: one model for each answer.
+        )
 
-    # What actions do, and what is seen.
-
-    @property
-    def interactions(self):
-        return [
-            declarations.Interaction(f"pull block {k}", control, f"block_{k}", (0.0, 0.0, PULL_FORCE))
-            for k, control in enumerate(PULL_FORCE * np.eye(NUM_BLOCKS))
-        ]
-
-    @property
-    def readings(self):
-        return {"heights": declarations.Reading(self._heights, (NUM_BLOCKS,), "how far each block is above its rest")}
-
-    @property
-    def label_names(self):
-        return [f"block {k} is bolted" for k in range(NUM_BLOCKS)]
-
-    # What is hidden: a pure function of seed and episode, for one environment and for thousands.
+    # The hidden property: a pure function of seed and episode, for one environment and for thousands.
 
     def draw(self, seeds, episodes):
         return (NUM_BLOCKS * seeding.uniforms(seeds, episodes, 1)[:, 0]).astype(np.int64)

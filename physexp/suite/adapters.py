@@ -124,7 +124,7 @@ def grid(drawn: Sequence[np.ndarray]) -> np.ndarray:
 
 def frames_per_second(task) -> int:
     """Returns how many images a second of an episode has."""
-    return max(1, round(1 / task.control_timestep))
+    return max(1, round(1 / task.options.control_timestep))
 
 
 def check_started(started: bool) -> None:

@@ -181,7 +181,7 @@ class VectorEnvironment(vector_env.VectorEnv):
         self._batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
         if max_episode_steps is not None:
             checks.integer("max_episode_steps", max_episode_steps, self._batch.task.rules.step_limit)
-        self._observation = self._batch.task.blank_observations(num_envs)
+        self._observation = self._batch.task.observer.blank(num_envs)
         self._ended = np.zeros(num_envs, bool)
         self._started = False
         self.render_mode = render_mode

@@ -46,7 +46,7 @@ def test_importing_starts_no_thread_or_process_and_opens_no_context(module):
 
 def test_importing_the_suite_imports_neither_torch_nor_what_learns_and_plots():
     found, _ = interpreters.run(f"{LOOK_AROUND}\nimport physexp.suite\nfound.update(look_around())")
-    unwanted = {"torch", "matplotlib", "pandas", "pyarrow", "rerun", "gymnasium", "ray", "tensorboard", "tyro"}
+    unwanted = {"torch", "matplotlib", "pandas", "pyarrow", "rerun", "gymnasium", "ray", "tensorboard"}
     assert not unwanted & set(found["loaded"])
     assert [name for name in found["physexp"] if not name.startswith("physexp.suite")] == ["physexp", "physexp.checks"]
 

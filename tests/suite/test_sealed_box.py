@@ -7,6 +7,7 @@ import pytest
 
 from physexp import suite
 from physexp.suite.domains import sealed_box
+from physexp.suite.engine import snapshots
 
 TASKS = [("sealed_box", "features"), ("sealed_box", "pixels")]
 ALL = np.arange(len(sealed_box.ALL_CONTENTS))
@@ -16,7 +17,7 @@ WAIT = 4
 
 def _places(batch) -> np.ndarray:
     """Where boxes and weights are, m [N, 2]."""
-    return np.array([batch.view("qpos", row) for row in range(len(batch.correct_answers))])
+    return np.array([snapshots.view(batch, "qpos", row) for row in range(len(batch.correct_answers))])
 
 
 def _compiled(content: sealed_box.Content) -> mujoco.MjModel:
@@ -123,7 +124,7 @@ def test_nobody_pushes_a_box_or_its_weight_out_of_the_room_there_is(seed):
     batch.reset(hidden=contents)
     periods = rng.integers(1, 8, size=len(contents))
     for step in range(batch.task.rules.step_limit - 1):
-        velocities = np.array([batch.view("qvel", row)[0] for row in range(len(contents))])
+        velocities = np.array([snapshots.view(batch, "qvel", row)[0] for row in range(len(contents))])
         forwards = np.where(periods == 7, velocities >= 0, step // periods % 2 == 0)
         batch.step(np.where(forwards, 3, 0))
         box, weight = np.abs(_places(batch)).max(axis=0)

@@ -8,6 +8,7 @@ from stable_baselines3.common import evaluation, vec_env
 
 from physexp import suite
 from physexp.suite import stable_baselines
+from physexp.suite.engine import snapshots
 
 
 def test_an_episode_that_ends_is_followed_by_the_next_in_the_same_step(seed):
@@ -88,7 +89,7 @@ def test_keywords_and_options_that_there_are_not_are_refused():
 def test_an_episode_whose_simulation_diverges_is_truncated_and_no_other_is(caplog):
     vector = stable_baselines.VecEnv("which_is_heavier", "features", 3, random=0)
     vector.reset()
-    vector._batch.view("qvel", 1)[0] = np.nan
+    snapshots.view(vector._batch, "qvel", 1)[0] = np.nan
     _, rewards, dones, infos = vector.step(np.array([0, 0, 4 + (vector._batch.correct_answers[2] + 1) % 4]))
     assert dones.tolist() == [False, True, True] and rewards.tolist() == [0, 0, -1]
     assert infos[1]["TimeLimit.truncated"] is True and infos[2]["TimeLimit.truncated"] is False

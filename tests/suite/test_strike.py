@@ -7,6 +7,7 @@ import pytest
 
 from physexp import suite
 from physexp.suite.domains import strike
+from physexp.suite.engine import snapshots
 
 TASKS = [("strike", "features"), ("strike", "pixels")]
 ALL = np.arange(len(strike.PUCKS))
@@ -14,7 +15,7 @@ ALL = np.arange(len(strike.PUCKS))
 
 def _positions(batch) -> np.ndarray:
     """Where the pucks are, m [N]."""
-    return np.array([batch.view("qpos", row)[0] for row in range(len(batch.correct_answers))])
+    return np.array([snapshots.view(batch, "qpos", row)[0] for row in range(len(batch.correct_answers))])
 
 
 def _played_out(environment, label: int) -> float:

@@ -8,6 +8,7 @@ import pytest
 
 from physexp import suite
 from physexp.suite.domains import strings
+from physexp.suite.engine import snapshots
 
 TASKS = [("strings", "features"), ("strings", "pixels")]
 LEAST, GREATEST = strings.SLACKS
@@ -89,10 +90,10 @@ def test_a_clamped_puck_stays_where_it_is_to_a_micrometre(seed):
     batch.reset(hidden=slacks)
     pucks = np.arange(3)
     batch.step(3 + pucks)  # A clamp takes hold at the end of its step.
-    held = np.array([batch.view("qpos", k)[k] for k in pucks])
+    held = np.array([snapshots.view(batch, "qpos", k)[k] for k in pucks])
     for _ in range(15):
         batch.step(rng.integers(3, size=3))
-        assert np.abs([batch.view("qpos", k)[k] - held[k] for k in pucks]).max() < 1e-6
+        assert np.abs([snapshots.view(batch, "qpos", k)[k] - held[k] for k in pucks]).max() < 1e-6
 
 
 def test_graphs_follow_the_prior_and_slacks_are_within_their_range(seed):

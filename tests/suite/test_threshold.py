@@ -6,6 +6,7 @@ import pytest
 
 from physexp import suite
 from physexp.suite.domains import threshold
+from physexp.suite.engine import snapshots
 
 TASKS = [("threshold", "features"), ("threshold", "pixels")]
 LEVELS = threshold.LEVEL_SPACING * np.arange(1, threshold.NUM_LEVELS + 1)  # N
@@ -44,7 +45,7 @@ def test_a_block_pushed_in_vain_for_a_whole_episode_stays_on_its_stop():
     for _ in range(batch.task.rules.step_limit - 1):
         assert (batch.step(labels - 1).observation["slid"] == 0).all()
     for environment in range(len(labels)):
-        assert abs(float(batch.view("qpos", environment)[0])) < 0.4 * threshold.TRAVEL
+        assert abs(float(snapshots.view(batch, "qpos", environment)[0])) < 0.4 * threshold.TRAVEL
 
 
 @pytest.mark.parametrize("domain_name, task_name", TASKS)

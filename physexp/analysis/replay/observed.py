@@ -6,26 +6,18 @@ import mujoco
 import numpy as np
 
 from physexp.analysis.data import readings
-from physexp.suite.engine import task as task_lib
+from physexp.suite.engine import contract
 
 Film = tuple[np.ndarray, np.ndarray, np.ndarray]
 """Positions, m [F, K, 3], rotations, [F, K, 3, 3], and whether the observations determine the positions, bool [K]."""
 
 
-def film(
-    task: task_lib.QuestionTask, geoms: np.ndarray, observations: Mapping[str, np.ndarray], ends: Sequence[int]
-) -> Film:
-    """Returns the poses of some geoms in all frames up to the last observation.
+def film(task: contract.Task, geoms: np.ndarray, observations: Mapping[str, np.ndarray], ends: Sequence[int]) -> Film:
+    """Returns the poses of K geoms in all frames up to the last observation.
 
-    Each reading moves from one observation to the next by the clock, slowly at both ends, and readings alone place
-    geoms: a geom that indicates a reading, a geom whose joints are all read, and a geom whose position is read, which
-    keeps the orientation that it has in the model. All other geoms stay where they are in the model.
-
-    Args:
-      task: the task, with its apparatus.
-      geoms: addresses of K geoms in the compiled model.
-      observations: by name, [T + 1, ...].
-      ends: the frame of each observation, from 0 on; an answer takes no frame.
+    Each reading moves from one observation to the next by the clock, slowly at both ends. Readings alone place geoms:
+    indicators of a reading, geoms whose joints are all read, and geoms whose position is read, which keep the model's
+    orientation. All other geoms stay as in the model. Observations are [T + 1, ...]; `ends` are their frames.
     """
     frames = np.arange(ends[-1] + 1)
     before = np.searchsorted(ends, frames, side="right") - 1
@@ -41,8 +33,8 @@ def film(
     return positions[:, geoms], rotations[:, geoms], are_placed[geoms]
 
 
-def _placed(task: task_lib.QuestionTask, shown: Mapping[str, np.ndarray], size: int) -> Film:
-    """Returns the poses of all geoms as joints and positions are read, from readings [size, S] by name."""
+def _placed(task: contract.Task, shown: Mapping[str, np.ndarray], size: int) -> Film:
+    """Returns the poses of all geoms from the readings of joints and positions, [size, S] by name."""
     model, start = task.apparatus.model, task.apparatus.start.shown
     joints, displacements = {}, {}
     for name, values in shown.items():
@@ -68,7 +60,7 @@ def _placed(task: task_lib.QuestionTask, shown: Mapping[str, np.ndarray], size: 
 
 
 def _posed(model: mujoco.MjModel, coordinates: Mapping[int, np.ndarray], size: int) -> tuple[np.ndarray, np.ndarray]:
-    """Returns positions and rotations of all geoms where some coordinates have these values, [size, 1]."""
+    """Returns positions and rotations of all geoms for values [size, 1] of some coordinates."""
     data = mujoco.MjData(model)
     positions, rotations = np.zeros((size, model.ngeom, 3)), np.zeros((size, model.ngeom, 3, 3))
     for frame in range(size):
@@ -89,9 +81,9 @@ def _joints_of(model: mujoco.MjModel, body: int) -> set[int]:
 
 
 def _indicate(
-    task: task_lib.QuestionTask, shown: Mapping[str, np.ndarray], positions: np.ndarray, are_placed: np.ndarray
+    task: contract.Task, shown: Mapping[str, np.ndarray], positions: np.ndarray, are_placed: np.ndarray
 ) -> None:
-    """Writes the positions of the geoms that indicate readings, and whether those are shown; both of all geoms."""
+    """Writes the positions of indicators, and whether their readings are observed."""
     start = task.apparatus.start.shown
     for indicator in task.indicators:
         geom, name = task.apparatus.model.geom(indicator.geom.full_identifier).id, indicator.reading

@@ -13,10 +13,9 @@ from physexp.agents import acting, core, environment_loop, networks
 from physexp.analysis.data import readings
 from physexp.analysis.replay import observed
 from physexp.analysis.training import config as config_lib
-from physexp.suite.engine import rendering
-from physexp.suite.engine import task as task_lib
+from physexp.suite.engine import contract, rendering
 
-MakeTask = Callable[..., task_lib.QuestionTask]
+MakeTask = Callable[..., contract.Task]
 """Makes a task from its options as keyword arguments."""
 
 _KINDS = {"BOX": "box", "SPHERE": "sphere", "ELLIPSOID": "ellipsoid", "CYLINDER": "cylinder", "CAPSULE": "capsule"}
@@ -85,7 +84,7 @@ class Episode:
     domain: str
     task: str
     task_kwargs: dict[str, Any]
-    declared: task_lib.QuestionTask
+    declared: contract.Task
     seed: int
     episode: int
     agent: str
@@ -132,7 +131,7 @@ class EpisodeRecorder(environment_loop.Observer):
           domain, task, task_kwargs: arguments that it was loaded with.
           actor: player, whose `policy`, `value` and `belief` are recorded if it has them.
           agent: name of the player.
-          make_task: makes a task that `suite.load` does not know.
+          make_task: makes the task again, if `suite.load` does not know it.
         """
         self._environment, self._actor, self._make_task = environment, actor, make_task
         chosen = {name: value for name, value in (task_kwargs or {}).items() if name != "random"}
@@ -167,7 +166,7 @@ class EpisodeRecorder(environment_loop.Observer):
     def close(self) -> None:
         """Frees the simulation that computes poses."""
         if self._rebuilder is not None:
-            self._rebuilder.close()
+            self._rebuilder.environment.close()
             self._rebuilder = None
 
     @property
@@ -202,7 +201,7 @@ class EpisodeRecorder(environment_loop.Observer):
             **rebuilt,
         )
 
-    def _remade_task(self) -> task_lib.QuestionTask:
+    def _remade_task(self) -> contract.Task:
         domain, task, task_kwargs = (self._facts[name] for name in ("domain", "task", "task_kwargs"))
         if self._make_task is None:
             return suite.load_task(domain, task, task_kwargs)
@@ -212,29 +211,25 @@ class EpisodeRecorder(environment_loop.Observer):
 class _Rebuilder:
     """Plays episodes again and records all poses."""
 
-    def __init__(self, task: task_lib.QuestionTask):
-        self._environment = suite.Environment(task)
-        self._environment.add_extra_hook("after_substep", lambda physics, random_state: self._note_poses(physics))
-
-    def close(self) -> None:
-        """Frees the simulation."""
-        self._environment.close()
+    def __init__(self, task: contract.Task):
+        self.environment = suite.Environment(task)
+        self.environment.add_extra_hook("after_substep", lambda physics, random_state: self._note_poses(physics))
 
     def rebuild(self, seed: int, episode: int, actions: Sequence[int]) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
         """Returns the observations by name, and the fields of `Episode` that need the simulation."""
-        task = self._environment.task
+        task = self.environment.task
         task.reseed(seed)
         task.next_episode = episode
-        timestep = self._environment.reset()
+        timestep = self.environment.reset()
         self._poses: list[tuple] = []
-        self._note_poses(self._environment.physics)
+        self._note_poses(self.environment.physics)
         seen, ends = [timestep.observation], [0]
         for action in actions:
-            seen.append(self._environment.step(action).observation)
+            seen.append(self.environment.step(action).observation)
             ends.append(len(self._poses) - 1)
         if task.answered:
-            for _ in task.play_out(self._environment.physics, actions[-1] - task.num_interactions):
-                self._note_poses(self._environment.physics)
+            for _ in task.play_out(self.environment.physics, actions[-1] - task.num_interactions):
+                self._note_poses(self.environment.physics)
         observations = {name: np.stack([each[name] for each in seen]) for name in seen[0]}
         return observations, {
             "declared": task,
@@ -247,7 +242,7 @@ class _Rebuilder:
 
     def _films(self, observations: Mapping[str, np.ndarray], ends: Sequence[int]) -> dict[str, Any]:
         """Returns the shapes, times, poses and controls of an `Episode`."""
-        task = self._environment.task
+        task = self.environment.task
         model, room = task.apparatus.model, task.root_entity
         floor = [model.geom(geom.full_identifier).id for geom in (room.floor, room.mat)]
         geoms = _geoms(model, floor)
@@ -268,7 +263,7 @@ class _Rebuilder:
     def _note_poses(self, physics) -> None:
         data, model = physics.data, physics.model
         positions = data.geom_xpos.copy()
-        self._environment.task.apparatus.indicate(positions[None], data.sensordata[None])
+        self.environment.task.apparatus.indicate(positions[None], data.sensordata[None])
         is_simulated = model.body_weldid[model.geom_bodyid] != 0
         positions[is_simulated] = data.geom_xpos[is_simulated]  # Even if images show them where a reading places them.
         self._poses.append((data.time, positions, data.geom_xmat.reshape(-1, 3, 3).copy(), data.ctrl.copy()))
@@ -315,30 +310,20 @@ def _half_sizes(kind: str, size: np.ndarray) -> np.ndarray:
 
 
 class Reenactor(core.Actor):
-    """Repeats recorded actions beside the policy, value and belief of another actor.
-
-    Attributes:
-      policy: the other actor's probabilities of all actions, or None.
-      value: the other actor's estimate of the return, or NaN.
-      belief: the other actor's probabilities of the labels, or None.
-    """
-
-    policy: np.ndarray | None = None
-    value: float = np.nan
-    belief: np.ndarray | None = None
+    """Repeats recorded actions beside the policy, value and belief of another actor."""
 
     def __init__(self, actor: core.Actor, actions: Sequence[int]):
-        """Prepares to take `actions` with the beliefs of `actor`."""
-        self._actor, self._actions = actor, [int(action) for action in actions]
+        """Prepares to take `actions` in its first episode."""
+        self._actor, self._left = actor, [int(action) for action in actions]
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._actor, name)
 
     def observe_first(self, timestep):
-        self._left = list(self._actions)
         self._actor.observe_first(timestep)
 
     def select_action(self, observation) -> int:
         self._actor.select_action(observation)
-        self.policy, self.value = getattr(self._actor, "policy", None), getattr(self._actor, "value", np.nan)
-        self.belief = getattr(self._actor, "belief", None)
         return self._left.pop(0)
 
     def observe(self, action, next_timestep):
@@ -356,15 +341,7 @@ def reenact(
     actions: Sequence[int] | None,
     agent: str = "",
 ) -> Episode:
-    """Plays an episode in the composer environment and records it.
-
-    Args:
-      network: the agent's network.
-      config: configuration of the agent's task.
-      seed, episode: seed of the environment and index of the episode.
-      actions: actions to repeat; None for the agent's own.
-      agent: name of the player.
-    """
+    """Plays an episode in the composer environment and records it; `actions` are None for the agent's own."""
     environment = suite.load(config.domain, config.task, task_kwargs={**config.task_kwargs, "random": int(seed)})
     environment.task.next_episode = int(episode)
     actor: core.Actor = acting.RecurrentActor(network)

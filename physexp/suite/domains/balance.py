@@ -8,7 +8,7 @@ import numpy as np
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import declarations, rendering, seeding, senses, task
+from physexp.suite.engine import contract, declarations, rendering, seeding, senses
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, block, flag, material
 
@@ -95,14 +95,13 @@ def _tilt(angles: np.ndarray) -> np.ndarray:
     return (angles > _READ).astype(float) - (angles < -_READ)
 
 
-class Balance(task.QuestionTask):
+class Balance(contract.Task):
     """Six blocks beside a balance, which tells which of its pans is heavier."""
 
     options: Options
     question = "Which block has another weight than the others, and is it heavier or lighter?"
 
-    def __init__(self, options: Options, sense: senses.Sense):
-        """Builds the scene."""
+    def build(self):
         room = arena.Laboratory(**_ROOM)
         room.mjcf_model.option.flag.contact = "disable"
         world = room.mjcf_model.worldbody
@@ -123,64 +122,52 @@ class Balance(task.QuestionTask):
         )
         for side, sign in SIDES.items():
             room.add_scenery(f"{side}_pan", _PAN_HALF_SIZE, [sign * _REACH, 0, _PAN_HALF_SIZE[2]], _PAN_RGBA)
-        self._blocks, loads = [], []
+        blocks, loads = [], []
         for k in range(NUM_BLOCKS):
-            is_suspect = k < num_suspects(options.difficulty)
+            is_suspect = k < num_suspects(self.options.difficulty)
             cube = block.Block(block.COLORS[k] if is_suspect else _PAN_RGBA, mass=WEIGHT, name=f"block_{k}")
             room.attach(cube).pos = [0, ((NUM_BLOCKS - 1) / 2 - k) * _SPACING, block.HALF_SIZE]
-            self._blocks.append(cube)
+            blocks.append(cube)
             loads.append(room.mjcf_model.actuator.add("motor", name=cube.mjcf_model.model, joint=hinge))
         self._loads = tuple(load.full_identifier for load in loads)
-        self._pointer = flag.stand(room, "pointer", (0.15, 0.15, 0.18, 1.0), 0, _POINTER_Y)
+        pointer = flag.stand(room, "pointer", (0.15, 0.15, 0.18, 1.0), 0, _POINTER_Y)
         sensors = room.mjcf_model.sensor
-        self._torques = [
+        torques = [
             sensors.add("actuatorfrc", name=cube.mjcf_model.model, actuator=load)
-            for cube, load in zip(self._blocks, loads, strict=True)
+            for cube, load in zip(blocks, loads, strict=True)
         ]
-        self._angle = sensors.add("jointpos", name="angle", joint=hinge)
-        super().__init__(room, options, sense)
-
-    @property
-    def interactions(self):
-        return [
-            declarations.Interaction(
-                f"put block {k} {place}", side * np.eye(NUM_BLOCKS)[k], f"block_{k}", (0.0, 0.0, -float(abs(side)))
-            )
-            for k in range(NUM_BLOCKS)
-            for place, side in PLACES.items()
-        ]
-
-    @property
-    def label_names(self):
-        return [f"block {k} is {kind}" for k in range(NUM_BLOCKS) for kind in ("heavier", "lighter")]
-
-    @property
-    def readings(self):
-        return {
-            "places": declarations.Reading(
-                self._torques,
-                (NUM_BLOCKS,),
-                "where each block lies: -1 on the left pan, 1 on the right pan, 0 aside",
-                unit="",
-                bounds=(-1, 1),
-                measure=np.sign,
-            ),
-            "tilt": declarations.Reading(
-                [self._angle],
-                (1,),
-                "which pan is heavier: -1 the left one, 1 the right one, 0 neither",
-                unit="",
-                bounds=(-1, 1),
-                measure=_tilt,
-            ),
-        }
-
-    @property
-    def indicators(self):
-        return [
-            *(declarations.Indicator(cube.geom, "places", k, (_REACH, 0, 0)) for k, cube in enumerate(self._blocks)),
-            declarations.Indicator(self._pointer, "tilt", 0, (_POINTER_TRAVEL, 0, 0)),
-        ]
+        angle = sensors.add("jointpos", name="angle", joint=hinge)
+        return contract.Scene(
+            arena=room,
+            interactions=[
+                declarations.Interaction(
+                    f"put block {k} {place}", side * np.eye(NUM_BLOCKS)[k], f"block_{k}", (0.0, 0.0, -float(abs(side)))
+                )
+                for k in range(NUM_BLOCKS)
+                for place, side in PLACES.items()
+            ],
+            label_names=[f"block {k} is {kind}" for k in range(NUM_BLOCKS) for kind in ("heavier", "lighter")],
+            readings={
+                "places": declarations.Reading(
+                    torques,
+                    (NUM_BLOCKS,),
+                    "where each block lies: -1 on the left pan, 1 on the right pan, 0 aside",
+                    bounds=(-1, 1),
+                    measure=np.sign,
+                ),
+                "tilt": declarations.Reading(
+                    [angle],
+                    (1,),
+                    "which pan is heavier: -1 the left one, 1 the right one, 0 neither",
+                    bounds=(-1, 1),
+                    measure=_tilt,
+                ),
+            },
+            indicators=[
+                *(declarations.Indicator(cube.geom, "places", k, (_REACH, 0, 0)) for k, cube in enumerate(blocks)),
+                declarations.Indicator(pointer, "tilt", 0, (_POINTER_TRAVEL, 0, 0)),
+            ],
+        )
 
     largest_hidden = WEIGHT * (1 + DIFFERENCES[1])
 

@@ -9,9 +9,9 @@ import numpy as np
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import declarations, rendering, seeding, senses, task
+from physexp.suite.engine import contract, declarations, rendering, seeding, senses
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block, flag, puck
+from physexp.suite.parts import arena, block, flag, measures, puck
 
 SUITE = containers.TaggedTasks()
 
@@ -112,20 +112,14 @@ def _share(forces: np.ndarray) -> np.ndarray:
     return forces / max(PUSHES.values())
 
 
-def _is_pushed(forces: np.ndarray) -> np.ndarray:
-    """Returns 1 where the box was pushed and 0 elsewhere, from the force, N [N, 1]."""
-    return (forces != 0).astype(float)
-
-
-class SealedBox(task.QuestionTask):
+class SealedBox(contract.Task):
     """A closed box on a sprung rail, which a hand hides while it pushes."""
 
     options: Options
     question = "What is in the box?"
 
-    def __init__(self, options: Options, sense: senses.Sense):
-        """Builds the scene."""
-        self._mark = MARKS[int(options.difficulty)]
+    def build(self):
+        self._mark = MARKS[int(self.options.difficulty)]
         room = arena.Laboratory(**_ROOM)
         root = room.mjcf_model
         root.option.gravity = [0, 0, 0]
@@ -138,14 +132,52 @@ class SealedBox(task.QuestionTask):
         weight.geom.group = rendering.UNDRAWN_GROUP
         inner = box.attach(weight).add("joint", name="inner", type="slide", axis=[1, 0, 0], limited=True, range=[-1, 1])
         self._joints = (rail.full_identifier, inner.full_identifier)
-        self._box = box.geom
         push = root.actuator.add("motor", name="push", joint=rail)
-        self._position = root.sensor.add("jointpos", name="position", joint=rail)
-        self._force = root.sensor.add("actuatorfrc", name="force", actuator=push)
+        position = root.sensor.add("jointpos", name="position", joint=rail)
+        force = root.sensor.add("actuatorfrc", name="force", actuator=push)
         place = [0, _CURTAIN_Y, _CURTAIN_HALF_SIZE[2] - _CURTAIN_RISE]
-        self._curtain = room.add_scenery("curtain", _CURTAIN_HALF_SIZE, place, _CURTAIN_RGBA)
-        self._pointer = flag.stand(room, "pointer", _POINTER_RGBA, 0, _POINTER_Y)
-        super().__init__(room, options, sense)
+        curtain = room.add_scenery("curtain", _CURTAIN_HALF_SIZE, place, _CURTAIN_RGBA)
+        pointer = flag.stand(room, "pointer", _POINTER_RGBA, 0, _POINTER_Y)
+        farthest = np.ceil(_REACH / self._mark)
+        return contract.Scene(
+            arena=room,
+            interactions=[
+                *(
+                    declarations.Interaction(f"push {where}", np.array([newtons]), "box", (newtons, 0.0, 0.0))
+                    for where, newtons in PUSHES.items()
+                ),
+                declarations.Interaction("wait", np.zeros(1), "box", (0.0, 0.0, 0.0)),
+            ],
+            label_names=list(CONTENTS),
+            readings={
+                "push": declarations.Reading(
+                    [force],
+                    (1,),
+                    "the last push, as a share of a hard one, positive to the right; 0 for none",
+                    bounds=(-1, 1),
+                    measure=_share,
+                ),
+                "covered": declarations.Reading(
+                    [force],
+                    (1,),
+                    "1 if the box is hidden, as it is by a push, otherwise 0",
+                    bounds=(0, 1),
+                    measure=measures.is_on,
+                ),
+                "place": declarations.Reading(
+                    [position, force],
+                    (1,),
+                    "how many marks the box is from home, positive to the right; 0 if it is hidden",
+                    bounds=(-farthest, farthest),
+                    measure=self._place,
+                ),
+            },
+            indicators=[
+                declarations.Indicator(pointer, "push", 0, (_POINTER_TRAVEL, 0, 0)),
+                declarations.Indicator(curtain, "covered", 0, (0, 0, _CURTAIN_RISE)),
+                declarations.Indicator(box.geom, "place", 0, (self._mark, 0, 0)),
+            ],
+        )
 
     def _place(self, values: np.ndarray) -> np.ndarray:
         """Returns how many marks the box is from home, and 0 while it is pushed.
@@ -156,58 +188,6 @@ class SealedBox(task.QuestionTask):
         positions, forces = values.T
         # Adding 0 makes 0 of -0, which would tell the side.
         return np.where(forces == 0, np.round(positions / self._mark) + 0.0, 0.0)[:, None]
-
-    @property
-    def interactions(self):
-        return [
-            *(
-                declarations.Interaction(f"push {where}", np.array([force]), "box", (force, 0.0, 0.0))
-                for where, force in PUSHES.items()
-            ),
-            declarations.Interaction("wait", np.zeros(1), "box", (0.0, 0.0, 0.0)),
-        ]
-
-    @property
-    def label_names(self):
-        return list(CONTENTS)
-
-    @property
-    def readings(self):
-        farthest = np.ceil(_REACH / self._mark)
-        return {
-            "push": declarations.Reading(
-                [self._force],
-                (1,),
-                "the last push, as a share of a hard one, positive to the right; 0 for none",
-                unit="",
-                bounds=(-1, 1),
-                measure=_share,
-            ),
-            "covered": declarations.Reading(
-                [self._force],
-                (1,),
-                "1 if the box is hidden, as it is by a push, otherwise 0",
-                unit="",
-                bounds=(0, 1),
-                measure=_is_pushed,
-            ),
-            "place": declarations.Reading(
-                [self._position, self._force],
-                (1,),
-                "how many marks the box is from home, positive to the right; 0 if it is hidden",
-                unit="",
-                bounds=(-farthest, farthest),
-                measure=self._place,
-            ),
-        }
-
-    @property
-    def indicators(self):
-        return [
-            declarations.Indicator(self._pointer, "push", 0, (_POINTER_TRAVEL, 0, 0)),
-            declarations.Indicator(self._curtain, "covered", 0, (0, 0, _CURTAIN_RISE)),
-            declarations.Indicator(self._box, "place", 0, (self._mark, 0, 0)),
-        ]
 
     largest_hidden = len(ALL_CONTENTS) - 1
 

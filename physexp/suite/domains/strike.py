@@ -9,9 +9,9 @@ import numpy as np
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import declarations, seeding, senses, task
+from physexp.suite.engine import contract, declarations, seeding, senses
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block, flag, material, puck
+from physexp.suite.parts import arena, block, flag, material, measures, puck
 
 SUITE = containers.TaggedTasks()
 
@@ -88,25 +88,19 @@ def properties(pucks: np.ndarray, goal_distance: float) -> tuple[np.ndarray, np.
     return forces / (ratios * decelerations), forces / ratios
 
 
-def _strength(forces: np.ndarray) -> np.ndarray:
-    """Returns the share of the greatest force that was poked with, from the force of the actuator, N [N, 1]."""
-    return forces / max(POKES)
-
-
-class Strike(task.QuestionTask):
+class Strike(contract.Task):
     """A covered puck on a lane, a barrier, light gates before it, and a goal behind it."""
 
     options: Options
     question = "With which strike does the puck stop in the goal?"
 
-    def __init__(self, options: Options, sense: senses.Sense):
-        """Builds the scene."""
-        self._num_gates = GATES[int(options.difficulty)]
+    def build(self):
+        self._num_gates = GATES[int(self.options.difficulty)]
         room = arena.Laboratory(**_ROOM)
         root = room.mjcf_model
         root.option.gravity = [0, 0, 0]
         root.option.flag.contact = "disable"
-        near, far = options.goal_distance / RATIO, options.goal_distance * RATIO
+        near, far = self.options.goal_distance / RATIO, self.options.goal_distance * RATIO
         room.add_cover(_COVER_HALF_SIZE, _COVER_X)
         room.add_scenery("goal", [(far - near) / 2, 0.1, 0.001], [_START + (near + far) / 2, 0, 0.002], _GOAL_RGBA)
         struck = puck.Puck(block.COLORS[0], mass=1.0)
@@ -117,57 +111,36 @@ class Strike(task.QuestionTask):
         )
         self._rails = (rail.full_identifier,)
         poke = root.actuator.add("motor", name="poke", joint=rail)
-        self._position = root.sensor.add("jointpos", name="position", joint=rail)
-        self._force = root.sensor.add("actuatorfrc", name="force", actuator=poke)
-        self._boards = [
-            flag.stand(room, "strength", block.COLORS[2], _START, _POKE_Y),
-            flag.stand(room, "gate", block.COLORS[3], _START, _GATE_Y),
-        ]
-        super().__init__(room, options, sense)
+        position = root.sensor.add("jointpos", name="position", joint=rail)
+        force = root.sensor.add("actuatorfrc", name="force", actuator=poke)
+        strength_board = flag.stand(room, "strength", block.COLORS[2], _START, _POKE_Y)
+        gate_board = flag.stand(room, "gate", block.COLORS[3], _START, _GATE_Y)
+        return contract.Scene(
+            arena=room,
+            interactions=[
+                declarations.Interaction(f"poke with {newtons:g} N", np.array([newtons]), "puck", (newtons, 0.0, 0.0))
+                for newtons in POKES
+            ],
+            label_names=[f"{newtons:.1f} N" for newtons in STRIKES],
+            readings={
+                "strength": measures.strength(force, "poke", max(POKES)),
+                "gate": declarations.Reading(
+                    [position],
+                    (1,),
+                    "the last light gate that the puck has passed, counted from 1; 0 for none",
+                    bounds=(0, self._num_gates),
+                    measure=self._gate,
+                ),
+            },
+            indicators=[
+                declarations.Indicator(strength_board, "strength", 0, (_POKE_TRAVEL, 0, 0)),
+                declarations.Indicator(gate_board, "gate", 0, (_GATE_TRAVEL / self._num_gates, 0, 0)),
+            ],
+        )
 
     def _gate(self, positions: np.ndarray) -> np.ndarray:
         """Returns the last light gate that the puck has passed, from its position, m [N, 1]; 0 for none."""
         return np.clip(np.floor(positions / (BAY / self._num_gates)), 0, self._num_gates)
-
-    @property
-    def interactions(self):
-        return [
-            declarations.Interaction(f"poke with {force:g} N", np.array([force]), "puck", (force, 0.0, 0.0))
-            for force in POKES
-        ]
-
-    @property
-    def label_names(self):
-        return [f"{force:.1f} N" for force in STRIKES]
-
-    @property
-    def readings(self):
-        return {
-            "strength": declarations.Reading(
-                [self._force],
-                (1,),
-                f"the force of the last poke, as a share of {max(POKES):g} N; 0 before the first",
-                unit="",
-                bounds=(0, 1),
-                measure=_strength,
-            ),
-            "gate": declarations.Reading(
-                [self._position],
-                (1,),
-                "the last light gate that the puck has passed, counted from 1; 0 for none",
-                unit="",
-                bounds=(0, self._num_gates),
-                measure=self._gate,
-            ),
-        }
-
-    @property
-    def indicators(self):
-        travels = (_POKE_TRAVEL, _GATE_TRAVEL / self._num_gates)
-        return [
-            declarations.Indicator(board, reading, 0, (travel, 0, 0))
-            for board, reading, travel in zip(self._boards, self.readings, travels, strict=True)
-        ]
 
     largest_hidden = len(PUCKS) - 1
 

@@ -11,9 +11,9 @@ import numpy as np
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import declarations, rendering, seeding, senses, task
+from physexp.suite.engine import contract, declarations, rendering, seeding, senses
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block, flag, puck
+from physexp.suite.parts import arena, block, flag, measures, puck
 
 SUITE = containers.TaggedTasks()
 
@@ -98,19 +98,13 @@ def _is_away(positions: np.ndarray) -> np.ndarray:
     return (np.abs(positions) > _AWAY).astype(float)
 
 
-def _is_on(forces: np.ndarray) -> np.ndarray:
-    """Returns 1 for each actuator that acts and 0 for the others, from their forces, N [N, pucks]."""
-    return (forces != 0).astype(float)
-
-
-class Strings(task.QuestionTask):
+class Strings(contract.Task):
     """Three covered pucks, some of them joined by bands, a clamp, and flags that tell which of them are away."""
 
     options: Options
     question = "Which pucks are joined by bands?"
 
-    def __init__(self, options: Options, sense: senses.Sense):
-        """Builds the scene."""
+    def build(self):
         room = arena.Laboratory(**_ROOM)
         root = room.mjcf_model
         root.option.flag.contact = "disable"
@@ -118,14 +112,12 @@ class Strings(task.QuestionTask):
         room.add_cover(_COVER_HALF_SIZE)
         rails = [_add_puck(room, k) for k in range(NUM_PUCKS)]
         self._bands = tuple(_add_band(root, rails, pair).full_identifier for pair in PAIRS)
-        self._positions = [
-            root.sensor.add("jointpos", name=f"position_{k}", joint=rail) for k, rail in enumerate(rails)
-        ]
+        positions = [root.sensor.add("jointpos", name=f"position_{k}", joint=rail) for k, rail in enumerate(rails)]
         # In the order of `drive`. What presses the clamp on a puck does not push it along its rail.
-        self._pulls = _add_actuators(root, "handle", rails, "motor")
-        self._presses = _add_actuators(root, "clamp", rails, "motor", gear=[0.0])
+        pulls = _add_actuators(root, "handle", rails, "motor")
+        presses = _add_actuators(root, "clamp", rails, "motor", gear=[0.0])
         _add_actuators(root, "brake", rails, "damper", kv=_BRAKE, ctrlrange=[0, 1])
-        self._boards = [
+        boards = [
             [flag.stand(room, f"{kind}_{k}", rgba or block.COLORS[k], _x(k), y) for k in range(NUM_PUCKS)]
             for kind, rgba, y in (
                 ("handle", None, _HANDLE_Y),
@@ -133,49 +125,28 @@ class Strings(task.QuestionTask):
                 ("flag", None, _FLAG_Y),
             )
         ]
-        super().__init__(room, options, sense)
-
-    @property
-    def interactions(self):
-        controls = np.eye(3 * NUM_PUCKS)
-        return [
-            *(
-                declarations.Interaction(f"pull puck {k}", _PULL * controls[k], f"puck_{k}", (0.0, -_PULL, 0.0))
-                for k in range(NUM_PUCKS)
-            ),
-            *(
-                declarations.Interaction(
-                    f"clamp or free puck {k}", controls[NUM_PUCKS + k], f"puck_{k}", (0.0, 0.0, -1.0)
-                )
-                for k in range(NUM_PUCKS)
-            ),
-        ]
-
-    @property
-    def label_names(self):
-        return [_name(graph) for graph in range(NUM_GRAPHS)]
-
-    @property
-    def readings(self):
-        return {
+        readings = {
             name: declarations.Reading(
-                sensors, (NUM_PUCKS,), f"1 for {meaning}, 0 for the others", unit="", bounds=(0, 1), measure=measure
+                sensors, (NUM_PUCKS,), f"1 for {meaning}, 0 for the others", bounds=(0, 1), measure=measure
             )
             for name, sensors, measure, meaning in (
-                ("pulled", self._pulls, _is_on, "the puck that the last action pulled"),
-                ("clamped", self._presses, _is_on, "the puck that is clamped"),
-                ("away", self._positions, _is_away, "each puck that is away from home"),
+                ("pulled", pulls, measures.is_on, "the puck that the last action pulled"),
+                ("clamped", presses, measures.is_on, "the puck that is clamped"),
+                ("away", positions, _is_away, "each puck that is away from home"),
             )
         }
-
-    @property
-    def indicators(self):
         travels = (_HANDLE_TRAVEL, _CLAMP_TRAVEL, _FLAG_TRAVEL)
-        return [
-            declarations.Indicator(board, reading, k, travel)
-            for boards, reading, travel in zip(self._boards, self.readings, travels, strict=True)
-            for k, board in enumerate(boards)
-        ]
+        return contract.Scene(
+            arena=room,
+            interactions=_interactions(),
+            label_names=[_name(graph) for graph in range(NUM_GRAPHS)],
+            readings=readings,
+            indicators=[
+                declarations.Indicator(board, reading, k, travel)
+                for of_kind, reading, travel in zip(boards, readings, travels, strict=True)
+                for k, board in enumerate(of_kind)
+            ],
+        )
 
     largest_hidden = SLACKS[1]
 
@@ -202,6 +173,21 @@ class Strings(task.QuestionTask):
     def reveal(self, hidden):
         tied = [(f"puck_{i}", f"puck_{j}") for (i, j), slack in zip(PAIRS, hidden, strict=True) if slack > 0]
         return declarations.Revealed(marks={} if tied else {"puck_1": "no bands"}, tied=tied)
+
+
+def _interactions() -> list[declarations.Interaction]:
+    """Returns the pull of each puck, and then the clamp of each."""
+    controls = np.eye(3 * NUM_PUCKS)
+    return [
+        *(
+            declarations.Interaction(f"pull puck {k}", _PULL * controls[k], f"puck_{k}", (0.0, -_PULL, 0.0))
+            for k in range(NUM_PUCKS)
+        ),
+        *(
+            declarations.Interaction(f"clamp or free puck {k}", controls[NUM_PUCKS + k], f"puck_{k}", (0.0, 0.0, -1.0))
+            for k in range(NUM_PUCKS)
+        ),
+    ]
 
 
 def _x(puck: int) -> float:

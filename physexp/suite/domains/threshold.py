@@ -8,9 +8,9 @@ import numpy as np
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import declarations, rendering, seeding, senses, task
+from physexp.suite.engine import contract, declarations, rendering, seeding, senses
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block, flag, material
+from physexp.suite.parts import arena, block, flag, material, measures
 
 SUITE = containers.TaggedTasks()
 
@@ -94,11 +94,6 @@ def _is_right(positions: np.ndarray) -> np.ndarray:
     return positions > TRAVEL / 2
 
 
-def _strength(forces: np.ndarray) -> np.ndarray:
-    """Returns the share of the greatest force that was pushed with, from the force of the actuator, N [N, 1]."""
-    return np.abs(forces) / (NUM_LEVELS * LEVEL_SPACING)
-
-
 def _slid(values: np.ndarray) -> np.ndarray:
     """Returns 1 where the last push took the block to the other stop, and 0 elsewhere.
 
@@ -110,14 +105,13 @@ def _slid(values: np.ndarray) -> np.ndarray:
     return np.where(_is_right(positions), forces > 0, forces < 0).astype(float)[:, None]
 
 
-class Threshold(task.QuestionTask):
+class Threshold(contract.Task):
     """A covered block on a rail with dry friction, which is hidden, and a flag that tells whether it has slid."""
 
     options: Options
     question = "Which is the smallest of the forces that makes the block slide?"
 
-    def __init__(self, options: Options, sense: senses.Sense):
-        """Builds the scene."""
+    def build(self):
         room = arena.Laboratory(**_ROOM)
         room.mjcf_model.option.gravity = [0, 0, 0]
         room.mjcf_model.option.flag.contact = "disable"
@@ -132,51 +126,33 @@ class Threshold(task.QuestionTask):
         push = room.mjcf_model.actuator.add("motor", name="push", joint=rail)
         self._rails = (rail.full_identifier,)
         sensors = room.mjcf_model.sensor
-        self._position = sensors.add("jointpos", name="position", joint=rail)
-        self._force = sensors.add("actuatorfrc", name="force", actuator=push)
-        self._flag = flag.stand(room, "flag", block.COLORS[1], _FLAG_X, 0)
-        self._pointer = flag.stand(room, "pointer", block.COLORS[2], _POINTER_X, 0)
-        super().__init__(room, options, sense)
-
-    @property
-    def interactions(self):
-        forces = LEVEL_SPACING * np.arange(1, NUM_LEVELS + 1)
-        return [
-            declarations.Interaction(f"push with {force:g} N", np.array([force]), "block", (float(force), 0.0, 0.0))
-            for force in forces
-        ]
-
-    @property
-    def label_names(self):
-        return [f"{LEVEL_SPACING * (k + 1):g} N" for k in range(NUM_LEVELS)]
-
-    @property
-    def readings(self):
-        return {
-            "strength": declarations.Reading(
-                [self._force],
-                (1,),
-                f"the force of the last push, as a share of {NUM_LEVELS * LEVEL_SPACING:g} N; 0 before the first",
-                unit="",
-                bounds=(0, 1),
-                measure=_strength,
-            ),
-            "slid": declarations.Reading(
-                [self._position, self._force],
-                (1,),
-                "1 if the last push made the block slide, otherwise 0",
-                unit="",
-                bounds=(0, 1),
-                measure=_slid,
-            ),
-        }
-
-    @property
-    def indicators(self):
-        return [
-            declarations.Indicator(self._flag, "slid", 0, (0, 0, _RISE)),
-            declarations.Indicator(self._pointer, "strength", 0, (0, 0, _RISE)),
-        ]
+        position = sensors.add("jointpos", name="position", joint=rail)
+        force = sensors.add("actuatorfrc", name="force", actuator=push)
+        slid_flag = flag.stand(room, "flag", block.COLORS[1], _FLAG_X, 0)
+        pointer = flag.stand(room, "pointer", block.COLORS[2], _POINTER_X, 0)
+        levels = [LEVEL_SPACING * (k + 1) for k in range(NUM_LEVELS)]
+        return contract.Scene(
+            arena=room,
+            interactions=[
+                declarations.Interaction(f"push with {newtons:g} N", np.array([newtons]), "block", (newtons, 0.0, 0.0))
+                for newtons in levels
+            ],
+            label_names=[f"{newtons:g} N" for newtons in levels],
+            readings={
+                "strength": measures.strength(force, "push", NUM_LEVELS * LEVEL_SPACING),
+                "slid": declarations.Reading(
+                    [position, force],
+                    (1,),
+                    "1 if the last push made the block slide, otherwise 0",
+                    bounds=(0, 1),
+                    measure=_slid,
+                ),
+            },
+            indicators=[
+                declarations.Indicator(slid_flag, "slid", 0, (0, 0, _RISE)),
+                declarations.Indicator(pointer, "strength", 0, (0, 0, _RISE)),
+            ],
+        )
 
     largest_hidden = LEVEL_SPACING * (NUM_LEVELS - MARGIN)
 

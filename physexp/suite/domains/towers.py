@@ -10,7 +10,7 @@ import numpy as np
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import declarations, seeding, senses, task
+from physexp.suite.engine import contract, declarations, seeding, senses
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import actuators, arena, block, fist, material, tower
 
@@ -99,60 +99,57 @@ def _composed(scene: str) -> dict[int, str]:
     return {}
 
 
-class Towers(task.QuestionTask):
+class Towers(contract.Task):
     """A tower whose glue is hidden."""
 
     options: Options
     question = "How many rigid bodies is the tower made of?"
     discount = 0.98
-    num_structures = len(tower.PATTERNS)
+    largest_hidden = len(NUM_BODIES) - 1
 
-    def __init__(self, options: Options, actuator, sense: senses.Sense):
-        """Builds the scene around an actuator, a `DirectActuator` or a `FistActuator`."""
-        room = arena.Laboratory(**_ROOM, friction=options.friction)
-        room.add_walls(WALL_DISTANCE, CEILING)
-        self._build_tower = functools.partial(tower.Tower, half_size=options.cube_size / 2, friction=options.friction)
+    def __init__(self, options: Options, actuator: actuators.Actuator, sense: senses.Sense):
         self._actuator = actuator
-        self._tower: tower.Tower | None = None
+        super().__init__(options, sense)
+
+    def build(self):
+        friction = self.options.friction
+        self._room = arena.Laboratory(**_ROOM, friction=friction)
+        self._room.add_walls(WALL_DISTANCE, CEILING)
+        self._build_tower = functools.partial(tower.Tower, half_size=self.options.cube_size / 2, friction=friction)
         self._towers: dict[int, tower.Tower] = {}  # Built when first needed, one for each pattern.
-        actuator.attach_to(room)
-        self._room = room
-        self.arrange(0)
-        super().__init__(room, options, sense)
+        self._actuator.attach_to(self._room)
+        self.tower = self._tower_of(0)
+        self._room.attach(self.tower)
+        return self._scene()
 
-    @property
-    def tower(self) -> tower.Tower:
-        """The tower of the current structure."""
-        assert self._tower is not None  # `arrange` is called when the task is made.
-        return self._tower
+    def _tower_of(self, structure: int) -> tower.Tower:
+        if structure not in self._towers:
+            self._towers[structure] = built = self._build_tower(tower.PATTERNS[structure])
+            self._actuator.equip(built)
+        return self._towers[structure]
 
-    @property
-    def interactions(self):
-        return self._actuator.interactions
-
-    @property
-    def label_names(self):
-        return ["1 body", *(f"{count} bodies" for count in range(2, tower.NUM_BLOCKS + 1))]
-
-    @property
-    def readings(self):
-        """Positions of the blocks and of what acts on them, bounded by walls that give way a little."""
+    def _scene(self) -> contract.Scene:
+        """Returns the scene with the tower that is attached; walls, which give way a little, bound the positions."""
         positions = declarations.Reading(
             self.tower.position_sensors,
             (tower.NUM_BLOCKS, 3),
             "the blocks' centres (x, y, z), from the lowest block up",
+            unit="m",
             components=("x", "y", "z"),
+            noisy=True,
         )
         corner = np.array([WALL_DISTANCE + _GIVE, WALL_DISTANCE + _GIVE, CEILING])
         bounds = (corner * [-1, -1, 0], corner)
         found = {"positions": positions, **self._actuator.readings}
-        return {name: dataclasses.replace(reading, bounds=bounds) for name, reading in found.items()}
-
-    @property
-    def held(self):
-        return (self.tower,)
-
-    largest_hidden = len(NUM_BODIES) - 1
+        return contract.Scene(
+            arena=self._room,
+            interactions=self._actuator.interactions,
+            label_names=["1 body", *(f"{count} bodies" for count in range(2, tower.NUM_BLOCKS + 1))],
+            readings={name: dataclasses.replace(reading, bounds=bounds) for name, reading in found.items()},
+            held=(self.tower,),
+            num_nuisances=11,
+            num_structures=len(tower.PATTERNS),
+        )
 
     def draw(self, seeds, episodes):
         """Returns indices of glue patterns in `tower.PATTERNS`, int64 [N]."""
@@ -165,14 +162,12 @@ class Towers(task.QuestionTask):
         return hidden
 
     def arrange(self, structure):
-        if structure not in self._towers:
-            self._towers[structure] = built = self._build_tower(tower.PATTERNS[structure])
-            self._actuator.equip(built)
-        if self._tower is not self._towers[structure]:
-            if self._tower is not None:
-                self._tower.detach()
-            self._tower = self._towers[structure]
-            self._room.attach(self._tower)
+        chosen = self._tower_of(structure)
+        if chosen is not self.tower:
+            self.tower.detach()
+            self.tower = chosen
+            self._room.attach(chosen)
+            self.scene = self._scene()
 
     def compose(self, structures):
         """Composes towers that this process has not composed in the same scene before; it takes most of a reset."""
@@ -185,8 +180,6 @@ class Towers(task.QuestionTask):
                 (known[structure],) = super().compose([structure])
             found.append(known[structure])
         return found
-
-    num_nuisances = 11
 
     def circumstances(self, apparatus, nuisances):
         """Varies where tower, fist and camera are, how strong pushes or how fast the fist is, friction, and mass."""
@@ -212,7 +205,7 @@ class Towers(task.QuestionTask):
                 np.concatenate([np.tile(turned, len(standing.qpos) // 7), displaced], axis=1),
             ),
             strength=1 + actuators.STRENGTH_VARIATION * strength[:, None],
-            camera=task.CAMERA_VARIATION * camera,
+            camera=contract.CAMERA_VARIATION * camera,
         )
 
     def reveal(self, hidden):

@@ -8,7 +8,7 @@ import numpy as np
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import declarations, priors, senses, task
+from physexp.suite.engine import contract, declarations, priors, senses
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, block
 
@@ -46,23 +46,22 @@ class Options(options_lib.Options):
     )
 
 
-class WhichIsHeavier(task.QuestionTask):
+class WhichIsHeavier(contract.Task):
     """Four blocks in a line that move only vertically; their masses are hidden."""
 
     options: Options
     question = "Which of the four blocks is heaviest?"
 
-    def __init__(self, options: Options, sense: senses.Sense):
-        """Builds the scene."""
+    def build(self):
         room = arena.Laboratory(**_ROOM)
         room.mjcf_model.option.gravity = [0, 0, 0]
         room.mjcf_model.option.flag.contact = "disable"
-        self._joints, motors = [], room.mjcf_model.actuator
+        rails, motors = [], room.mjcf_model.actuator
         for k in range(NUM_BLOCKS):
             cube = block.Block(rgba=block.COLORS[k], mass=HEAVIEST, name=f"block_{k}")
             frame = room.attach(cube)
             frame.pos = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, block.HALF_SIZE]
-            self._joints.append(
+            rails.append(
                 frame.add(
                     "joint",
                     name="rail",
@@ -74,31 +73,31 @@ class WhichIsHeavier(task.QuestionTask):
                     range=[FLOOR, CEILING],
                 )
             )
-            motors.add("motor", name=f"poke_{k}", joint=self._joints[-1])
-        self._rails = tuple(joint.full_identifier for joint in self._joints)
-        self._height_sensors = [
-            room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=joint)
-            for k, joint in enumerate(self._joints)
+            motors.add("motor", name=f"poke_{k}", joint=rails[-1])
+        self._rails = tuple(rail.full_identifier for rail in rails)
+        sensors = [
+            room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=rail) for k, rail in enumerate(rails)
         ]
-        super().__init__(room, options, sense)
-
-    @property
-    def interactions(self):
-        return [
-            declarations.Interaction(f"poke block {k}", control, f"block_{k}", (0.0, 0.0, POKE_FORCE))
-            for k, control in enumerate(POKE_FORCE * np.eye(NUM_BLOCKS))
-        ]
-
-    @property
-    def label_names(self):
-        return [f"block {k} is heaviest" for k in range(NUM_BLOCKS)]
-
-    @property
-    def readings(self):
         greatest = POKE_FORCE * (1 + FORCE_VARIATION * self.options.variation)
-        bounds = FLOOR, highest(greatest)
-        meaning = "how far each block is above its rest"
-        return {"heights": declarations.Reading(self._height_sensors, (NUM_BLOCKS,), meaning, bounds=bounds)}
+        return contract.Scene(
+            arena=room,
+            interactions=[
+                declarations.Interaction(f"poke block {k}", control, f"block_{k}", (0.0, 0.0, POKE_FORCE))
+                for k, control in enumerate(POKE_FORCE * np.eye(NUM_BLOCKS))
+            ],
+            label_names=[f"block {k} is heaviest" for k in range(NUM_BLOCKS)],
+            readings={
+                "heights": declarations.Reading(
+                    sensors,
+                    (NUM_BLOCKS,),
+                    "how far each block is above its rest",
+                    unit="m",
+                    bounds=(FLOOR, highest(greatest)),
+                    noisy=True,
+                )
+            },
+            num_nuisances=5,
+        )
 
     largest_hidden = 1.0
 
@@ -112,8 +111,6 @@ class WhichIsHeavier(task.QuestionTask):
     def hidden_fields(self, apparatus, hidden):
         return apparatus_lib.slide_masses(apparatus, self._rails, kilograms(hidden))
 
-    num_nuisances = 5
-
     def circumstances(self, apparatus, nuisances):
         """Varies the force of pokes, and for images the space between the blocks and where the camera is."""
         strength = 1 + FORCE_VARIATION * nuisances[:, :1]
@@ -122,7 +119,7 @@ class WhichIsHeavier(task.QuestionTask):
         _, bodies = apparatus.dofs(self._rails)
         places = np.repeat(apparatus.model.body_pos[None, bodies], len(nuisances), axis=0)
         places[:, :, 0] *= 1 + SPACING_VARIATION * nuisances[:, 1:2]
-        camera = task.CAMERA_VARIATION * nuisances[:, 2:]
+        camera = contract.CAMERA_VARIATION * nuisances[:, 2:]
         return declarations.Circumstances({"body_pos": (bodies, places)}, strength=strength, camera=camera)
 
     def reveal(self, hidden):

@@ -32,25 +32,32 @@ class Interaction:
 
 @dataclasses.dataclass(frozen=True)
 class Reading:
-    """A feature: the values of some sensors, or what is measured from them.
+    """A feature: the values of some sensors, or a measure of them.
 
     Attributes:
       sensors: the MJCF sensors that make it up.
-      shape: of the feature.
-      meaning: what its values say, in words, without their unit.
-      unit: of its values.
+      shape: shape of the feature.
+      meaning: the meaning of its values, in words, without their unit.
+      unit: unit of its values.
       components: names of the values of one sensor, as `x`, `y`, `z`; none where each sensor has one value.
       bounds: the least and the greatest values that it ever has, where they are known.
       measure: computes the reading where it is less than the sensors' values; observations hold only what it returns.
+      noisy: whether the option `noise` adds noise to it.
     """
 
     sensors: Sequence[Any]
     shape: tuple[int, ...]
     meaning: str
-    unit: str = "m"
+    unit: str = ""
     components: tuple[str, ...] = ()
     bounds: tuple[Any, Any] | None = None
     measure: Measure | None = None
+    noisy: bool = False
+
+    @property
+    def title(self) -> str:
+        """The meaning of its values, in words, with their unit."""
+        return f"{self.meaning}, {self.unit}" if self.unit else self.meaning
 
 
 @dataclasses.dataclass(frozen=True)

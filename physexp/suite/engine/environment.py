@@ -10,7 +10,7 @@ from dm_env import specs
 import numpy as np
 
 from physexp import checks
-from physexp.suite.engine import guard, rendering
+from physexp.suite.engine import composer_task, contract, guard, rendering
 
 
 class Environment(composer.Environment):
@@ -19,11 +19,13 @@ class Environment(composer.Environment):
     Composer recompiles at every episode; here a reset picks the physics that the hidden property calls for.
     """
 
-    def __init__(self, task, raise_exception_on_physics_error=False, flat_observation=False):
+    def __init__(
+        self, task: contract.Task, raise_exception_on_physics_error: bool = False, flat_observation: bool = False
+    ):
         """Builds the environment.
 
         Args:
-          task: a `QuestionTask`.
+          task: the task that it plays.
           raise_exception_on_physics_error: raise when the simulation diverges, instead of ending that episode
             with a warning.
           flat_observation: observe one vector, `observations`, of all arrays sorted by name, as dm_control's own
@@ -39,7 +41,10 @@ class Environment(composer.Environment):
         self._compiled = {}  # Apparatus and physics of each structure used so far.
         self._current = None  # The structure in use, and the physics steps in a control step.
         super().__init__(
-            task, random_state=0, strip_singleton_obs_buffer_dim=True, raise_exception_on_physics_error=raises
+            composer_task.ComposerTask(task),
+            random_state=0,
+            strip_singleton_obs_buffer_dim=True,
+            raise_exception_on_physics_error=raises,
         )
 
     def reset(self, hidden=None) -> dm_env.TimeStep:

@@ -24,12 +24,12 @@ class Ledger:
     """
 
     def __init__(self, task, size: int):
-        """Makes a ledger of `size` rows for a `QuestionTask`."""
+        """Makes a ledger of `size` rows for a task."""
         self._task = task
         self._hidden: np.ndarray | None = None
         self.answers, self.structures, self.substeps, self.steps = np.zeros((4, size), np.int64)
         self.nuisances = np.zeros((size, task.num_nuisances if task.options.variation else 0))
-        self.touched = np.zeros((size, len(task.held)), bool)
+        self.touched = np.zeros((size, len(task.scene.held)), bool)
         self.reseed(np.zeros(size, np.int64))
 
     def reseed(self, seeds: np.ndarray) -> None:

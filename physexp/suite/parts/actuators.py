@@ -70,7 +70,9 @@ class FistActuator:
         """The position of the fist's centre, m (3,)."""
         meaning, components = "the fist's centre (x, y, z)", ("x", "y", "z")
         return {
-            "fist_position": declarations.Reading([self.fist.position_sensor], (3,), meaning, components=components)
+            "fist_position": declarations.Reading(
+                [self.fist.position_sensor], (3,), meaning, unit="m", components=components, noisy=True
+            )
         }
 
     def start(self, model, displacements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -103,3 +105,6 @@ class FistActuator:
             )
             for name, (x, y) in _DIRECTIONS.items()
         ]
+
+
+Actuator = DirectActuator | FistActuator

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from physexp import suite
+from physexp.suite.engine import snapshots
 from physexp.suite.parts import block
 
 import mujoco  # isort: skip  # The suite chooses the GL backend, which mujoco looks at once.
@@ -117,7 +118,7 @@ def poses_of(batch, chosen):
     poses = {"geom_xpos": [], "geom_xmat": []}
     for i in chosen:
         for field, values in poses.items():
-            values.append(batch.view(field, int(i)).copy())
+            values.append(snapshots.view(batch, field, int(i)).copy())
     positions = np.stack(poses["geom_xpos"])
     return positions, np.stack(poses["geom_xmat"]).reshape(*positions.shape[:2], 3, 3)
 

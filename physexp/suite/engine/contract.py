@@ -1,0 +1,257 @@
+"""The contract of a task: what a question declares about something that cannot be seen (paper, Section 3)."""
+
+import abc
+from collections.abc import Iterator, Mapping, Sequence
+import dataclasses
+import functools
+import math
+from typing import Any
+
+from dm_control import composer
+from dm_env import specs
+import numpy as np
+
+from physexp.suite.engine import apparatus as apparatus_lib
+from physexp.suite.engine import declarations, observing, rules
+from physexp.suite.engine import options as options_lib
+from physexp.suite.engine import senses as senses_lib
+
+CAMERA_VARIATION = 0.02  # m, in each direction
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Scene:
+    """The parts of a task: the scene, and what can be done, seen and answered in it.
+
+    Attributes:
+      arena: the arena, with all entities attached.
+      interactions: the interaction actions.
+      label_names: the answers, in words.
+      readings: the features, by name.
+      indicators: geoms that show readings in images.
+      held: entities that look exactly as at the start until something moves them, each for itself.
+      num_nuisances: how many numbers describe the variation of an episode; None if only the camera varies.
+      num_structures: how many compiled models the hidden property chooses from.
+    """
+
+    arena: composer.Arena
+    interactions: Sequence[declarations.Interaction]
+    label_names: Sequence[str]
+    readings: Mapping[str, declarations.Reading]
+    indicators: Sequence[declarations.Indicator] = ()
+    held: Sequence[composer.Entity] = ()
+    num_nuisances: int | None = None
+    num_structures: int = 1
+
+
+class Task(abc.ABC):
+    """A task in which interaction actions act and labeling actions answer.
+
+    A subclass builds the scene, says how the hidden property of an episode is drawn, and what follows from it. Methods
+    with a leading axis [N] serve one environment (N = 1) and a batch alike. A task holds no episode: `Environment` and
+    `BatchEnvironment` play it.
+
+    Attributes:
+      options: the options that the user chose.
+      sense: the observations, features or pixels.
+      scene: the parts of the task.
+      rules: how actions are read and judged.
+      controls: control signals of each interaction action, float64 [num_interactions, nu].
+      observer: writes the observations.
+    """
+
+    question: str
+    """The question, in words."""
+
+    discount = 0.95
+    """Gamma of the returns that are scored; the environment's own discount is 1 until an episode's last step."""
+
+    largest_hidden: float = math.inf
+    """The largest value that a hidden property may be given; the least is 0."""
+
+    options: Any
+    """The options, of the domain's own class."""
+
+    def __init__(self, options: options_lib.Options, sense: senses_lib.Sense):
+        self.options = options
+        self.sense = sense
+        self.scene = self.build()
+        self.root_entity.mjcf_model.option.timestep = options.physics_timestep
+        self.rules = rules.Rules(len(self.interactions), len(self.label_names), options.step_limit)
+        self.controls = np.array([interaction.control for interaction in self.interactions], float)
+        self.observer = observing.Observer(self.readings, self.num_labels, options, sense)
+        if options.variation and not self.num_nuisances:
+            raise ValueError(f"variation is {options.variation:g}; give 0 where episodes differ in nothing else")
+
+    # A subclass defines three methods.
+
+    @abc.abstractmethod
+    def build(self) -> Scene:
+        """Returns the scene; called once, when `options` and `sense` are set."""
+
+    @abc.abstractmethod
+    def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
+        """Returns the hidden properties, [N, ...], of some episodes: seeds and episode indices, int64 [N]."""
+
+    @abc.abstractmethod
+    def answers(self, hidden: np.ndarray) -> np.ndarray:
+        """Returns the indices of the right labels, int64 [N]."""
+
+    # It may define others.
+
+    def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
+        """Returns the model fields that follow from hidden properties: any that `Batch.expand` takes."""
+        return {}
+
+    def structures(self, hidden: np.ndarray) -> np.ndarray:
+        """Returns the compiled model that each hidden property needs, int64 [N]."""
+        return np.zeros(len(hidden), np.int64)
+
+    def arrange(self, structure: int) -> None:  # noqa: B027
+        """Changes the MJCF model and the scene into those of a structure."""
+
+    def circumstances(self, apparatus: apparatus_lib.Apparatus, nuisances: np.ndarray) -> declarations.Circumstances:
+        """Returns the variation that follows from nuisances, float64 [N, num_nuisances] in [-1, 1]; 0 is none."""
+        return declarations.Circumstances(camera=CAMERA_VARIATION * nuisances)
+
+    def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
+        """Returns the control signals of a control step, float64 [N, nu].
+
+        Args:
+          actions: the interaction actions, int [N].
+          qpos: the coordinates at the start of the step, float64 [N, nq].
+          ctrl: the control signals of the step before, float64 [N, nu]; zero in the first.
+        """
+        return self.controls[actions]
+
+    def play_out(self, physics: Any, label: int) -> Iterator[None]:
+        """Steps a simulation on to the consequences of an answer, for replays; yields after each physics step."""
+        yield from ()
+
+    def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
+        """Returns the marks that a replay shows for one hidden property, [...]."""
+        return declarations.Revealed()
+
+    def hardness(self, hidden: np.ndarray) -> np.ndarray | None:
+        """Returns how hard instances are, float64 [N], the larger the harder; None where it is not known beforehand."""
+        return None
+
+    # All follows from these.
+
+    @property
+    def interactions(self) -> Sequence[declarations.Interaction]:
+        """The interaction actions."""
+        return self.scene.interactions
+
+    @property
+    def label_names(self) -> Sequence[str]:
+        """The answers, in words."""
+        return self.scene.label_names
+
+    @property
+    def readings(self) -> Mapping[str, declarations.Reading]:
+        """The features, by name."""
+        return self.scene.readings
+
+    @property
+    def all_readings(self) -> Mapping[str, declarations.Reading]:
+        """The features, by name, and the right answer where it is revealed."""
+        return self.observer.readings
+
+    @property
+    def indicators(self) -> Sequence[declarations.Indicator]:
+        """Geoms that show readings in images."""
+        return self.scene.indicators
+
+    @property
+    def root_entity(self) -> composer.Arena:
+        """The arena."""
+        return self.scene.arena
+
+    @property
+    def num_nuisances(self) -> int:
+        """Number of values that describe the variation of an episode."""
+        given = self.scene.num_nuisances
+        return given if given is not None else 3 * self.sense.needs_gl
+
+    @property
+    def num_structures(self) -> int:
+        """Number of compiled models that the hidden property chooses from."""
+        return self.scene.num_structures
+
+    @property
+    def num_interactions(self) -> int:
+        """Number of interaction actions; they come first."""
+        return self.rules.num_interactions
+
+    @property
+    def num_labels(self) -> int:
+        """Number of labeling actions."""
+        return len(self.label_names)
+
+    @property
+    def action_names(self) -> list[str]:
+        """The meaning of each action, in words."""
+        interactions = (interaction.name for interaction in self.interactions)
+        return [*interactions, *(f"answer: {name}" for name in self.label_names)]
+
+    @functools.cached_property
+    def observation_meanings(self) -> dict[str, str]:
+        """The meaning of each observation, in words, with the unit of its values."""
+        return self.observer.meanings
+
+    def reseed(self, random: Any) -> None:
+        """Takes another seed; `random` as in `Options`."""
+        self.options = dataclasses.replace(self.options, random=random)
+
+    def action_spec(self) -> specs.DiscreteArray:
+        """Returns the spec of an action."""
+        return specs.DiscreteArray(self.rules.num_actions, dtype=np.int32, name="action")
+
+    def observation_spec(self) -> dict[str, specs.Array]:
+        """Returns the specs of the observations of one environment, by name."""
+        return self.observer.specs()
+
+    def build_apparatus(self, structure: int) -> apparatus_lib.Apparatus:
+        """Compiles the MJCF of a structure."""
+        return self.build_apparatuses([structure])[0]
+
+    def build_apparatuses(self, structures: Sequence[int]) -> list[apparatus_lib.Apparatus]:
+        """Compiles the MJCF of structures."""
+        models, scene = self.compose(structures), self.scene
+        return [apparatus_lib.build(xml, scene.readings, scene.held, scene.indicators) for xml in models]
+
+    def compose(self, structures: Sequence[int]) -> list[str]:
+        """Returns the MJCF of structures as text."""
+        found = []
+        for structure in structures:
+            self.arrange(structure)
+            found.append(self.root_entity.mjcf_model.to_xml_string())
+        return found
+
+    def begin(
+        self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray, nuisances: np.ndarray
+    ) -> tuple[list[tuple[str, np.ndarray, np.ndarray]], apparatus_lib.Starts]:
+        """Returns the model fields and the initial states of a batch of episodes.
+
+        Args:
+          apparatus: the compiled model that is simulated.
+          hidden: the hidden properties, [N, ...].
+          nuisances: float64 [N, number of them], which is 0 without variation.
+
+        Returns:
+          Fields of the model, their addresses, int [M], and values, float64 [N, M]; and the initial states.
+        """
+        fields = _listed(self.hidden_fields(apparatus, hidden))
+        if not nuisances.shape[1]:
+            return fields, apparatus.start.repeated(len(nuisances))
+        circumstances = self.circumstances(apparatus, nuisances)
+        return fields + _listed(circumstances.fields), apparatus.starts(circumstances, len(nuisances))
+
+    def close(self) -> None:
+        """Frees the resources of the sense. A closed task can be played again."""
+        self.sense.close()
+
+
+def _listed(fields: declarations.Fields) -> list[tuple[str, np.ndarray, np.ndarray]]:
+    return [(field, addresses, values) for field, (addresses, values) in fields.items()]

@@ -1,0 +1,127 @@
+"""Snapshots of episodes: episodes of a batch that go on from one state in several ways. For analysis."""
+
+import dataclasses
+
+import numpy as np
+
+from physexp import checks
+from physexp.suite.engine import batch as batch_lib
+
+
+@dataclasses.dataclass(frozen=True)
+class Snapshot:
+    """The state of the episodes of N environments.
+
+    Attributes:
+      environments: their indices, int64 [N].
+      episodes: indices of the episodes, int64 [N].
+      hidden: their hidden properties, [N, ...].
+      nuisances: the values of their random variation, float64 [N, number of nuisances].
+      substeps: physics steps in a control step, int64 [N].
+      steps: control steps taken, int64 [N].
+      touched: whether each held entity has moved, bool [N, number of held entities].
+      observed: the last observations, arrays [N, ...] by name.
+      states: states of the simulations and their sensors, one array for each structure, float64 [number of its
+        environments, ...].
+      coordinates: positions and velocities (`qpos` and `qvel`) alone, as `states`.
+    """
+
+    environments: np.ndarray
+    episodes: np.ndarray
+    hidden: np.ndarray
+    nuisances: np.ndarray
+    substeps: np.ndarray
+    steps: np.ndarray
+    touched: np.ndarray
+    observed: dict[str, np.ndarray]
+    states: tuple[np.ndarray, ...]
+    coordinates: tuple[np.ndarray, ...]
+
+    def with_step_count(self, steps: int) -> "Snapshot":
+        """Returns the same snapshot with another number of control steps taken."""
+        return dataclasses.replace(self, steps=np.full_like(self.steps, steps))
+
+    def repeated(self, times: int, stride: int) -> "Snapshot":
+        """Returns the snapshot of several copies of the environments, whose indices are `stride` apart."""
+
+        def tiled(values: np.ndarray) -> np.ndarray:
+            return np.tile(values, (times, *[1] * (values.ndim - 1)))
+
+        shifts = np.repeat(stride * np.arange(times), len(self.environments))
+        return Snapshot(
+            environments=tiled(self.environments) + shifts,
+            episodes=tiled(self.episodes),
+            hidden=tiled(self.hidden),
+            nuisances=tiled(self.nuisances),
+            substeps=tiled(self.substeps),
+            steps=tiled(self.steps),
+            touched=tiled(self.touched),
+            observed={name: tiled(values) for name, values in self.observed.items()},
+            states=tuple(map(tiled, self.states)),
+            coordinates=tuple(map(tiled, self.coordinates)),
+        )
+
+
+def take(batch: batch_lib.BatchEnvironment, environments: np.ndarray | None = None) -> Snapshot:
+    """Returns a snapshot of the episodes of some environments.
+
+    Args:
+      batch: the environments.
+      environments: sorted indices, int [N]; all of them by default.
+
+    Raises:
+      ValueError: for indices out of range.
+      RuntimeError: if an episode is over or none has begun, the batch is closed, or another thread is using it.
+    """
+    with batch.in_use(environments) as chosen:
+        simulations, ledger = batch.simulations, batch.simulations.ledger
+        if ledger.over[chosen].any():
+            raise RuntimeError("an episode is over; take a snapshot where episodes are under way")
+        by_structure = [(group, chosen[members]) for group, members in simulations.by_structure(chosen)]
+        return Snapshot(
+            environments=chosen.copy(),
+            episodes=batch.episodes[chosen],
+            hidden=ledger.hidden[chosen],
+            nuisances=ledger.nuisances[chosen],
+            substeps=ledger.substeps[chosen],
+            steps=ledger.steps[chosen],
+            touched=ledger.touched[chosen],
+            observed={name: values[chosen] for name, values in simulations.observations.items()},
+            states=tuple(group.save(rows) for group, rows in by_structure),
+            coordinates=tuple(group.coordinates(rows) for group, rows in by_structure),
+        )
+
+
+def restore(batch: batch_lib.BatchEnvironment, snapshot: Snapshot) -> None:
+    """Takes episodes back to a snapshot; the next step goes on from there.
+
+    Raises:
+      ValueError: if one of the environments has begun another episode since.
+      RuntimeError: if the batch is closed, or another thread is using it.
+    """
+    with batch.in_use(snapshot.environments) as chosen:
+        simulations, ledger = batch.simulations, batch.simulations.ledger
+        now = batch.episodes, ledger.hidden, ledger.nuisances, ledger.substeps
+        saved = snapshot.episodes, snapshot.hidden, snapshot.nuisances, snapshot.substeps
+        if not all(np.array_equal(values[chosen], then) for values, then in zip(now, saved, strict=True)):
+            raise ValueError("environments have begun other episodes since the snapshot; restore it before that")
+        ledger.steps[chosen], ledger.touched[chosen], ledger.over[chosen] = snapshot.steps, snapshot.touched, False
+        for name, values in snapshot.observed.items():
+            simulations.observations[name][chosen] = values
+        for (group, members), states in zip(simulations.by_structure(chosen), snapshot.states, strict=True):
+            group.restore(chosen[members], states)
+
+
+def view(batch: batch_lib.BatchEnvironment, field: str, environment: int) -> np.ndarray:
+    """Returns a field of `MjData` in one environment, as it is after a step; it may be written to.
+
+    An episode that was written to cannot be rebuilt from its seed and actions.
+
+    Raises:
+      ValueError: for an index out of range.
+      RuntimeError: if the batch is closed, or another thread is using it.
+    """
+    index = checks.integer("environment", environment, 0, batch.num_environments - 1)
+    with batch.in_use(np.array([index])) as chosen:
+        ((group, _),) = batch.simulations.by_structure(chosen)
+        return group.view(field)[index]
