@@ -10,7 +10,7 @@ from seeds import fresh_seed
 import torch
 
 from physexp import suite
-from physexp.analysis.score import player, protocol, scoring
+from physexp.analysis.score import player, protocol, scoring, targets
 
 EXAMPLES = Path(__file__).parents[1] / "docs" / "examples"
 PEERS = ["recurrent_ppo", "skrl_ppo"]
@@ -48,10 +48,10 @@ def test_training_ends_when_its_time_is_over(peer):
 
 @pytest.mark.parametrize("peer", PEERS)
 def test_what_a_peer_has_learned_is_scored_and_other_tasks_say_how_to_train(peer):
-    found = scoring.score(f"{peer}:make", [STRINGS], 5, Path(f"scored_{peer}"))
+    found = scoring.score(targets.find(f"{peer}:make"), [STRINGS], 5, Path(f"scored_{peer}"))
     assert found["complete"] and found["tasks"]["strings/features"]["episodes"] == 5
     with pytest.raises(player.PlayerError, match=rf"balance-features\.\w+ is missing; train it: python {peer}.py b"):
-        scoring.score(f"{peer}:make", protocol.named(["balance/features"]), 1, Path(f"none_{peer}"))
+        scoring.score(targets.find(f"{peer}:make"), protocol.named(["balance/features"]), 1, Path(f"none_{peer}"))
 
 
 @pytest.mark.parametrize("peer", PEERS)

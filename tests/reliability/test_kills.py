@@ -14,7 +14,7 @@ import torch
 from physexp.agents import checkpointing
 from physexp.analysis.experiments import base, sweep
 from physexp.analysis.replay import recording, writing
-from physexp.analysis.score import log, playing, protocol, scoring
+from physexp.analysis.score import log, playing, protocol, scoring, targets
 from physexp.analysis.training import finding, recorder, records
 from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
@@ -195,7 +195,7 @@ def test_training_that_was_killed_goes_on_to_the_same_variables_bit_for_bit(unin
 
 
 def score(folder):
-    scoring.score("random", protocol.named(["threshold/features", "strings/features"]), 6, folder)
+    scoring.score(targets.find("random"), protocol.named(["threshold/features", "strings/features"]), 6, folder)
 
 
 def test_a_score_that_was_killed_goes_on_to_the_same_log(tmp_path):

@@ -12,7 +12,7 @@ import numpy as np
 from physexp import extras, suite
 from physexp.agents import files
 from physexp.analysis.data import provenance, tables
-from physexp.analysis.score import episodes, player, playing, protocol, scoring, steps, targets
+from physexp.analysis.score import episodes, playing, protocol, scoring, steps, targets
 
 FILE = "export.json"
 TABLE = "steps.parquet"
@@ -22,83 +22,65 @@ MINARI = "minari"
 """The folder, among the exported files, that is to be `MINARI_DATASETS_PATH`."""
 
 SEED = 3_000_003  # Of the environments, apart from those of training, of evaluation and of the score.
-_MOST_EPISODES = 100_000  # Of each task.
+_MAX_EPISODES = 100_000  # Of each task.
 _ROWS = 2**12  # Of a part, at least, if it is not the last: so much is held in memory.
 
 
 def export(
-    target: str,
+    target: targets.Target,
     questions: Sequence[protocol.Question],
     num_episodes: int,
     folder: Path,
     *,
     seed: int = SEED,
-    greedy: bool = False,
     timeout: float = 60.0,
     as_minari: bool = False,
     show: Callable[[int], None] = lambda done: None,
 ) -> dict[str, Any]:
     """Plays episodes of some tasks and writes them; returns the content of `export.json`.
 
-    Episodes are kept as they end. After an interruption the same call goes on with the others; if the actor fails, the
+    Episodes are kept as they end. After an interruption the same call goes on with the others; if an agent fails, the
     episodes until then are written, too.
 
     Args:
-      target, greedy: as for `targets.find`.
-      questions: the tasks.
-      num_episodes: of each of them.
-      folder: where everything goes; it is made, is empty, or holds some of these very episodes.
+      target, questions, num_episodes, folder, timeout: as for `scoring.score`.
       seed: of the environments; not the score's.
-      timeout: for each call of a user's function, s.
       as_minari: write a data set of Minari for each task, too.
-      show: called with how many episodes have been played.
+      show: called with the number of episodes that have been played.
 
     Raises:
       MissingExtraError: if Minari is wanted and not installed.
       OSError: if it cannot be written.
-      player.PlayerError: if the actor fails.
+      player.PlayerError: if an agent fails.
       ValueError: if the folder holds something else, or a number makes no sense.
     """
     if as_minari:
         extras.require("minari")
-    scoring.check(num_episodes, _MOST_EPISODES, timeout)
+    scoring.check(num_episodes, _MAX_EPISODES, timeout)
     if seed == protocol.SEED:
         raise ValueError(f"seed is {seed}, whose episodes are scored; give another one")
-    minari_name = targets.file_name(target) if as_minari else None
-    writers = [_Writer(folder, asked, seed, minari_name) for asked in questions]
-    found, names = targets.find(target, greedy), [asked.name for asked in questions]
-    facts = {"seed": seed, "episodes": num_episodes, "agent": found.facts(names)}
-    begun = time.monotonic()
-    of_all = {"target": target, "greedy": greedy, **facts, "tasks": names, "versions": provenance.versions()}
-    with playing.session(folder, found, timeout, of_all) as session:
-        shutil.rmtree(folder / MINARI, ignore_errors=True)  # Of a session that was ended.
-        problem = _play(session, writers, num_episodes, seed, lambda: show(session.num_played))
-        if session.num_played:
-            ended = {"complete": not problem, "problem": problem}
-            written = {
-                **{"target": target, "greedy": greedy, **ended, **facts, **provenance.made_since(begun)},
-                "tasks": {writer.asked.name: writer.facts() for writer in writers if writer.num_episodes},
-            }
-            files.write_atomically(folder / FILE, (json.dumps(written, indent=1) + "\n").encode())
-        if problem:
-            raise player.PlayerError(f"{problem}{session.kept_in(folder)}")
-    return written
-
-
-def _play(
-    session: playing.Session, writers: "Sequence[_Writer]", num_episodes: int, seed: int, show: Callable[[], None]
-) -> str:
-    """Plays the tasks of writers, which write them; returns the problem of an actor that fails."""
-    for writer in writers:
-        try:
-            for episode in session.play(writer.asked, num_episodes, seed):
-                writer.add(episode)
-                show()
-        except player.PlayerError as error:
+    minari_name = targets.file_name(target.name) if as_minari else None
+    writers = {asked: _Writer(folder, asked, seed, minari_name) for asked in questions}
+    names, begun = [asked.name for asked in questions], time.monotonic()
+    facts = {"target": target.name, "greedy": target.greedy, "seed": seed, "episodes": num_episodes}
+    facts["agent"] = target.describe(names)
+    defining = {**facts, "tasks": names, "versions": provenance.versions()}
+    with playing.session(folder, target, timeout, defining) as session:
+        shutil.rmtree(folder / MINARI, ignore_errors=True)  # Of a session that was interrupted.
+        for asked, episode in session.play(questions, num_episodes, seed):
+            writers[asked].add(episode)
+            show(session.num_played)
+        for writer in writers.values():
             writer.write()
-            return str(error)
-        writer.write()
-    return ""
+        written = {
+            **facts,
+            **{"complete": not session.problem, "problem": session.problem},
+            **provenance.made_since(begun),
+            "tasks": {writer.asked.name: writer.facts() for writer in writers.values() if writer.num_episodes},
+        }
+        files.write_atomically(folder / FILE, (json.dumps(written, indent=1) + "\n").encode())
+        session.raise_problem()
+    return written
 
 
 class _Writer:

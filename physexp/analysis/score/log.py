@@ -9,7 +9,7 @@ import numpy as np
 import pyarrow
 from pyarrow import compute
 
-from physexp.analysis.data import tables
+from physexp.analysis.data import tables, untrusted
 from physexp.analysis.ideal import mistakes
 from physexp.analysis.score import episodes, protocol
 
@@ -44,6 +44,9 @@ JUDGED = pyarrow.schema(
 
 SCHEMA = pyarrow.schema([*PLAYED, *JUDGED])
 
+ACTIONS = JUDGED.names[:5]
+"""Columns that hold the fields of `mistakes.Actions`, in their order."""
+
 _NO_REGRET = 1e-9  # Less is an error of floating-point numbers.
 
 
@@ -57,15 +60,15 @@ def digest(observation: Mapping[str, np.ndarray]) -> int:
 
 
 def rows(
-    asked: protocol.Question, seed: int, number: int, episode: episodes.Episode, judged: mistakes.Actions
+    asked: protocol.Question, seed: int, number: int, episode: episodes.Episode, actions: mistakes.Actions
 ) -> dict[str, Any]:
-    """Returns the columns of one episode, T rows.
+    """Returns all columns of one episode, T rows.
 
     Args:
       asked, seed, number, episode: as for `played`.
-      judged: what is said of its actions.
+      actions: the judgement of its actions.
     """
-    return {**played(asked, seed, number, episode), **said(asked, episode.actions, judged)}
+    return {**played(asked, seed, number, episode), **judged(asked, episode.actions, actions)}
 
 
 def played(asked: protocol.Question, seed: int, number: int, episode: episodes.Episode) -> dict[str, Any]:
@@ -90,9 +93,10 @@ def played(asked: protocol.Question, seed: int, number: int, episode: episodes.E
     }
 
 
-def said(asked: protocol.Question, actions: np.ndarray, judged: mistakes.Actions) -> dict[str, Any]:
+def judged(asked: protocol.Question, actions: np.ndarray, found: mistakes.Actions) -> dict[str, Any]:
     """Returns the columns `JUDGED` of the actions of one episode, T rows."""
-    return {**vars(judged), "regret": judged.value - judged.worth, "mistake": _kinds(asked, actions, judged)}
+    fields = dict(zip(ACTIONS, vars(found).values(), strict=True))
+    return {**fields, "regret": found.value - found.worth, "mistake": _kinds(asked, actions, found)}
 
 
 def _kinds(asked: protocol.Question, actions: np.ndarray, judged: mistakes.Actions) -> np.ndarray:
@@ -125,7 +129,7 @@ def read(folder: Path) -> pyarrow.Table:
       OSError: if there is none.
       ValueError: if it is damaged; it names the file.
     """
-    return tables.read(folder / FILE, SCHEMA)
+    return untrusted.read_table(folder / FILE, SCHEMA)
 
 
 def of_task(found: pyarrow.Table, asked: protocol.Question) -> dict[str, np.ndarray]:

@@ -18,7 +18,7 @@ VERSION = "v1"
 SEED = 2_000_003  # Of the environments, apart from those of training and of evaluation.
 ENVIRONMENT_SEED = suite.environment_seed(SEED, 0)  # With it and an episode's index `suite.load` makes the instance.
 EPISODES, QUICK_EPISODES = 1_000, 100  # Of each task.
-MOST_EPISODES = 10_000
+MAX_EPISODES = 10_000
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -99,9 +99,9 @@ def ideal(asked: Question) -> ideal_base.Solution:
     return known.ideal(asked.task, {}, asked.discount)
 
 
-def load(asked: Question, seed: int = SEED) -> suite.BatchEnvironment:
-    """Returns the environment that is played, a batch of one; with another seed, other instances."""
-    return suite.load_batch(asked.domain, asked.task, 1, {"random": seed})
+def load(asked: Question, seed: int = SEED) -> suite.Environment:
+    """Returns the environment of a task, the first one of a batch with this seed."""
+    return suite.load(asked.domain, asked.task, {"random": suite.environment_seed(seed, 0)})
 
 
 def drawn(asked: Question, num_episodes: int) -> np.ndarray:

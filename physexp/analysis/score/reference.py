@@ -1,12 +1,10 @@
-"""What a score stands beside: how the ideal experimenter fares on the same instances, and what is earned at random."""
+"""Reference values of a score: statistics of the ideal experimenter on the same instances, and the return of chance."""
 
 import dataclasses
 import functools
 
 import numpy as np
 
-from physexp.agents import core
-from physexp.analysis.ideal import base as ideal_base
 from physexp.analysis.ideal import mistakes
 from physexp.analysis.score import episodes, protocol
 from physexp.suite.engine import rules
@@ -17,9 +15,9 @@ class Reference:
     """Means over the first episodes of a task.
 
     Attributes:
-      interactions: of an episode.
-      gains: bits of information about the answer from the first interaction, the second and so on; none once an
-        episode is over. float64 [K].
+      interactions: in an episode.
+      gains: bits of information about the answer from the first interaction, the second and so on, 0 after the end of
+        an episode, float64 [K].
     """
 
     interactions: float
@@ -27,38 +25,34 @@ class Reference:
 
     @property
     def bits_per_interaction(self) -> float:
-        """Returns 0 where there is no interaction."""
+        """Mean information from an interaction; 0 if there are none."""
         return float(self.gains.sum() / self.interactions) if self.interactions else 0.0
 
 
 @functools.cache
 def of(asked: protocol.Question, num_episodes: int) -> Reference | None:
-    """Plays the ideal experimenter; returns None where it cannot play from what is observed.
+    """Plays the ideal experimenter; returns None if it cannot play from the observations of the task.
 
-    What is hidden decides how it plays, so that it plays each hidden property once.
+    The hidden property determines how it plays, so it plays one episode of each.
     """
     solution = protocol.ideal(asked)
     try:
         actor = solution.actor()
     except ValueError:
         return None
-    hidden, counts = np.unique(protocol.drawn(asked, num_episodes), axis=0, return_counts=True)
+    drawn = protocol.drawn(asked, num_episodes)
+    _, first, counts = np.unique(drawn, axis=0, return_index=True, return_counts=True)
     environment = protocol.load(asked)
-    played = [_play(environment, actor, solution, one) for one in hidden]
+    played = [episodes.play(environment, actor, int(number)) for number in first]
     environment.close()
-    lengths = np.array([len(gains) for gains in played])
-    padded = np.array([np.pad(gains, (0, lengths.max() - len(gains))) for gains in played])
+    gains = [mistakes.information(solution.beliefs(episode))[:-1] for episode in played]
+    lengths = np.array([len(bits) for bits in gains])
+    padded = np.array([np.pad(bits, (0, lengths.max() - len(bits))) for bits in gains])
     return Reference(float(counts @ lengths / num_episodes), counts @ padded / num_episodes)
 
 
-def _play(environment, actor: core.Actor, solution: ideal_base.Solution, hidden: np.ndarray) -> np.ndarray:
-    """Plays an episode; returns the bits that each interaction brought."""
-    played = episodes.play(environment, episodes.chosen_by(actor), hidden=hidden)
-    return mistakes.information(solution.beliefs(played))[:-1]
-
-
 def random_return(asked: protocol.Question) -> float:
-    """Returns what is expected of actions that are all alike likely: one answer of L is right, whatever is hidden."""
+    """Returns the expected return of uniformly random actions; one of the L answers is right in each episode."""
     num_labels = asked.num_actions - asked.num_interactions
     goes_on = asked.num_interactions / asked.num_actions
     steps = np.arange(asked.step_limit)

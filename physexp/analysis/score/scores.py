@@ -14,7 +14,7 @@ import numpy as np
 from scipy import stats
 
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import protocol, reference
+from physexp.analysis.score import log, protocol, reference
 from physexp.suite.engine import rules
 
 _RESAMPLES = 2_000
@@ -103,7 +103,7 @@ def of_task(
     def discounted(values: np.ndarray) -> np.ndarray:
         return np.bincount(index, factors * values)
 
-    judged = mistakes.Actions(**{field.name: columns[field.name] for field in dataclasses.fields(mistakes.Actions)})
+    judged = mistakes.Actions(*(columns[name] for name in log.ACTIONS))
     costs = mistakes.costs(judged, are_answers, last)
     return TaskScore(
         asked=asked,

@@ -1,70 +1,63 @@
-"""Everything that can be scored: baselines, trained agents, and users' functions, each as a `Target`."""
+"""Finds all that can be scored, each as a `Target`: baselines, trained agents, teams of them, and users' functions."""
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+import contextlib
 import dataclasses
 import functools
-import importlib
-import inspect
-import os
 from pathlib import Path
 import re
-import sys
 from typing import Any
 
 from physexp.agents import config as agent_config
 from physexp.agents import core
 from physexp.analysis import domains
-from physexp.analysis.score import actors, protocol
+from physexp.analysis.score import actors, player, protocol
 from physexp.analysis.training import config as config_lib
 
 SHIPPED = "shipped"
-"""The team of the best agents that come with the package; a learner's name stands for those of the learner."""
+"""The team of the best agents that come with the package."""
 
-_METHODS = ("select_action", "observe_first", "observe", "update")
 _LONGEST = 60  # Letters of a file's name; file systems allow 255 bytes.
 
-
-class TargetError(ValueError):
-    """A target cannot play; the line says what is allowed."""
+Make = Callable[[protocol.Question, int], core.Actor]
+"""Returns an actor for a task, from the task and the index of the first episode that it will play."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Target:
-    """A baseline, a trained agent, a team of them, or a user's function.
+    """A baseline, a trained agent, a team of trained agents, or a user's function.
 
     Attributes:
-      name: as it was given.
+      name: the text that it was found by.
+      greedy: whether trained agents take their likeliest actions instead of drawing them.
       questions: the tasks that it can play; None for all, as far as is known before an actor is made.
-      make: returns an actor for a task, from the task and the index of the first episode that it will play.
-      facts: returns how the agents of some tasks, `domain/task`, were trained: algorithm, seed, command, commit,
-        frames, seconds; of a team, algorithms, frames and seconds in all, and all of it of each of its `agents`.
-      is_function: whether it is a user's function, which plays in a process of its own.
-      is_trained: whether it is a trained agent or a team of them.
+      make: makes its actors in this process; None for a user's function.
+      facts: returns how a trained agent was trained: algorithm, seed, command, commit, frames, seconds.
+      members: the agents of a team, each a target with one task, by the task's name.
     """
 
     name: str
+    greedy: bool
     questions: tuple[protocol.Question, ...] | None
-    make: Callable[[protocol.Question, int], core.Actor]
-    facts: Callable[[Collection[str]], dict[str, Any]] = lambda tasks: {}
-    is_function: bool = False
-    is_trained: bool = False
+    make: Make | None
+    facts: Callable[[], dict[str, Any]] = dict
+    members: Mapping[str, "Target"] = dataclasses.field(default_factory=dict)
 
     def choose(self, tasks: Sequence[str], observations: str) -> tuple[protocol.Question, ...]:
         """Returns the tasks to play.
 
         Args:
-          tasks: named ones, as `domain/task`; none for all that it can play.
+          tasks: their names, `domain/task`; none for all that it can play.
           observations: the kind of these, as for `protocol.observing`, where it can play any.
 
         Raises:
           ValueError: if there is no such task, or the target does not play it.
         """
         can = self.questions
-        if tasks:
-            found = protocol.named(tasks)
-        else:
+        if not tasks:
             usual = protocol.observing(observations)
-            found = usual if can is None else tuple(asked for asked in can if asked in usual) or can
+            return usual if can is None else tuple(asked for asked in can if asked in usual) or can
+        found = protocol.named(tasks)
         for asked in found:
             if can is not None and asked not in can:
                 raise ValueError(
@@ -72,29 +65,49 @@ class Target:
                 )
         return found
 
+    def describe(self, tasks: Collection[str]) -> dict[str, Any]:
+        """Returns how the agents of some tasks were trained; of a team, sums, and `agents` by the task's name."""
+        if not self.members:
+            return self.facts()
+        each = {task: member.facts() for task, member in self.members.items() if task in tasks}
+        sums = {name: sum(one[name] for one in each.values()) for name in ("frames", "seconds")}
+        algorithms = dict.fromkeys(one["algorithm"] for one in each.values())
+        return {"algorithm": ", ".join(algorithms), **sums, "agents": each}
+
+    @contextlib.contextmanager
+    def playing(self, timeout: float) -> Iterator[Make]:
+        """Returns a context in which actors play; those of a user's function have a process of their own.
+
+        Args:
+          timeout: for each call of a user's function, s.
+        """
+        if self.make is not None:
+            yield self.make
+            return
+        with player.Player(self.name, timeout) as its:
+            yield its.make
+
 
 def find(name: str, greedy: bool = False) -> Target:
     """Returns the target of a name.
 
     Args:
-      name: a baseline; the folder of a run, the card of a published agent, or an agent that comes with the package;
-        several of these with commas between, `shipped`, or a learner's name, for a team in which each plays its own
+      name: a baseline; the folder of a run, the file of a published agent, or an agent that comes with the package;
+        several agents with commas between them, `shipped`, or a learner's name, for a team in which each plays its own
         task; or `module:function`.
       greedy: a trained agent takes its likeliest action instead of drawing one.
 
     Raises:
       ValueError: if there is no such target; the line lists what there is.
     """
-    if name in actors.BASELINES:
-        return Target(name, None, actors.BASELINES[name])
     if _is_function(name):
-        return Target(name, None, lambda asked, first: _actor_of_function(name, asked), is_function=True)
-    if name == SHIPPED or name in config_lib.ALGORITHMS:
-        return _team(name, _shipped(name), greedy)
-    if "," in name:
-        return _team(name, _members(name), greedy)
-    if baselines := _baselines_of_domains().get(name):
-        return Target(name, tuple(baselines), lambda asked, first: baselines[asked]())
+        return Target(name, greedy, None, None)
+    if name in actors.BASELINES:
+        return Target(name, greedy, None, actors.BASELINES[name])
+    if makers := _baselines_of_domains().get(name):
+        return Target(name, greedy, tuple(makers), lambda asked, first: makers[asked]())
+    if "," in name or _is_team(name):
+        return _team(name, greedy)
     return _agent(name, greedy)
 
 
@@ -111,88 +124,65 @@ def _agent(name: str, greedy: bool) -> Target:
     from physexp.analysis.training import finding, publishing
 
     try:
-        network, config = finding.find_agent(name)
+        agent = finding.find_agent(name)
     except ValueError as error:
         others = ", ".join([*actors.BASELINES, *_baselines_of_domains(), SHIPPED, *config_lib.ALGORITHMS])
         raise ValueError(f"{error}; or give {others}, or MODULE:FUNCTION") from None
+    config = agent.config
     if not publishing.is_default(config):
         options = ", ".join(f"{option} {agent_config.shown(value)}" for option, value in config.task_kwargs.items())
         raise ValueError(
             f"{name} was trained with {options}, and the score plays tasks without options: train an agent of "
             f"{config.domain}/{config.task} without any"
         )
+
+    def how_trained() -> dict[str, Any]:
+        trained = agent.provenance()
+        found = {fact: trained.get(fact) for fact in ("command", "commit", "frames", "seconds")}
+        return {"algorithm": config.agent.title, "seed": config.agent.seed, **found}
+
     return Target(
         name,
+        greedy,
         (protocol.question(config.domain, config.task),),
-        lambda asked, first: actors.Network(network.eval(), greedy, first),
-        lambda tasks: _facts(name, config),
-        is_trained=True,
+        lambda asked, first: actors.Network(agent.network, greedy, first),
+        how_trained,
     )
 
 
-def _facts(name: str, config: config_lib.TrainConfig) -> dict[str, Any]:
-    """Returns how an agent was trained."""
-    from physexp.agents import pretrained
-    from physexp.analysis.training import finding, publishing
-    from physexp.analysis.training import run as run_lib
-
-    if agent := finding.published(name):
-        trained = agent.card
-    elif Path(name).exists():
-        run = run_lib.Run(Path(name))
-        frames, seconds = publishing.progress(run)
-        trained = {
-            "frames": frames,
-            "seconds": seconds,
-            "commit": run.facts.get("commit", "not recorded"),
-            "command": publishing.command(config),
-        }
-    else:
-        trained = pretrained.load(config.domain, config.task).card
-    found = {fact: trained.get(fact) for fact in ("command", "commit", "frames", "seconds")}
-    return {"algorithm": config.agent.title, "seed": config.agent.seed, **found}
-
-
-def _team(name: str, members: dict[str, str], greedy: bool) -> Target:
-    """Returns a team, of the names of agents by task."""
-
-    def facts(tasks: Collection[str]) -> dict[str, Any]:
-        each = {task: find(member).facts([task]) for task, member in members.items() if task in tasks}
-        sums = {fact: sum(one[fact] for one in each.values()) for fact in ("frames", "seconds")}
-        algorithms = dict.fromkeys(one["algorithm"] for one in each.values())
-        return {"algorithm": ", ".join(algorithms), **sums, "agents": each}
-
-    return Target(
-        name,
-        protocol.named(list(members)),
-        lambda asked, first: find(members[asked.name], greedy).make(asked, first),
-        facts,
-        is_trained=True,
-    )
-
-
-def _members(name: str) -> dict[str, str]:
-    """Returns the agents of a team by task, of names with commas between.
+def _team(name: str, greedy: bool) -> Target:
+    """Returns a team, of names of agents and of teams with commas between them.
 
     Raises:
       ValueError: if one of them is no trained agent, or two play the same task.
     """
-    team: dict[str, str] = {}
-    for member in name.split(","):
-        target = find(member)
-        if not target.is_trained:
-            raise ValueError(f"{member} is no trained agent; a team is of trained agents, so give it alone")
-        is_team = member == SHIPPED or member in config_lib.ALGORITHMS
-        for asked in target.questions or ():
-            if other := team.get(asked.name):
-                raise ValueError(f"both {other} and {member} play {asked.name}; name one of them")
-            team[asked.name] = _shipped(member)[asked.name] if is_team else member
-    return team
+    members: dict[protocol.Question, Target] = {}
+    for part in name.split(","):
+        if _is_function(part) or part in actors.BASELINES or part in _baselines_of_domains():
+            raise ValueError(f"{part} is no trained agent; a team is of trained agents, so give it alone")
+        for member in _shipped(part) if _is_team(part) else [part]:
+            agent = _agent(member, greedy)
+            (asked,) = agent.questions or ()
+            if asked in members:
+                raise ValueError(f"both {members[asked].name} and {member} play {asked.name}; name one of them")
+            members[asked] = agent
+
+    def make(asked: protocol.Question, first: int) -> core.Actor:
+        of_member = members[asked].make
+        assert of_member is not None
+        return of_member(asked, first)
+
+    by_name = {asked.name: agent for asked, agent in members.items()}
+    return Target(name, greedy, tuple(members), make, members=by_name)
 
 
-@functools.cache  # All agents are looked at.
-def _shipped(learner: str) -> dict[str, str]:
-    """Returns the agents that come with the package, by task: the best ones, or those of a learner."""
+def _is_team(name: str) -> bool:
+    return name == SHIPPED or name in config_lib.ALGORITHMS
+
+
+@functools.cache  # The cards of all agents are read.
+def _shipped(learner: str) -> list[str]:
+    """Returns the agents that come with the package, one for each task: the best ones, or those of a learner."""
     from physexp.agents import pretrained
     from physexp.analysis.training import finding, publishing
 
@@ -202,11 +192,11 @@ def _shipped(learner: str) -> dict[str, str]:
         is_wanted = "/" not in name if learner == SHIPPED else config.agent.algorithm == learner
         if is_wanted and publishing.is_default(config):
             team.setdefault(f"{config.domain}/{config.task}", name)
-    return team
+    return list(team.values())
 
 
 def _baselines_of_domains() -> dict[str, dict[protocol.Question, Callable[[], core.Actor]]]:
-    """Returns the baselines that only some tasks have: by name, and then by task."""
+    """Returns the baselines of single tasks: by name, and then by task."""
     found: dict[str, dict[protocol.Question, Callable[[], core.Actor]]] = {}
     for domain, known in domains.DOMAINS.items():
         for task, baselines in known.baselines.items():
@@ -219,44 +209,3 @@ def _is_function(name: str) -> bool:
     """Returns whether a name is a user's function, given as `module:function`."""
     module, colon, function = name.partition(":")
     return bool(colon) and all(part.isidentifier() for part in [*module.split("."), function])
-
-
-def _actor_of_function(name: str, asked: protocol.Question) -> core.Actor:
-    """Returns an actor from a user's function, which is a policy, or makes an actor or a policy for a task."""
-    module, _, attribute = name.partition(":")
-    if os.getcwd() not in sys.path:
-        sys.path.insert(0, os.getcwd())
-    try:
-        function = getattr(importlib.import_module(module), attribute)
-    except ModuleNotFoundError as error:
-        raise TargetError(f"{error}; start where it is, or install it") from None
-    except AttributeError:
-        raise TargetError(f"{module} has no {attribute}; name a function that it has") from None
-    count = _num_parameters(function) if callable(function) else 0
-    if count == 2:
-        return actors.Policy(function)
-    if count == 1:
-        return _as_actor(function(asked))
-    what = f"has {count} parameters without a default" if callable(function) else "is no function"
-    raise TargetError(
-        f"{attribute} {what}; give a function of a question, which returns an actor or a policy, or a policy, a "
-        "function of an observation and a state"
-    )
-
-
-def _num_parameters(function: Callable[..., Any]) -> int:
-    """Returns how many arguments a function must be given."""
-    parameters = inspect.signature(function).parameters.values()
-    optional = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
-    return sum(one.default is one.empty and one.kind not in optional for one in parameters)
-
-
-def _as_actor(made: Any) -> core.Actor:
-    if all(callable(getattr(made, method, None)) for method in _METHODS):
-        return made
-    if callable(made):
-        return actors.Policy(made)
-    raise TargetError(
-        f"it returned {type(made).__name__}; return an actor, with {', '.join(_METHODS)}, or a policy, a function "
-        "of an observation and a state"
-    )

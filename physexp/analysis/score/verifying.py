@@ -1,4 +1,4 @@
-"""Verifies a score: plays the logged actions again, bit for bit, and says what does not follow from them."""
+"""Verifies a score: plays the logged actions again and compares everything that follows from them."""
 
 from collections.abc import Callable, Mapping, Sequence
 import functools
@@ -13,24 +13,22 @@ import pyarrow
 from pyarrow import compute
 
 import physexp
-from physexp import suite
-from physexp.agents import files
-from physexp.analysis.data import provenance, tables
+from physexp.analysis.data import provenance
 from physexp.analysis.score import episodes, judging, log, protocol, reference, scoring
 
 _TOLERANCE = 1e-9  # Of floating-point numbers, on any machine.
 
 
 def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dict[str, Any]:
-    """Plays what a folder's log says again; returns how many episodes and actions there are, and the score.
+    """Plays the log of a folder again; returns the numbers of episodes and actions, the target and the score.
 
     Args:
-      folder: what `scoring.score` has written.
-      show: called with how many episodes have been played.
+      folder: a folder that `scoring.score` has written.
+      show: called with the number of episodes that have been played.
 
     Raises:
       OSError: if a file is missing.
-      ValueError: if anything differs; the line names what.
+      ValueError: if anything differs; the line names it.
     """
     written, found = scoring.read(folder), log.read(folder)
     questions = protocol.named(written["protocol"]["tasks"])
@@ -44,44 +42,46 @@ def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dic
         environment, judge = protocol.load(asked), judging.Judge(protocol.ideal(asked))
         for number, logged in enumerate(log.split(columns[asked.name])):
             place = f"{path}: {asked.name}, episode {number}"
-            episode = _play(environment, place, logged, number)
+            try:
+                episode = episodes.replay(environment, logged["action"].tolist(), number)
+            except ValueError as error:
+                raise ValueError(f"{place}: {error}") from None
             _compare(place, logged, log.rows(asked, protocol.ENVIRONMENT_SEED, number, episode, judge(episode)))
             done += 1
             show(done)
         environment.close()
     ideals = {asked.name: reference.of(asked, count) for asked, count in zip(questions, counts, strict=True) if count}
-    again = scoring.figures(found, questions, ideals)
-    _compare_figures(folder / scoring.FILE, {name: written[name] for name in again}, again)
+    again = scoring.metrics(found, questions, ideals)
+    _compare_metrics(folder / scoring.FILE, {name: written[name] for name in again}, again)
     return {"episodes": done, "actions": len(found), "target": written["target"], "score": written["whole"]["score"]}
 
 
 def verify_once(folder: Path) -> None:
     """Verifies a folder, unless this user has verified the same files with the same sources before.
 
-    An empty file in `~/.cache/physexp/verified` (or below `$XDG_CACHE_HOME`) stands for files that were verified. It is
-    outside of the results, so that nobody who adds a row can add it.
+    An empty file in `~/.cache/physexp/verified` (or below `$XDG_CACHE_HOME`) stands for verified files. It lies outside
+    the results, so that it cannot come with a row.
 
     Raises:
       OSError, ValueError: as `verify`.
     """
-    kept = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "physexp" / "verified"
-    kept.mkdir(parents=True, exist_ok=True)
-    of_folder = [files.read_plain(folder / name, tables.MOST_BYTES) for name in (scoring.FILE, log.FILE)]
-    mark = kept / _digest([_sources(), *of_folder]).hex()
+    known = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "physexp" / "verified"
+    known.mkdir(parents=True, exist_ok=True)
+    mark = known / _digest([*_sources(), *((folder / name).read_bytes() for name in (scoring.FILE, log.FILE))])
     if not mark.exists():
         verify(folder)
         mark.touch()
 
 
 @functools.cache
-def _sources() -> bytes:
-    """Returns a digest of all that decides whether a folder is verified: the package's files and the versions."""
+def _sources() -> list[bytes]:
+    """Returns all that decides whether a folder is verified: the package's sources and the versions."""
     paths = sorted(Path(physexp.__file__).parent.rglob("*.py"))
-    return _digest([repr(provenance.versions()).encode(), *(path.read_bytes() for path in paths)])
+    return [repr(provenance.versions()).encode(), *(path.read_bytes() for path in paths)]
 
 
-def _digest(parts: Sequence[bytes]) -> bytes:
-    return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).digest()
+def _digest(parts: Sequence[bytes]) -> str:
+    return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
 
 
 def _check_order(path: Path, found: pyarrow.Table, wanted: Sequence[str]) -> None:
@@ -97,7 +97,7 @@ def _check_order(path: Path, found: pyarrow.Table, wanted: Sequence[str]) -> Non
 def _check_counts(
     folder: Path, written: Mapping[str, Any], questions: Sequence[protocol.Question], counts: Sequence[int]
 ) -> None:
-    """Refuses another number of episodes than was asked for; what was ended early has all of them until its end."""
+    """Refuses another number of episodes than the score declares; after an early end, the last ones may be missing."""
     asked_for = written["protocol"]["episodes"]
     if written["protocol"]["seed"] != protocol.SEED:
         raise ValueError(f"{folder / scoring.FILE}: seed is {written['protocol']['seed']} instead of {protocol.SEED}")
@@ -108,27 +108,8 @@ def _check_counts(
             raise ValueError(f"{folder / log.FILE}: {asked.name} has {count} episodes instead of {asked_for}")
 
 
-def _play(
-    environment: suite.BatchEnvironment, place: str, logged: Mapping[str, np.ndarray], number: int
-) -> episodes.Episode:
-    """Plays the logged actions of an episode."""
-    actions = logged["action"].tolist()
-
-    def act(step: int, timestep) -> int:
-        if step == len(actions):
-            raise ValueError(f"{place}: the episode does not end with its last row, step {step - 1}; rows are missing")
-        if not 0 <= actions[step] < environment.task.rules.num_actions:
-            raise ValueError(f"{place}, step {step}: action is {actions[step]}, which is none")
-        return actions[step]
-
-    played = episodes.play(environment, act, number)
-    if len(played.actions) < len(actions):
-        raise ValueError(f"{place}: the episode ends with step {len(played.actions) - 1}, and there are more rows")
-    return played
-
-
 def _compare(place: str, logged: Mapping[str, np.ndarray], again: Mapping[str, np.ndarray]) -> None:
-    """Refuses what is not the same when it is played again."""
+    """Refuses rows that differ from those of playing again."""
     for name in log.SCHEMA.names:
         theirs, ours = logged[name], again[name]
         is_close = name in log.JUDGED.names and ours.dtype.kind == "f"
@@ -141,14 +122,14 @@ def _compare(place: str, logged: Mapping[str, np.ndarray], again: Mapping[str, n
             )
 
 
-def _compare_figures(path: Path, written: Any, again: Mapping[str, Any], place: str = "") -> None:
-    """Refuses figures that do not follow from the log."""
+def _compare_metrics(path: Path, written: Any, again: Mapping[str, Any], place: str = "") -> None:
+    """Refuses metrics that do not follow from the log."""
     if not isinstance(written, dict) or set(written) - set(again):
-        raise ValueError(f"{path}: {place or 'it '}has other figures than {', '.join(again)}; score again, elsewhere")
+        raise ValueError(f"{path}: {place or 'it '}has other metrics than {', '.join(again)}; score again, elsewhere")
     for name, ours in again.items():
         theirs = written.get(name)
         if isinstance(ours, dict):
-            _compare_figures(path, theirs, ours, f"{place}{name}, ")
+            _compare_metrics(path, theirs, ours, f"{place}{name}, ")
         elif not _are_close(theirs, ours):
             raise ValueError(f"{path}: {place}{name} is {theirs}, and {ours} by the log; score again, elsewhere")
 

@@ -8,7 +8,7 @@ import commands
 import pytest
 
 from physexp.analysis.data import text
-from physexp.analysis.score import protocol, scoring
+from physexp.analysis.score import protocol, scoring, targets
 
 HOSTILE = "mine; score 0.9990\x1b[8m\n\r\x9b2K\u202e\udcff"
 SHOWN = r"mine; score 0.9990\x1b[8m\n\r\x9b2K\u202e\udcff"
@@ -29,7 +29,7 @@ def test_markup_in_a_page_is_text(given):
 
 def test_commands_show_escape_sequences_of_a_file_as_text(tmp_path):
     folder = tmp_path / "score"
-    scoring.score("silent", protocol.named(["threshold/features"]), 1, folder)
+    scoring.score(targets.find("silent"), protocol.named(["threshold/features"]), 1, folder)
     written = json.loads((folder / scoring.FILE).read_text())
     (folder / scoring.FILE).write_text(json.dumps({**written, "target": HOSTILE}))
     done = commands.run("verify", folder, check=True)

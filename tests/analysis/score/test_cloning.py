@@ -4,7 +4,7 @@ from pathlib import Path
 import shutil
 import sys
 
-from physexp.analysis.score import exporting, protocol, scoring
+from physexp.analysis.score import exporting, protocol, scoring, targets
 
 EXAMPLE = Path(__file__).parents[3] / "docs" / "examples" / "clone_the_ideal.py"
 sys.path.insert(0, str(EXAMPLE.parent))
@@ -12,12 +12,12 @@ sys.path.insert(0, str(EXAMPLE.parent))
 import clone_the_ideal  # noqa: E402
 
 
-def test_a_clone_of_the_ideal_is_scored_as_the_ideal(monkeypatch, tmp_path):
+def test_a_clone_of_the_ideal_scores_like_the_ideal(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     shutil.copy(EXAMPLE, tmp_path)
     asked = protocol.named(["threshold/features"])
     # Its eight levels are alike likely: that one of them is in none of 100 episodes has a chance of 8 (7/8)^100 = 1e-5.
-    exporting.export("ideal", asked, 100, Path("exported"))
+    exporting.export(targets.find("ideal"), asked, 100, Path("exported"))
     clone_the_ideal.train("exported", "threshold/features", updates=300)
-    figures = scoring.score("clone_the_ideal:make", asked, 40, Path("scored"))["tasks"]["threshold/features"]
-    assert figures["score"] > 0.95
+    found = scoring.score(targets.find("clone_the_ideal:make"), asked, 40, Path("scored"))
+    assert found["tasks"]["threshold/features"]["score"] > 0.95

@@ -15,7 +15,7 @@ import waiting
 
 from physexp import suite
 from physexp.analysis.data import tables
-from physexp.analysis.score import exporting, log, player, playing, protocol, scoring, steps
+from physexp.analysis.score import exporting, log, player, playing, protocol, scoring, steps, targets
 
 HALVING = Path(__file__).parents[3] / "docs" / "examples" / "halving.py"
 HANGS = """
@@ -50,7 +50,7 @@ def here(monkeypatch, tmp_path):
 
 
 def export(target, questions=THRESHOLD, count=4, folder="exported", **options):
-    return exporting.export(target, questions, count, Path(folder), **options)
+    return exporting.export(targets.find(target), questions, count, Path(folder), **options)
 
 
 def table_of(asked, folder="exported"):
@@ -149,8 +149,8 @@ def test_images_are_stored_bit_for_bit():
     data_set = minari.MinariDataset("exported/minari/physexp/threshold-pixels/random-v0/data")
     environment = protocol.load(asked, exporting.SEED)
     for loaded, played in zip(data_set, log.split(columns_of(asked)), strict=True):
-        seen = [environment.reset(), *(environment.step(np.array([action])) for action in loaded.actions)]
-        images = np.concatenate([timestep.observation["pixels"] for timestep in seen])
+        seen = [environment.reset(), *(environment.step(action) for action in loaded.actions)]
+        images = np.stack([timestep.observation["pixels"] for timestep in seen])
         assert images.std() > 0
         np.testing.assert_array_equal(loaded.observations["pixels"], images)
         np.testing.assert_array_equal(played["observation_pixels"], images[:-1].reshape(len(loaded), -1))
@@ -301,7 +301,7 @@ def test_without_minari_the_extra_is_named_before_anything_is_played(monkeypatch
 
 def test_a_score_and_an_export_of_a_task_have_the_same_columns_in_common():
     export("random", count=2)
-    scoring.score("random", THRESHOLD, 2, Path("scored"))
+    scoring.score(targets.find("random"), THRESHOLD, 2, Path("scored"))
     scored = parquet.read_table("scored/actions.parquet")
     names = ["domain", "task", "seed", "episode", "step", "action", "reward"]
     exported = table_of(*THRESHOLD)

@@ -14,9 +14,9 @@ def play(target, asked, count=COUNT):
     """The score of a target on a task, played in this process."""
     actor, environment = targets.find(target).make(asked, 0), protocol.load(asked)
     judge = judging.Judge(protocol.ideal(asked))
-    act, played = episodes.chosen_by(actor), []
+    played = []
     for number in range(count):
-        episode = episodes.play(environment, act, number)
+        episode = episodes.play(environment, actor, number)
         played.append(log.rows(asked, protocol.ENVIRONMENT_SEED, number, episode, judge(episode)))
     environment.close()
     return scores.of_task(asked, log.of_task(log.table(played), asked), reference.of(asked, count))
@@ -63,7 +63,7 @@ def test_the_scores_of_guesses_are_those_of_their_chances():
 def of_random(tmp_path_factory):
     """What is found of random actions."""
     asked = protocol.named(["threshold/features", "strings/features", "balance/features"])
-    return scoring.score("random", asked, 40, tmp_path_factory.mktemp("random") / "score")
+    return scoring.score(targets.find("random"), asked, 40, tmp_path_factory.mktemp("random") / "score")
 
 
 @pytest.mark.parametrize("asked", FEATURES, ids=lambda asked: asked.name)
@@ -94,6 +94,7 @@ def test_every_task_has_an_ideal_to_be_compared_with_and_instances_of_its_own():
     for asked in everything:
         assert protocol.ideal(asked) is protocol.ideal(asked)
         environment = protocol.load(asked)
-        environment.reset(episode=3)
-        np.testing.assert_array_equal(environment.hidden[0], protocol.drawn(asked, 4)[3])
+        environment.task.next_episode = 3
+        environment.reset()
+        np.testing.assert_array_equal(environment.task.hidden, protocol.drawn(asked, 4)[3])
         environment.close()

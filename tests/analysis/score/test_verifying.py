@@ -10,7 +10,7 @@ import pyarrow
 import pytest
 
 from physexp.agents import files
-from physexp.analysis.score import log, protocol, scoring, verifying
+from physexp.analysis.score import log, protocol, scoring, targets, verifying
 
 THRESHOLD, STRINGS = protocol.named(["threshold/features", "strings/features"])
 COUNT = 4
@@ -20,7 +20,7 @@ COUNT = 4
 def played(tmp_path_factory):
     """A folder with a score of random actions on two tasks."""
     folder = tmp_path_factory.mktemp("played") / "score"
-    scoring.score("random", [THRESHOLD, STRINGS], COUNT, folder)
+    scoring.score(targets.find("random"), [THRESHOLD, STRINGS], COUNT, folder)
     return folder
 
 
@@ -166,7 +166,7 @@ def test_episodes_out_of_order_are_refused(folder):
         ),
         (lambda found: found["tasks"]["strings/features"]["mistakes"].update(early=0.0), "mistakes, early is 0.0, and"),
         (lambda found: found["tasks"]["strings/features"].pop("luck"), "tasks, strings/features, luck is None"),
-        (lambda found: found["tasks"].update(more={}), "tasks, has other figures than threshold/features, strings"),
+        (lambda found: found["tasks"].update(more={}), "tasks, has other metrics than threshold/features, strings"),
         (lambda found: found["protocol"].update(seed=1), "seed is 1 instead of 2000003"),
         (lambda found: found["protocol"].update(tasks=["threshold/features"]), "row .* is of strings/features"),
         (lambda found: found["protocol"].update(episodes=5), "has 4 episodes instead of 5"),

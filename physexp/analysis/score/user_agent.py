@@ -1,0 +1,163 @@
+"""The process of a user's function: makes the actor, shows it time steps, and answers with its actions.
+
+It answers in lines of JSON, so that nothing of the actor's runs in the process that scores it.
+"""
+
+from collections.abc import Callable
+import importlib
+import inspect
+import json
+import multiprocessing
+import os
+from pathlib import Path
+import pickle
+import signal
+import socket
+import sys
+import sysconfig
+import threading
+import traceback
+from typing import Any
+
+import numpy as np
+
+import physexp
+from physexp.agents import core, processes
+from physexp.analysis.score import actors, protocol
+
+_LONGEST = 200  # Characters of a text in an answer.
+_METHODS = ("select_action", "observe_first", "observe", "update")
+
+_is_here = False  # Whether this is such a process.
+
+
+class TargetError(ValueError):
+    """A function cannot play; the line says what is allowed."""
+
+
+def refuse_here() -> None:
+    """Raises TargetError in such a process: the function's module plays episodes when it is imported."""
+    if _is_here:
+        raise TargetError(
+            'the module plays episodes when it is imported; put its own calls below `if __name__ == "__main__":`'
+        )
+
+
+def make_actor(name: str, asked: protocol.Question) -> core.Actor:
+    """Returns an actor for a task from a user's function, which is a policy or makes an actor or a policy.
+
+    Args:
+      name: `module:function`.
+      asked: the task.
+
+    Raises:
+      TargetError: if there is no such function, or it is neither.
+    """
+    module, _, attribute = name.partition(":")
+    if (here := str(Path.cwd())) not in sys.path:
+        sys.path.insert(0, here)
+    try:
+        function = getattr(importlib.import_module(module), attribute)
+    except ModuleNotFoundError as error:
+        raise TargetError(f"{error}; start where it is, or install it") from None
+    except AttributeError:
+        raise TargetError(f"{module} has no {attribute}; name a function that it has") from None
+    count = _num_parameters(function) if callable(function) else 0
+    if count == 2:
+        return actors.Policy(function)
+    if count == 1:
+        return _as_actor(function(asked))
+    what = f"has {count} parameters without a default" if callable(function) else "is no function"
+    raise TargetError(
+        f"{attribute} {what}; give a function of a question, which returns an actor or a policy, or a policy, a "
+        "function of an observation and a state"
+    )
+
+
+def serve(connection: socket.socket, name: str) -> None:
+    """Answers messages until the process is killed.
+
+    Args:
+      connection: to the process that scores.
+      name: `module:function`.
+    """
+    global _is_here
+    _is_here = True
+    os.setsid()  # The stop signals of the scoring program's group do not reach it, and its own group ends as one.
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, processes.STOP_SIGNALS)  # Programs that the actor starts inherit it.
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    os.dup2(2, 1)  # Prints of the actor are no output of the scoring program.
+    sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
+    actor: Any = None
+    messages = connection.makefile("rb")
+    while True:
+        answer: dict[str, Any] = {}
+        try:
+            match pickle.load(messages):
+                case protocol.Question() as asked:
+                    actor = make_actor(name, asked)
+                case action, timestep:
+                    _show(actor, action, timestep)
+                    if not timestep.last():
+                        answer["action"] = _plain(actor.select_action(timestep.observation))
+        except Exception as error:  # The scoring program reports it.
+            answer = {"error": _described(error)}
+        connection.sendall(json.dumps(answer).encode() + b"\n")
+
+
+def _show(actor: core.Actor, action: int | None, timestep) -> None:
+    if action is None:
+        actor.observe_first(timestep)
+    else:
+        actor.observe(action, timestep)
+        actor.update()
+
+
+def _num_parameters(function: Callable[..., Any]) -> int:
+    """Returns the number of arguments that a function must be given."""
+    parameters = inspect.signature(function).parameters.values()
+    optional = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
+    return sum(one.default is one.empty and one.kind not in optional for one in parameters)
+
+
+def _as_actor(made: Any) -> core.Actor:
+    if all(callable(getattr(made, method, None)) for method in _METHODS):
+        return made
+    if callable(made):
+        return actors.Policy(made)
+    raise TargetError(
+        f"it returned {type(made).__name__}; return an actor, with {', '.join(_METHODS)}, or a policy, a function "
+        "of an observation and a state"
+    )
+
+
+def _end_with_parent() -> None:
+    """Ends this process and all that it has started when its parent ends."""
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    parent.join()
+    os.killpg(os.getpid(), signal.SIGKILL)
+
+
+def _plain(action: Any) -> Any:
+    """Returns an integer for an action that is one, and a text that shows any other."""
+    array = np.asarray(action)
+    is_integer = array.size == 1 and array.dtype.kind in "iu"
+    return array.item() if is_integer else " ".join(repr(action).split())[:_LONGEST]
+
+
+def _described(error: Exception) -> str:
+    """Returns an error in one line, with the last place in the user's code."""
+    if isinstance(error, TargetError):
+        return str(error)
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [frame for frame in frames if not _is_of_a_library(frame.filename)]
+    message = " ".join(str(error).split())[:_LONGEST]
+    place = f", {Path(own[-1].filename).name}:{own[-1].lineno}" if own else ""
+    return f"{type(error).__name__}: {message}{place}"
+
+
+def _is_of_a_library(path: str) -> bool:
+    """Returns whether a source file is Python's, an installed library's, or this package's."""
+    folders = (*map(sysconfig.get_path, ("stdlib", "purelib", "platlib")), Path(physexp.__file__).parent)
+    return path.startswith("<") or any(Path(path).is_relative_to(folder) for folder in folders)
