@@ -11,14 +11,10 @@ import numpy as np
 
 from physexp.agents import files
 from physexp.analysis.data import plots, provenance, text
-from physexp.analysis.score import drawing, log, protocol, report, scores, scoring, verifying
+from physexp.analysis.score import drawing, log, protocol, scores, scoring, verifying
 
 FOLDER = "scores"
 NAME = "leaderboard"
-MARKS = ("<!-- leaderboard: physexp leaderboard writes it -->", "<!-- end of the leaderboard -->")
-"""What it stands between in the README."""
-
-SHORT = 10  # Rows in the README.
 _ABSENT = "–"
 _INTRODUCTION = (
     "Each row is a folder in `results/scores`. `physexp leaderboard` makes this page from them: it plays the actions "
@@ -40,8 +36,8 @@ class Row:
       name: the folder's.
       whole: score and interval over all domains.
       domains: the same of each domain.
-      played: how many of each domain's tasks were played, and how many there are.
-      found: what `score.json` holds.
+      played: the number of each domain's tasks that were played, and of all.
+      found: the content of `score.json`.
     """
 
     name: str
@@ -52,11 +48,7 @@ class Row:
 
 
 def folders(results: Path) -> list[Path]:
-    """Returns the folders of all rows.
-
-    Raises:
-      OSError: if there are none.
-    """
+    """Returns the folders of all rows; raises FileNotFoundError if there are none."""
     found = [folder for folder in sorted((results / FOLDER).glob("*")) if folder.is_dir()]
     if not found:
         raise FileNotFoundError(f"{results / FOLDER} has no scores; `physexp score` one into a folder there")
@@ -73,7 +65,7 @@ def read(
     Args:
       results: the folder of all results.
       verify: raises ValueError for a folder whose score does not follow from its actions.
-      show: called with how many folders are done.
+      show: called with the number of folders that are done.
 
     Raises:
       OSError: if there are no folders.
@@ -92,7 +84,7 @@ def _row(folder: Path, questions: Sequence[protocol.Question], verify: Callable[
     found = scoring.read(folder)
     _check(folder, found, [asked.name for asked in questions])
     verify(folder)
-    played = scoring.played(log.read(folder), questions)
+    played = scoring.task_scores(log.read(folder), questions)
     earned = scores.over(played, questions)
     names = {one.asked.name for one in played}
     counts = {}
@@ -103,7 +95,7 @@ def _row(folder: Path, questions: Sequence[protocol.Question], verify: Callable[
 
 
 def _check(folder: Path, found: Mapping[str, Any], names: Sequence[str]) -> None:
-    """Refuses less than the whole protocol, and other tasks than those of a leaderboard."""
+    """Refuses less than the whole protocol, and tasks that no row has."""
     asked = found["protocol"]
     if not found["complete"]:
         raise ValueError(f"{folder} is not complete: {found.get('problem')}; score again, elsewhere")
@@ -114,75 +106,49 @@ def _check(folder: Path, found: Mapping[str, Any], names: Sequence[str]) -> None
 
 
 def write(results: Path, show: Callable[[int], None] = lambda done: None) -> tuple[list[Path], list[str]]:
-    """Writes the leaderboard as Markdown, its figure, and its part of the README beside the results.
+    """Writes the leaderboard as Markdown, and its figure.
 
     Returns:
-      The paths of all files, and the lines of `read` about folders that give no row.
+      The paths of both, and the lines of `read` about folders that give no row.
 
     Raises:
       OSError: as `read`, or if a file cannot be written.
-      ValueError: if no folder gives a row, or the README has no end of the leaderboard.
+      ValueError: if no folder gives a row.
     """
     rows, refused = read(results, show=show)
     if not rows:
         raise ValueError(refused[0])
-    path, readme = results / f"{NAME}.md", results.resolve().parent / "README.md"
-    files.write_atomically(path, markdown(rows).encode())
+    paths = [results / f"{NAME}.md", results / "figures" / f"{NAME}.png"]
+    files.write_atomically(paths[0], markdown(rows).encode())
+    paths[1].parent.mkdir(exist_ok=True)
     with plots.style():
-        written = [path, *plots.save(draw(rows), results / "figures", NAME)]
-    page = readme.read_text(encoding="utf-8") if readme.exists() else ""
-    if MARKS[0] in page:
-        files.write_atomically(readme, with_part(page, short(rows)).encode())
-        written.append(readme)
-    return written, refused
-
-
-def with_part(page: str, part: str) -> str:
-    """Returns the text of a README with another leaderboard between its marks.
-
-    Raises:
-      ValueError: if the second mark is missing.
-    """
-    before, _, rest = page.partition(MARKS[0])
-    _, end, after = rest.partition(MARKS[1])
-    if not end:
-        raise ValueError(f"the README has {MARKS[0]} without {MARKS[1]} after it; put that where the leaderboard ends")
-    return f"{before}{MARKS[0]}\n\n{part}\n{MARKS[1]}{after}"
+        files.write_atomically(paths[1], plots.png(draw(rows)))
+    return paths, refused
 
 
 def markdown(rows: Sequence[Row]) -> str:
-    """Returns the page of the leaderboard."""
-    more = {"algorithm": _algorithm, "frames": _frames, "minutes": _minutes, "commit": _commit}
-    return (
-        f"# Leaderboard\n\n{_INTRODUCTION}\n\n![Scores of all rows](figures/{NAME}.png)\n\n{_table(rows, FOLDER, more)}"
-    )
-
-
-def short(rows: Sequence[Row]) -> str:
-    """Returns the first rows, as they stand in the README."""
-    figure = f"![Scores of all rows of the leaderboard, by domain](results/figures/{NAME}.png)"
-    return f"{_table(rows[:SHORT], f'results/{FOLDER}', {'algorithm': _algorithm, 'frames': _frames})}\n{figure}\n"
-
-
-def _table(rows: Sequence[Row], folder: str, more: Mapping[str, Any]) -> str:
-    """Returns a table whose rows are linked to their reports in a folder."""
+    """Returns the page of the leaderboard; the name of a row is a link to its folder."""
     names = [drawing.words(domain) for domain in rows[0].domains]
-    lines = [["", "agent", "score", "95 % interval", *names, *more]]
+    lines = [["", "agent", "score", "95 % interval", *names, "algorithm", "frames", "minutes", "commit"]]
     lines.append(["---"] * len(lines[0]))
     for number, row in enumerate(rows, 1):
-        cells = [_cell(row, domain) for domain in row.domains]
-        interval = " to ".join(map(_number, row.whole["interval"]))
+        agent = row.found["agent"]
+        frames, seconds = agent.get("frames"), agent.get("seconds")
         lines.append(
             [
                 str(number),
-                f"[{text.escaped(row.name)}]({folder}/{parse.quote(os.fsencode(row.name))}/{report.NAME}.png)",
+                f"[{text.escaped(row.name)}]({FOLDER}/{parse.quote(os.fsencode(row.name))})",
                 _number(row.whole["score"]),
-                interval,
-                *cells,
-                *(say(row) for say in more.values()),
+                " to ".join(map(_number, row.whole["interval"])),
+                *(_cell(row, domain) for domain in row.domains),
+                text.escaped(agent.get("algorithm") or ""),
+                "" if frames is None else f"{frames:,}",
+                "" if seconds is None else f"{seconds / 60:,.0f}",
+                text.escaped(provenance.shortened(row.found["commit"])),
             ]
         )
-    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+    table = "".join(f"| {' | '.join(line)} |\n" for line in lines)
+    return f"# Leaderboard\n\n{_INTRODUCTION}\n\n![Scores of all rows](figures/{NAME}.png)\n\n{table}"
 
 
 def _cell(row: Row, domain: str) -> str:
@@ -196,24 +162,6 @@ def _number(score: float) -> str:
     return f"{score:.3f}".replace("-0.000", "0.000")
 
 
-def _algorithm(row: Row) -> str:
-    return text.escaped(row.found["agent"].get("algorithm") or "")
-
-
-def _frames(row: Row) -> str:
-    frames = row.found["agent"].get("frames")
-    return "" if frames is None else f"{frames:,}"
-
-
-def _minutes(row: Row) -> str:
-    seconds = row.found["agent"].get("seconds")
-    return "" if seconds is None else f"{seconds / 60:,.0f}"
-
-
-def _commit(row: Row) -> str:
-    return text.escaped(provenance.shortened(row.found["commit"]))
-
-
 def draw(rows: Sequence[Row]):
     """Draws the score of each row, with its interval, and those of the domains that it plays."""
     figure, axes = plots.new(width=7.2, height=max(2.2, 0.75 + 0.3 * len(rows)))
@@ -222,9 +170,9 @@ def draw(rows: Sequence[Row]):
     places = np.arange(len(rows))[::-1]
     for place, row in zip(places, rows, strict=True):
         axes.axhline(place, color="0.93", linewidth=0.7, zorder=0)
-        ends = np.clip(row.whole["interval"], drawing.LEAST, None)
+        ends = np.clip(row.whole["interval"], drawing.LOWEST, None)
         axes.plot(ends, [place] * 2, color="black", linewidth=9, alpha=0.3, solid_capstyle="butt")
-        score = max(drawing.LEAST, row.whole["score"])
+        score = max(drawing.LOWEST, row.whole["score"])
         axes.plot(score, place, "|", color="black", markersize=15, markeredgewidth=2)
     for number, domain in enumerate(names):
         shown = [
@@ -233,7 +181,7 @@ def draw(rows: Sequence[Row]):
             if row.played[domain][0]
         ]
         axes.plot(
-            [max(drawing.LEAST, score) for score, _ in shown],
+            [max(drawing.LOWEST, score) for score, _ in shown],
             [place + heights[number] for _, place in shown],
             _MARKERS[number % len(_MARKERS)],
             color=_COLORS[number % len(_COLORS)],
@@ -244,7 +192,7 @@ def draw(rows: Sequence[Row]):
         )
     axes.set_yticks(places, [plots.literal(text.plain(row.name)) for row in rows])
     axes.tick_params(axis="y", length=0)
-    axes.set(xlim=(drawing.LEAST - 0.03, 1.04), ylim=(-0.7, len(rows) - 0.3))
+    axes.set(xlim=(drawing.LOWEST - 0.03, 1.04), ylim=(-0.7, len(rows) - 0.3))
     axes.set_xlabel("score: black, over all domains, with its 95 % interval; others, of each domain")
     drawing.mark_ends(axes, len(rows))
     axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))

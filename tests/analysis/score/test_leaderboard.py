@@ -14,10 +14,11 @@ import numpy as np
 import pyarrow
 import pytest
 
-from physexp.analysis.score import leaderboard, log, protocol, scoring, verifying
+from physexp.analysis.score import leaderboard, log, protocol, scoring, targets, verifying
 
 ROOT = Path(__file__).parents[3]
 EPISODES = 5
+BOTH = protocol.named(["threshold/features", "strings/features"])
 
 
 @pytest.fixture(scope="module")
@@ -27,7 +28,7 @@ def results(tmp_path_factory):
     for target in ("random", "ideal"):
         folder = results / "scores" / target
         folder.parent.mkdir(parents=True, exist_ok=True)
-        scoring.score(target, protocol.named(["threshold/features", "strings/features"]), EPISODES, folder)
+        scoring.score(targets.find(target), BOTH, EPISODES, folder)
     return results
 
 
@@ -63,7 +64,7 @@ def change_rows(folder, change):
     rows = change(log.read(folder).to_pandas())
     changed = pyarrow.Table.from_pandas(rows, log.SCHEMA, preserve_index=False)
     log.write(folder, changed)
-    change_facts(folder, **scoring.figures(changed, protocol.named(["threshold/features", "strings/features"]), {}))
+    change_facts(folder, **scoring.metrics(changed, protocol.named(["threshold/features", "strings/features"]), {}))
 
 
 def test_rows_are_sorted_by_score_and_what_they_do_not_play_counts_as_0(results):
@@ -194,7 +195,7 @@ def test_a_row_is_played_again_once_it_changes(copied, monkeypatch):
 
 def test_a_score_of_less_than_the_protocol_is_no_row(results, tmp_path):
     (tmp_path / "scores").mkdir()
-    scoring.score("random", protocol.named(["threshold/features"]), 2, tmp_path / "scores" / "few")
+    scoring.score(targets.find("random"), protocol.named(["threshold/features"]), 2, tmp_path / "scores" / "few")
     assert reason(tmp_path, "few") == f"has 2 episodes of each task; a row has {EPISODES}"
 
 
@@ -203,7 +204,7 @@ def test_a_score_that_was_ended_early_is_no_row(results, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "scores").mkdir()
     with pytest.raises(ValueError, match="made:raises failed"):
-        scoring.score("made:raises", protocol.named(["threshold/features"]), EPISODES, tmp_path / "scores" / "raises")
+        scoring.score(targets.find("made:raises"), BOTH[:1], EPISODES, tmp_path / "scores" / "raises")
     assert reason(tmp_path, "raises").startswith("is not complete: made:raises failed")
 
 

@@ -11,7 +11,6 @@ from PIL import Image
 import pytest
 import screens
 
-from physexp.analysis import domains
 from physexp.analysis.data import plots
 from physexp.analysis.score import drawing, episodes, protocol, reference, report, scoring, targets, verifying
 from physexp.suite.engine import rules
@@ -23,7 +22,7 @@ FOUR = ["threshold/features", "strings/features", "balance/features", "which_is_
 def folder(tmp_path_factory):
     """A score of random actions in four domains, with its report."""
     folder = tmp_path_factory.mktemp("random") / "guesses"
-    scoring.score("random", protocol.named(FOUR), 8, folder)
+    scoring.score(targets.find("random"), protocol.named(FOUR), 8, folder)
     report.write(folder)
     return folder
 
@@ -78,21 +77,6 @@ def test_bars_of_mistakes_begin_at_the_score_and_end_at_1(axes, found):
         assert lost[-1].get_x() + lost[-1].get_width() == pytest.approx(1)
 
 
-def test_every_skill_has_an_axis_beside_random_actions_and_the_ideal(found):
-    _, polar = plots.new(subplot_kw={"projection": "polar"})
-    drawing.draw_skills(polar, found)
-    told = " ".join(text.get_text() for text in polar.texts)
-    assert all(domains.find(name).skill in told for name in found["domains"])
-    lines = {line.get_label(): line.get_ydata()[:-1] for line in polar.lines}
-    assert set(lines["ideal"]) == {1} and set(lines["no experiment"]) == {0}
-    np.testing.assert_allclose(lines["this agent"], [row["score"] for row in found["domains"].values()])
-
-
-def test_every_domain_asks_for_a_skill_of_its_own():
-    skills = [known.skill for known in domains.DOMAINS.values()]
-    assert all(skills) and len(set(skills)) == len(skills)
-
-
 def test_bits_of_each_interaction_are_drawn_beside_the_ideals(found):
     _, panels = plots.new(columns=len(found["tasks"]))
     drawing.draw_information(panels, found)
@@ -110,7 +94,7 @@ def test_what_random_actions_are_expected_to_return_is_what_they_return(name):
     actor, environment = targets.find("random").make(asked, 0), protocol.load(asked)
     returns = []
     for number in range(1000):
-        rewards = episodes.play(environment, episodes.chosen_by(actor), number).rewards
+        rewards = episodes.play(environment, actor, number).rewards
         returns.append(rewards[-1] * asked.discount ** (len(rewards) - 1))
     error = np.std(returns) / np.sqrt(len(returns))
     # One in 16,000 is further off than four standard errors; the instances are always the same.
@@ -127,7 +111,7 @@ def test_an_agent_that_can_only_answer_returns_at_random_what_answers_are_worth(
 
 
 def test_a_score_of_one_domain_has_a_report_without_a_radar(tmp_path):
-    scoring.score("silent", protocol.named(["threshold/features"]), 2, tmp_path / "<quiet>")
+    scoring.score(targets.find("silent"), protocol.named(["threshold/features"]), 2, tmp_path / "<quiet>")
     paths = report.write(tmp_path / "<quiet>")
     assert not drawing.has_skills(scoring.read(tmp_path / "<quiet>"))
     assert [path.name for path in paths] == ["report.html", "report.png"]
