@@ -17,6 +17,7 @@ import pytest
 from physexp import suite
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
+from physexp import cli
 from physexp.cli import parsing, printing
 
 FEATURES = suite.tagged("features")
@@ -287,7 +288,7 @@ def test_a_command_that_makes_no_sense_is_one_readable_line_and_makes_nothing(li
     monkeypatch.setattr(sys, "argv", ["physexp", *line.split()])
     monkeypatch.setattr(printing, "_PATIENCE", 0)  # Refused before any work that is announced.
     with pytest.raises(SystemExit) as exit_:
-        parsing.main()
+        cli.main()
     out, err = capsys.readouterr()
     assert exit_.value.code == 2, err
     assert out == "" and err.startswith("physexp: ") and err.count("\n") == 1

@@ -1,5 +1,6 @@
 """RecurrentPPO of sb3-contrib with its own defaults: `python recurrent_ppo.py strings/features` trains it."""
 
+import argparse
 import json
 from pathlib import Path
 import time
@@ -8,7 +9,6 @@ import numpy as np
 import sb3_contrib
 from stable_baselines3.common import callbacks, vec_env
 import torch
-import tyro
 
 from physexp.analysis.score import protocol
 from physexp.suite import stable_baselines
@@ -17,8 +17,8 @@ FOLDER = Path("runs/recurrent_ppo")
 NUM_ENVIRONMENTS = 8  # More are no faster: nearly all of its time goes into learning.
 
 
-def train(task: tyro.conf.Positional[str], frames: int = 300_000, minutes: float = 15, seed: int = 0) -> None:
-    """Trains on a task until it has seen so many frames or its time is over; what is interrupted keeps what it has."""
+def train(task: str, frames: int = 300_000, minutes: float = 15, seed: int = 0) -> None:
+    """Trains on a task for a number of frames or minutes; an interrupted training keeps its network."""
     torch.set_num_threads(1)  # The networks are small.
     (asked,) = protocol.named([task])
     batch = stable_baselines.VecEnv(asked.domain, asked.task, NUM_ENVIRONMENTS, random=seed)
@@ -87,4 +87,9 @@ def path_of(asked):
 
 
 if __name__ == "__main__":
-    tyro.cli(train)
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("task", help="a task with features, as DOMAIN/TASK")
+    parser.add_argument("--frames", type=int, default=300_000, help="environment steps at most")
+    parser.add_argument("--minutes", type=float, default=15.0, help="processor time at most")
+    parser.add_argument("--seed", type=int, default=0)
+    train(**vars(parser.parse_args()))

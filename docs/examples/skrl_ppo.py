@@ -1,5 +1,6 @@
 """PPO of skrl with a GRU and its own defaults: `python skrl_ppo.py strings/features` trains it."""
 
+import argparse
 import json
 from pathlib import Path
 import time
@@ -11,7 +12,6 @@ from skrl.agents.torch import ppo
 from skrl.memories.torch import RandomMemory
 from skrl.models.torch import CategoricalMixin, DeterministicMixin, Model
 import torch
-import tyro
 
 from physexp import suite
 from physexp.analysis.score import protocol
@@ -21,8 +21,8 @@ UNITS = 64  # Of the GRU and of a hidden layer, as in skrl's examples: only netw
 NUM_ENVIRONMENTS = 64
 
 
-def train(task: tyro.conf.Positional[str], frames: int = 300_000, minutes: float = 15, seed: int = 0) -> None:
-    """Trains on a task until it has seen so many frames or time is over; keeps the network and how it was made."""
+def train(task: str, frames: int = 300_000, minutes: float = 15, seed: int = 0) -> None:
+    """Trains on a task for a number of frames or minutes, and keeps the network and how it was made."""
     torch.set_num_threads(1)  # The networks are small.
     torch.manual_seed(seed)
     (asked,) = protocol.named([task])
@@ -173,4 +173,9 @@ def path_of(asked):
 
 
 if __name__ == "__main__":
-    tyro.cli(train)
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("task", help="a task with features, as DOMAIN/TASK")
+    parser.add_argument("--frames", type=int, default=300_000, help="environment steps at most")
+    parser.add_argument("--minutes", type=float, default=15.0, help="processor time at most")
+    parser.add_argument("--seed", type=int, default=0)
+    train(**vars(parser.parse_args()))

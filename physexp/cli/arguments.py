@@ -1,34 +1,152 @@
-"""The types of the commands' arguments, with the names that help shows for their values."""
+"""Makes parsers of `argparse` from dataclasses: from commands, from a domain's options and from a learner's.
 
+The fields of a dataclass are the arguments; a command's own are declared with `option` and `word`.
+"""
+
+import argparse
+from collections.abc import Mapping, Sequence
+import dataclasses
 from pathlib import Path
-from typing import Annotated
+from typing import Any, Literal, NamedTuple, NoReturn, get_args, get_origin, get_type_hints
 
-import tyro
-from tyro.conf import Positional
+from physexp import checks
+from physexp.agents import config as agent_config
 
-from physexp.analysis import domains
+_METAVARS = {int: "INT", float: "FLOAT", str: "TEXT", Path: "PATH"}
+_NOT_OFFERED = ("random", "visualize_reward")  # Commands have --seed, and a terminal shows no floor.
 
-Domain = Annotated[
-    Positional[str],
-    tyro.conf.arg(metavar="DOMAIN", help=f"{' or '.join(domains.DOMAINS)}; --help after it lists its options."),
-]
-Task = Annotated[
-    Positional[str], tyro.conf.arg(metavar="TASK", help="a task of the domain; `physexp tasks` lists them.")
-]
-Agent = Annotated[
-    Positional[str],
-    tyro.conf.arg(
-        metavar="AGENT",
-        help="the folder of a run, the card of a published agent (NAME.json), or DOMAIN/TASK for the agent that comes "
-        "with the package; --help after it lists the options of its domain.",
-    ),
-]
-Switch = tyro.conf.FlagCreatePairsOff[bool]
+AGENT = (
+    "a trained agent: the folder of a run, the file of a published agent (NAME.safetensors), or DOMAIN/TASK for the "
+    "agent of the package; --help after it lists the options of its domain"
+)
+TASK = "the task, also as DOMAIN/TASK; `physexp tasks` lists them, and --help after it lists its options"
 
-# For these, the text says what happens without a value.
-OptionalFloat = Annotated[float | None, tyro.conf.arg(metavar="FLOAT", help_behavior_hint="")]
-OptionalInt = Annotated[int | None, tyro.conf.arg(metavar="INT", help_behavior_hint="")]
-OptionalPath = Annotated[Path | None, tyro.conf.arg(metavar="PATH", help_behavior_hint="")]
-OptionalAgent = Annotated[str | None, tyro.conf.arg(metavar="AGENT", help_behavior_hint="")]
-OptionalTask = Annotated[str | None, tyro.conf.arg(metavar="TASK", help_behavior_hint="")]
-OptionalAddress = Annotated[str | None, tyro.conf.arg(metavar="HOST:PORT", help_behavior_hint="")]
+
+def option(default: Any = dataclasses.MISSING, help: str = "", metavar: str | None = None) -> Any:
+    """Returns a field of a command that is typed as `--name VALUE`; without a default it is required."""
+    return dataclasses.field(default=default, metadata={"help": help, "metavar": metavar}, kw_only=True)
+
+
+def word(metavar: str, help: str, count: str | None = None, default: Any = dataclasses.MISSING) -> Any:
+    """Returns a field of a command that is typed without its name; `count` is the `nargs` of argparse."""
+    return dataclasses.field(default=default, metadata={"help": help, "metavar": metavar, "count": count})
+
+
+class Group(NamedTuple):
+    """Options that a command has beside its own. Their values are one dictionary.
+
+    Attributes:
+      name: the command's field for this dictionary.
+      title: the domain or the learner that has them.
+      holders: dataclasses with these options, or instances whose values are the defaults.
+      default: the default of all options, in words; None for the holders' own.
+    """
+
+    name: str
+    title: str
+    holders: Sequence[Any]
+    default: str | None = None
+
+    def options(self) -> dict[str, Any]:
+        """Returns the first holder of each option by the option's name."""
+        found: dict[str, Any] = {}
+        for holder in self.holders:
+            for field in dataclasses.fields(holder):
+                if field.name not in _NOT_OFFERED:
+                    found.setdefault(field.name, holder)
+        return found
+
+
+class Parser(argparse.ArgumentParser):
+    """The parser of a command. An error is a ValueError of one line.
+
+    Attributes:
+      words: the names of the arguments that are typed without a name.
+      flags: the options as they are typed.
+    """
+
+    def __init__(self, name: str, kind: type, groups: Sequence[Group] = (), is_strict: bool = True):
+        """Makes the parser of a command.
+
+        Args:
+          name: the command's name.
+          kind: its dataclass.
+          groups: the options that it has beside its own.
+          is_strict: whether required arguments may not be missing, and `--help` prints the help.
+        """
+        super().__init__(prog=f"physexp {name}", description=kind.__doc__, allow_abbrev=False, add_help=is_strict)
+        self.flags: list[str] = []
+        self._is_strict = is_strict
+        own = [field for field in dataclasses.fields(kind) if field.metadata]
+        self.words = [field.name for field in own if "count" in field.metadata]
+        self.usage = " ".join(
+            ["%(prog)s", *(field.metadata["metavar"] for field in own[: len(self.words)]), "[options]"]
+        )
+        kinds = get_type_hints(kind)
+        for field in own:
+            if field.name in self.words:
+                self._add_word(field.name, kinds[field.name], field.metadata)
+            else:
+                self._add_option(self, field.name, kinds[field.name], field.metadata, field.default)
+        for group in groups:
+            section = self.add_argument_group(f"options of {group.title}")
+            for option_name, holder in group.options().items():
+                of_holder = holder if isinstance(holder, type) else type(holder)
+                kinds = get_type_hints(of_holder)
+                metadata = {"help": checks.help_of(of_holder).get(option_name, "")}
+                is_pair = of_holder is not holder or not is_strict  # Presets may have set a flag of a learner.
+                default = getattr(holder, option_name, None) if group.default is None else group.default
+                self._add_option(section, option_name, kinds[option_name], metadata, default, is_pair)
+
+    def error(self, message: str) -> NoReturn:
+        """Raises the message, with the command that lists the allowed arguments."""
+        raise ValueError(f"{message.removeprefix('argument ')}; see {self.prog} --help")
+
+    def _add_word(self, name: str, kind: Any, metadata: Mapping[str, Any]) -> None:
+        """Adds an argument without a name."""
+        settings = _of_value(kind) | {"help": metadata["help"], "metavar": metadata["metavar"], "default": None}
+        self.add_argument(name, **settings | {"nargs": metadata["count"] if self._is_strict else "*"})
+
+    def _add_option(
+        self,
+        section: Any,
+        name: str,
+        kind: Any,
+        metadata: Mapping[str, Any],
+        default: Any,
+        is_pair: bool = False,
+    ) -> None:
+        """Adds an option to the parser or to a group of it. If it is not given, the result lacks it.
+
+        A flag that `is_pair` has a `--no-` form too.
+        """
+        settings = _of_value(kind) | {"dest": name, "default": argparse.SUPPRESS, "help": metadata["help"]}
+        if metadata.get("metavar"):
+            settings["metavar"] = metadata["metavar"]
+        if default is dataclasses.MISSING:
+            settings["required"] = self._is_strict
+        elif default not in (None, ()) and default is not False:
+            settings["help"] += f" (default: {_shown(default)})"
+        settings["help"] = settings["help"].replace("%", "%%")
+        if settings.get("action") and not is_pair:
+            settings["action"] = "store_true"
+        self.flags.append(f"--{name.replace('_', '-')}")
+        section.add_argument(self.flags[-1], **settings)
+
+
+def _of_value(kind: Any) -> dict[str, Any]:
+    """Returns what argparse needs to know of the values of a type."""
+    if get_origin(kind) is tuple:
+        return _of_value(get_args(kind)[0]) | {"nargs": "*"}
+    if get_origin(kind) is Literal:
+        return {"choices": get_args(kind)}
+    if type(None) in get_args(kind):
+        (kind,) = set(get_args(kind)) - {type(None)}
+        return _of_value(kind)
+    if kind is bool:
+        return {"action": argparse.BooleanOptionalAction}
+    return {"type": kind, "metavar": _METAVARS[kind]}
+
+
+def _shown(value: Any) -> str:
+    return " ".join(map(_shown, value)) if isinstance(value, tuple) else agent_config.shown(value)

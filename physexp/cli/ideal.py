@@ -1,68 +1,61 @@
 """The command that prints what an ideal experimenter achieves."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 import contextlib
 import dataclasses
 import sys
-from typing import Any, ClassVar, Generic
-
-from tyro.conf import OmitArgPrefixes
+from typing import Any
 
 from physexp.analysis import domains
 from physexp.cli import options as options_lib
 from physexp.cli import printing
-from physexp.cli.arguments import Domain, OptionalFloat, OptionalTask, Switch
+from physexp.cli.arguments import Group, option, word
 
 _IDEALS = {name: domain.ideal for name, domain in domains.DOMAINS.items() if domain.ideal is not None}
 
 
-def _options_of(domain_name: str) -> type:
-    """Returns the class of the options of a domain and of its ideal experimenter."""
-    of_task = options_lib.of_task(domain_name)
-    if domain_name not in _IDEALS:
-        return of_task
-    bases = (_IDEALS[domain_name].options, of_task)
-    return dataclasses.make_dataclass("IdealOptions", [], bases=bases, frozen=True, kw_only=True)
-
-
 @dataclasses.dataclass
-class Ideal(Generic[options_lib.Options]):
-    """Print what the ideal experimenter achieves: no agent's expected return is larger.
+class Ideal:
+    """Print what the ideal experimenter achieves: no agent's expected return is larger."""
 
-    Attributes:
-      options: options of the task and of the ideal experimenter.
-      task: the task; by default the domain's first.
-      discount: the agent's gamma; by default the domain's.
-      json: print JSON.
-    """
+    words: tuple[str, ...] = word(
+        "DOMAIN [TASK]", f"{', '.join(_IDEALS)}; and the task, by default the domain's first", "+"
+    )
+    task: str | None = option(None, "the task, in place of the word TASK", "TASK")
+    discount: float | None = option(None, "the agent's gamma; by default the domain's")
+    json: bool = option(False, "print JSON")
+    task_kwargs: dict[str, Any] = dataclasses.field(default_factory=dict)
 
-    domains_of: ClassVar = staticmethod(options_lib.of_domain)
-    options_of: ClassVar = staticmethod(_options_of)
-
-    domain: Domain
-    options: OmitArgPrefixes[options_lib.Options]
-    task: OptionalTask = None
-    discount: OptionalFloat = None
-    json: Switch = False
+    @classmethod
+    def groups(cls, words: Sequence[str], agent: str | None) -> list[Group]:
+        """Returns the options of the domain and of its ideal experimenter."""
+        return [options_lib.of_task(words, lambda domain: [_IDEALS[domain].options] if domain in _IDEALS else [])]
 
     def run(self) -> None:
+        """Solves the task and prints the returns.
+
+        Raises:
+          ValueError: for a domain without a known ideal, an unknown task, or options that do not exist.
+        """
         from physexp import suite
 
-        if self.domain not in _IDEALS:
-            raise ValueError(f"no ideal experimenter is known of {self.domain}; choose from {', '.join(_IDEALS)}")
-        tasks = suite.TASKS_BY_DOMAIN[self.domain]
-        task = tasks[0] if self.task is None else self.task
+        domain, named = options_lib.task_of(self.words)
+        if domain not in _IDEALS:
+            raise ValueError(f"no ideal experimenter is known of {domain!r}; choose from {', '.join(_IDEALS)}")
+        tasks = suite.TASKS_BY_DOMAIN[domain]
+        task = self.task or named or tasks[0]
         if task not in tasks:
             raise ValueError(f"task is {task!r}; choose from {', '.join(tasks)}")
-        ideal, chosen = _IDEALS[self.domain], options_lib.chosen(self.options)
-        names = {field.name for field in dataclasses.fields(ideal.options)} & set(chosen)
-        own = {name: chosen.pop(name) for name in names}
-        discount = domains.find(self.domain).discount if self.discount is None else self.discount
-        solution = ideal(task, chosen, discount, **own)
-        with _waiting(f"searching for the ideal experimenter of {self.domain}/{task}"):
+        ideal = _IDEALS[domain]
+        names = {field.name for field in dataclasses.fields(ideal.options)}
+        own = {name: value for name, value in self.task_kwargs.items() if name in names}
+        of_task = {name: value for name, value in self.task_kwargs.items() if name not in names}
+        discount = domains.find(domain).discount if self.discount is None else self.discount
+        solution = ideal(task, of_task, discount, **own)
+        with _waiting(f"searching for the ideal experimenter of {domain}/{task}"):
             figures = solution.figures()
         if not self.json:
-            printing.tell(*_earned(f"{self.domain}/{task}", discount, figures))
+            printing.tell(*_earned(f"{domain}/{task}", discount, figures))
         with _waiting("playing at random, for comparison"):
             summary = solution.summary()
         if self.json:

@@ -1,47 +1,42 @@
 """Commands that play episodes."""
 
+from collections.abc import Sequence
 import dataclasses
 from pathlib import Path
-from typing import Annotated, ClassVar, Generic, Literal
-
-import tyro
-from tyro.conf import OmitArgPrefixes, Positional
+from typing import Any, Literal
 
 from physexp.agents import config as agent_config
 from physexp.cli import options as options_lib
 from physexp.cli import printing
-from physexp.cli.arguments import Agent, Domain, OptionalAgent, OptionalInt, Switch, Task
+from physexp.cli.arguments import AGENT, TASK, Group, option, word
+
+_INTERACTION = "learned, or random: interaction actions are replaced by uniformly drawn ones (paper, Section 5.3)"
+_SEED = "seed of the environments and actions; by default one that training never uses"
 
 
 @dataclasses.dataclass
-class Evaluate(Generic[options_lib.Options]):
-    """Play episodes with a trained agent and measure how well it answers, beside the ideal experimenter.
+class Evaluate:
+    """Play episodes with a trained agent and measure how well it answers, beside the ideal experimenter."""
 
-    Attributes:
-      options: what the agent is to have been trained with.
-      episodes: how many to play.
-      interaction: learned, or random: interaction actions are replaced by uniformly drawn ones (paper, Section 5.3).
-      greedy: take the likeliest action instead of drawing one.
-      device: where convolutions are computed: cpu, cuda, or auto for the GPU where there is one.
-      seed: of the environments and the actions; by default one that training never uses.
-      json: print JSON.
-    """
+    target: str = word("AGENT", AGENT)
+    episodes: int = option(1000, "number of episodes")
+    interaction: Literal["learned", "random"] = option("learned", _INTERACTION)
+    greedy: bool = option(False, "take the likeliest action instead of drawing one")
+    device: agent_config.Device = option("auto", "where convolutions run; auto is the GPU if there is one")
+    seed: int | None = option(None, _SEED)
+    json: bool = option(False, "print JSON")
+    task_kwargs: dict[str, Any] = dataclasses.field(default_factory=dict)
 
-    domains_of: ClassVar = staticmethod(options_lib.of_agent)
-
-    target: Agent
-    options: OmitArgPrefixes[options_lib.Options]
-    episodes: int = 1000
-    interaction: Literal["learned", "random"] = "learned"
-    greedy: Switch = False
-    device: agent_config.Device = "auto"
-    seed: OptionalInt = None
-    json: Switch = False
+    @classmethod
+    def groups(cls, words: Sequence[str], agent: str | None) -> list[Group]:
+        """Returns the options that choose among the agents of a domain."""
+        return [options_lib.of_agent(words)]
 
     def run(self) -> None:
+        """Plays and prints the statistics."""
         from physexp.analysis.training import finding, playing, progress
 
-        network, config = finding.find_agent(self.target, options_lib.chosen(self.options))
+        network, config, *_ = finding.find_agent(self.target, self.task_kwargs)
         seed = playing.SEED if self.seed is None else self.seed
         with progress.bar("episodes", self.episodes) as show:
             played = playing.play(
@@ -60,45 +55,36 @@ class Evaluate(Generic[options_lib.Options]):
 
 
 @dataclasses.dataclass
-class Replay(Generic[options_lib.Options]):
-    """Write episodes of a trained agent for the rerun viewer: the scene, what the agent saw, believed and did.
+class Replay:
+    """Write episodes of a trained agent for the rerun viewer: the scene, observations, beliefs and actions."""
 
-    Attributes:
-      compare: another one, to be shown side by side on the same instances.
-      options: what the agent is to have been trained with.
-      episodes: how many.
-      output: the file, in a folder that exists; by default replay.rrd.
-      interaction: learned, or random: interaction actions are replaced by uniformly drawn ones (paper, Section 5.3).
-      select: any, or those that are wrong or right, the longest, or the hardest.
-      seed: of the environments and the actions; by default one that training never uses.
-      view: open the viewer afterwards.
-      web: open the viewer in a browser afterwards.
-    """
+    target: str = word("AGENT", AGENT)
+    compare: str | None = option(None, "a second agent, shown beside the first on the same instances", "AGENT")
+    episodes: int = option(4, "number of episodes")
+    output: Path = option(Path("replay.rrd"), "the file to write, in an existing folder")
+    interaction: Literal["learned", "random"] = option("learned", _INTERACTION)
+    select: Literal["any", "wrong", "right", "longest", "hardest"] = option("any", "the episodes to write")
+    seed: int | None = option(None, _SEED)
+    view: bool = option(False, "open the viewer afterwards")
+    web: bool = option(False, "open the viewer in a browser afterwards")
+    task_kwargs: dict[str, Any] = dataclasses.field(default_factory=dict)
 
-    domains_of: ClassVar = staticmethod(options_lib.of_agent)
-
-    target: Agent
-    options: OmitArgPrefixes[options_lib.Options]
-    compare: OptionalAgent = None
-    episodes: int = 4
-    output: Path = Path("replay.rrd")
-    interaction: Literal["learned", "random"] = "learned"
-    select: Literal["any", "wrong", "right", "longest", "hardest"] = "any"
-    seed: OptionalInt = None
-    view: Switch = False
-    web: Switch = False
+    @classmethod
+    def groups(cls, words: Sequence[str], agent: str | None) -> list[Group]:
+        """Returns the options that choose among the agents of a domain."""
+        return [options_lib.of_agent(words)]
 
     def run(self) -> None:
+        """Plays, writes the file and opens the viewer if asked."""
         from physexp.analysis import replay
         from physexp.analysis.training import playing
 
         if self.view:
             replay.check_display()
         seed = playing.SEED if self.seed is None else self.seed
-        targets = [self.target] if self.compare is None else [self.target, self.compare]
-        chosen = options_lib.chosen(self.options)
+        targets = [self.target, *([] if self.compare is None else [self.compare])]
         path = replay.replay(
-            targets, self.episodes, self.output, self.interaction, self.select, seed, printing.tell, chosen
+            targets, self.episodes, self.output, self.interaction, self.select, seed, printing.tell, self.task_kwargs
         )
         printing.tell(str(path))
         if self.view or self.web:
@@ -106,46 +92,40 @@ class Replay(Generic[options_lib.Options]):
 
 
 @dataclasses.dataclass
-class Play(Generic[options_lib.Options]):
-    """Play yourself, in the terminal (features need no OpenGL), beside the ideal experimenter and a trained agent.
+class Play:
+    """Play yourself, in the terminal, beside the ideal experimenter and a trained agent.
 
-    Attributes:
-      options: what the domain lets choose.
-      seed: of the environment; by default one from the operating system.
-      view: show the scene in rerun's viewer as well, where there is a display.
+    Tasks with features need no OpenGL.
     """
 
-    domains_of: ClassVar = staticmethod(options_lib.of_domain)
+    words: tuple[str, ...] = word("DOMAIN TASK", TASK, "+")
+    seed: int | None = option(None, "seed of the environment; by default one from the operating system")
+    view: bool = option(False, "show the scene in rerun's viewer as well; this needs a display")
+    task_kwargs: dict[str, Any] = dataclasses.field(default_factory=dict)
 
-    domain: Domain
-    task: Task
-    options: OmitArgPrefixes[options_lib.Options]
-    seed: OptionalInt = None
-    view: Switch = False
+    @classmethod
+    def groups(cls, words: Sequence[str], agent: str | None) -> list[Group]:
+        """Returns the options of the domain."""
+        return [options_lib.of_task(words)]
 
     def run(self) -> None:
+        """Plays until the player stops."""
         from physexp.analysis.play import game
 
-        game.play(self.domain, self.task, options_lib.chosen(self.options), self.seed, self.view)
+        game.play(*options_lib.task_of(self.words), self.task_kwargs, self.seed, self.view)
 
 
 @dataclasses.dataclass
 class Publish:
-    """Save a run's agent, in half precision with a model card, as one that `physexp.agents.load_pretrained` returns.
+    """Save a run's agent, in half precision with a model card, for `physexp.agents.load_pretrained`."""
 
-    Attributes:
-      run_dir: the folder of a run.
-      output_dir: the folder for the agent and its model card.
-      episodes: how many to play for the evaluation on the card.
-      replace: put the agent in the place of the one that may be there.
-    """
-
-    run_dir: Annotated[Positional[Path], tyro.conf.arg(metavar="RUN")]
-    output_dir: Path = Path("agents")
-    episodes: int = 10_000
-    replace: Switch = False
+    run_dir: Path = word("RUN", "the folder of a run")
+    output_dir: Path = option(Path("agents"), "the folder for the agent and its model card")
+    episodes: int = option(10_000, "number of episodes for the evaluation on the card")
+    replace: bool = option(False, "replace a published agent of the same name")
 
     def run(self) -> None:
+        """Evaluates and writes the agent."""
         from physexp.analysis.training import publishing
         from physexp.analysis.training import run as run_lib
 

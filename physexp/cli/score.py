@@ -1,79 +1,63 @@
-"""Commands that put a number on anything that experiments."""
+"""Commands that score anything that experiments."""
 
 from collections.abc import Iterator
 import contextlib
 import dataclasses
 from pathlib import Path
 import shlex
-from typing import Annotated, Literal
-
-import tyro
-from tyro.conf import Positional
+from typing import Literal
 
 from physexp import checks, extras
 from physexp.cli import printing
-from physexp.cli.arguments import OptionalFloat, OptionalInt, OptionalPath, Switch
+from physexp.cli.arguments import option, word
 
-OptionalText = Annotated[str | None, tyro.conf.arg(metavar="TEXT", help_behavior_hint="")]
+TASKS = "the tasks; by default all tasks of --observations that the target can play"
+TIMEOUT = "limit on the time of each call of an agent of your own, s"
 
 
 @dataclasses.dataclass
 class Score:
-    """Play a fixed protocol with anything that experiments: its share of the ideal's return, and where the rest went.
+    """Play a fixed protocol with anything that experiments: its share of the ideal's return, its losses by mistake.
 
-    Attributes:
-      tasks: what it plays, as DOMAIN/TASK; by default all that it can of --observations.
-      observations: the kind of tasks that it plays where none are named.
-      quick: 100 episodes of each task instead of 1000.
-      episodes: of each task.
-      greedy: a trained agent takes its likeliest actions instead of drawing them.
-      timeout: for each call of the agent, s.
-      algorithm: how an agent of your own was trained, as it is to stand in the report and in the leaderboard.
-      frames: environment steps of its training.
-      minutes: of its training.
-      output: the folder for the log, the figures and the report; by default a new one named after the target, under
-        scores/. An interrupted score goes on in its folder.
-      json: print JSON.
+    An interrupted score goes on in its folder.
     """
 
-    target: Annotated[
-        Positional[str],
-        tyro.conf.arg(
-            metavar="TARGET",
-            help="the folder of a run; the card of a published agent (NAME.json); DOMAIN/TASK for the agent that comes "
-            "with the package; several of these with commas between, shipped, or a3c, belief or ppo, for a team; "
-            "MODULE:FUNCTION for an agent of your own (docs/score.md); or random, at_once, silent, ideal.",
-        ),
-    ]
-    tasks: Annotated[tuple[str, ...], tyro.conf.arg(metavar="DOMAIN/TASK ...", help_behavior_hint="")] = ()
-    observations: Literal["features", "pixels", "all"] = "features"
-    quick: Switch = False
-    episodes: OptionalInt = None
-    greedy: Switch = False
-    timeout: float = 60.0
-    algorithm: OptionalText = None
-    frames: OptionalInt = None
-    minutes: OptionalFloat = None
-    output: OptionalPath = None
-    json: Switch = False
+    target: str = word(
+        "TARGET",
+        "the folder of a run; the file of a published agent (NAME.safetensors); DOMAIN/TASK for the agent of the "
+        "package; several of these with commas between, shipped, or a3c, belief or ppo, for a team; MODULE:FUNCTION "
+        "for an agent of your own (docs/score.md); or random, at_once, silent, ideal",
+    )
+    tasks: tuple[str, ...] = option((), TASKS, "DOMAIN/TASK")
+    observations: Literal["features", "pixels", "all"] = option("features", "the kind of tasks without --tasks")
+    quick: bool = option(False, "100 episodes of each task instead of 1000")
+    episodes: int | None = option(None, "number of episodes of each task")
+    greedy: bool = option(False, "a trained agent takes its likeliest actions instead of drawing them")
+    timeout: float = option(60.0, TIMEOUT)
+    algorithm: str | None = option(None, "how your agent was trained, for the report and the leaderboard")
+    frames: int | None = option(None, "environment steps of its training")
+    minutes: float | None = option(None, "duration of its training, min")
+    output: Path | None = option(None, "the folder for the log, the figures and the report; by default under scores/")
+    json: bool = option(False, "print JSON")
 
     def run(self) -> None:
+        """Plays, judges, writes the report and prints the score."""
         extras.require("matplotlib")
         from physexp.analysis.score import playing, protocol, scoring, targets
         from physexp.analysis.training import progress
 
-        target = targets.find(self.target, self.greedy)
-        chosen = target.choose(self.tasks, self.observations)
+        chosen = targets.find(self.target).choose(self.tasks, self.observations)
         usual = protocol.QUICK_EPISODES if self.quick else protocol.EPISODES
         count = usual if self.episodes is None else self.episodes
         folder = self.output or playing.unfinished(Path("scores") / targets.file_name(self.target))
         made = self._made()
         with playing_in(folder), progress.bar("episodes", count * len(chosen)) as show:
             found = scoring.score(
-                target,
+                self.target,
                 chosen,
                 count,
                 folder,
+                greedy=self.greedy,
                 timeout=self.timeout,
                 made=made,
                 show=show,
@@ -151,18 +135,14 @@ def _worst(mistakes: dict[str, float]) -> str:
 
 @dataclasses.dataclass
 class Verify:
-    """Play the actions of a score's log again, bit for bit, and say whether everything in the folder follows from them.
+    """Play the actions of a score's log again, bit for bit, and check that the whole folder follows from them."""
 
-    Attributes:
-      report: draw the report again, if everything does.
-      json: print JSON.
-    """
-
-    folder: Annotated[Positional[Path], tyro.conf.arg(metavar="FOLDER", help="what `physexp score` has written.")]
-    report: Switch = False
-    json: Switch = False
+    folder: Path = word("FOLDER", "a folder that `physexp score` has written")
+    report: bool = option(False, "draw the report again, if everything follows")
+    json: bool = option(False, "print JSON")
 
     def run(self) -> None:
+        """Verifies and prints the result."""
         if self.report:
             extras.require("matplotlib")
         from physexp.analysis.score import scoring, verifying
@@ -185,15 +165,16 @@ class Verify:
 
 @dataclasses.dataclass
 class Leaderboard:
-    """Write leaderboard.md and its figure from the scores in RESULTS/scores, and its part of the README beside RESULTS.
+    """Write leaderboard.md and its figure from the stored scores, and its part of the README."""
 
-    Attributes:
-      results_dir: the folder of all results.
-    """
-
-    results_dir: Path = Path("results")
+    results_dir: Path = option(Path("results"), "the folder of all results")
 
     def run(self) -> None:
+        """Writes the leaderboard.
+
+        Raises:
+          RuntimeError: if some folders are no rows of the leaderboard.
+        """
         extras.require("matplotlib")
         from physexp.analysis.score import leaderboard
         from physexp.analysis.training import progress

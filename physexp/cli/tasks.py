@@ -4,28 +4,25 @@ import dataclasses
 import sys
 
 from physexp.cli import printing
-from physexp.cli.arguments import Switch
+from physexp.cli.arguments import option
 
 
 @dataclasses.dataclass
 class Tasks:
-    """List the tasks: the question, the numbers of actions and steps, the discount that is scored, the observations.
+    """List the tasks: question, numbers of actions and steps, scored discount, observations."""
 
-    Attributes:
-      json: print JSON.
-    """
-
-    json: Switch = False
+    json: bool = option(False, "print JSON")
 
     def run(self) -> None:
+        """Prints the table."""
         from physexp import suite
 
         rows = []
         for domain, name in suite.ALL_TASKS:
             task = suite.load_task(domain, name)
             observations = {
-                key: {"shape": list(blank.shape[1:]), "dtype": str(blank.dtype)}
-                for key, blank in task.blank_observations(1).items()
+                key: {"shape": list(spec.shape), "dtype": str(spec.dtype)}
+                for key, spec in task.observation_spec().items()
             }
             rows.append(
                 {
@@ -64,17 +61,15 @@ class Tasks:
 
 @dataclasses.dataclass
 class Doctor:
-    """Check versions, GPU and OpenGL, and say what to do about what is missing.
+    """Check versions, GPU and OpenGL, and advise about everything that is missing.
 
     The exit status is 1 if the environments themselves do not work, else 0.
-
-    Attributes:
-      json: print JSON.
     """
 
-    json: Switch = False
+    json: bool = option(False, "print JSON")
 
     def run(self) -> None:
+        """Prints the checks and exits."""
         from physexp.cli import doctor
 
         found = doctor.examine()

@@ -1,12 +1,11 @@
 """Commands that train an agent."""
 
+from collections.abc import Sequence
 import contextlib
 import dataclasses
 from pathlib import Path
 import shlex
-from typing import ClassVar, Generic, Literal, TypeVar
-
-from tyro.conf import OmitArgPrefixes
+from typing import Any, Literal
 
 from physexp import extras
 from physexp.agents import config as agent_config
@@ -14,72 +13,76 @@ from physexp.analysis.training import callbacks
 from physexp.analysis.training import config as config_lib
 from physexp.cli import options as options_lib
 from physexp.cli import printing
-from physexp.cli.arguments import Domain, OptionalPath, Switch, Task
-
-Config = TypeVar("Config", bound=agent_config.AgentConfig)
+from physexp.cli.arguments import TASK, Group, option, word
 
 
 @dataclasses.dataclass
-class Train(Generic[Config, options_lib.Options]):
-    """Train an agent; `--agent AGENT --help` shows the options of another one.
+class Train:
+    """Train an agent. `--agent AGENT --help` lists the options of another learner."""
 
-    Attributes:
-      options: what the domain lets choose.
-      replay_every: environment steps between replays, which go into the run's folder; 0 for none.
-      agent: the learner; belief needs the fewest frames, and a3c is the paper's.
-      config: the agent's hyperparameters.
-      run_dir: the run's folder; by default one named after the run, under runs/.
-      tensorboard: write the metrics for TensorBoard too.
-      resume: continue the run in that folder, with its own configuration.
-    """
+    words: tuple[str, ...] = word("DOMAIN TASK", TASK, "+")
+    agent: Literal[tuple(config_lib.ALGORITHMS)] = option(  # type: ignore[valid-type]
+        config_lib.DEFAULT_ALGORITHM, "the learner; belief needs the fewest frames, a3c is the paper's"
+    )
+    replay_every: int = option(config_lib.REPLAY_EVERY, "environment steps between replays, 0 for no replays")
+    run_dir: Path | None = option(None, "the folder of the run; by default one named after the run, under runs/")
+    tensorboard: bool = option(False, "write the metrics for TensorBoard too")
+    resume: bool = option(False, "continue the run in --run-dir with its own configuration")
+    task_kwargs: dict[str, Any] = dataclasses.field(default_factory=dict)
+    hyperparameters: dict[str, Any] = dataclasses.field(default_factory=dict)
 
-    domains_of: ClassVar = staticmethod(options_lib.of_domain)
+    @classmethod
+    def groups(cls, words: Sequence[str], agent: str | None) -> list[Group]:
+        """Returns the options of the domain and of the learner; without a learner, of all learners."""
+        of_domain = options_lib.of_task(words)
+        if agent is None:
+            return [of_domain, Group("hyperparameters", "learners", list(config_lib.ALGORITHMS.values()))]
+        is_known = options_lib.domains_of(words) == list(options_lib.task_of(words)[:1])
+        preset = config_lib.preset(*(options_lib.task_of(words) if is_known else ()), algorithm=agent)
+        return [of_domain, Group("hyperparameters", f"--agent {agent}", [preset])]
 
-    domain: Domain
-    task: Task
-    options: OmitArgPrefixes[options_lib.Options]
-    config: OmitArgPrefixes[Config]
-    agent: Literal[tuple(config_lib.ALGORITHMS)] = config_lib.DEFAULT_ALGORITHM  # type: ignore[valid-type]
-    replay_every: int = config_lib.REPLAY_EVERY
-    run_dir: OptionalPath = None
-    tensorboard: Switch = False
-    resume: Switch = False
+    @property
+    def domain(self) -> str:
+        """The domain's name."""
+        return options_lib.task_of(self.words)[0]
+
+    @property
+    def task(self) -> str:
+        """The task's name."""
+        return options_lib.task_of(self.words)[1]
+
+    @property
+    def config(self) -> agent_config.AgentConfig:
+        """The configuration of the learner."""
+        preset = config_lib.preset(self.domain, self.task, algorithm=self.agent)
+        return preset.replace(**self.hyperparameters)
 
     def run(self) -> None:
+        """Trains into a new folder or goes on with a run.
+
+        Raises:
+          ValueError: for a task or options that do not exist, or a folder that cannot be trained into.
+        """
         extras.require(*(["tensorboard"] if self.tensorboard else []))
+        from physexp import suite
         from physexp.analysis.training import publishing, trainer, verdict
         from physexp.analysis.training import run as run_lib
 
+        suite.load_task(self.domain, self.task, self.task_kwargs)
         config = config_lib.TrainConfig(
             domain=self.domain,
             task=self.task,
-            task_kwargs=options_lib.chosen(self.options),
+            task_kwargs=self.task_kwargs,
             replay_every=self.replay_every,
             agent=self.config,
         )
         run = run_lib.Run(self.run_dir or Path("runs") / config.name)
         if self.resume:
-            wanted, config = config, run.config
-            if (config.domain, config.task) != (self.domain, self.task):
-                raise ValueError(f"{run.path} holds a run of {config.domain}/{config.task}; name that task")
-            self._refuse_others(wanted, config, run.path)
+            config = run.config
+            self._refuse_others(config, run.path)
         trainer.check(config)
         try:
-            with contextlib.ExitStack() as stack:
-                stack.enter_context(run.locked())
-                run.check_resumable() if self.resume else run.check_new()
-                is_finished = self.resume and run.is_finished
-                report = self._reports(stack, run, config)
-                on_checkpoint = None
-                if config.replay_every:
-                    from physexp.analysis.replay import training
-
-                    on_checkpoint = training.Writer(run, config)
-                start = None if self.resume else config
-                trainer.train(run, report, printing.warn, start, on_checkpoint)
-                if is_finished:
-                    frames = config.agent.frames
-                    printing.warn(f"{run.path} has had its {frames:,} frames; to train longer, train anew with more")
+            self._train(run, config)
         except KeyboardInterrupt:
             self._tell_how_to_go_on(run)
             raise
@@ -87,11 +90,30 @@ class Train(Generic[Config, options_lib.Options]):
             printing.warn(problem, verdict.advice(config))
         printing.tell(str(run.path))
         commands = ["evaluate {}", *(["score {}"] if publishing.is_default(config) else []), "replay {} --view"]
-        words = [f"physexp {command.format(shlex.quote(str(run.path)))}" for command in commands]
-        printing.warn(f"the agent is in that folder; next: {'; '.join(words)}")
+        lines = [f"physexp {command.format(shlex.quote(str(run.path)))}" for command in commands]
+        printing.warn(f"the agent is in that folder; next: {'; '.join(lines)}")
+
+    def _train(self, run, config: config_lib.TrainConfig) -> None:
+        from physexp.analysis.training import trainer
+
+        with contextlib.ExitStack() as stack:
+            stack.enter_context(run.locked())
+            run.check_resumable() if self.resume else run.check_new()
+            was_finished = self.resume and run.is_finished
+            report = self._reports(stack, run, config)
+            on_checkpoint = None
+            if config.replay_every:
+                from physexp.analysis.replay import training
+
+                on_checkpoint = training.Writer(run, config)
+            start = None if self.resume else config
+            trainer.train(run, report, tell=printing.warn, start=start, on_checkpoint=on_checkpoint)
+            if was_finished:
+                frames = config.agent.frames
+                printing.warn(f"{run.path} has had its {frames:,} frames; to train longer, train anew with more")
 
     def _reports(self, stack: contextlib.ExitStack, run, config: config_lib.TrainConfig) -> callbacks.Report:
-        """Returns a call that passes rows of metrics on to all that show them; a failure of one leaves the others."""
+        """Returns a call that passes rows of metrics to the progress and to TensorBoard; one may fail alone."""
         from physexp.analysis.training import progress
 
         logs = [callbacks.expendable(stack.enter_context(progress.Progress(config)), printing.warn, "the progress")]
@@ -108,24 +130,24 @@ class Train(Generic[Config, options_lib.Options]):
 
         return report
 
-    def _refuse_others(self, wanted: config_lib.TrainConfig, config: config_lib.TrainConfig, path: Path) -> None:
-        """Refuses options that are chosen and differ from those that a run goes on with: raises ValueError."""
-        usual = dataclasses.asdict(config_lib.preset(self.domain, self.task, algorithm=self.agent))
-        named = {"agent": config_lib.DEFAULT_ALGORITHM, "replay_every": config_lib.REPLAY_EVERY}
-        own = {name: getattr(self, name) for name, default in named.items() if getattr(self, name) != default}
-        chosen = {name: value for name, value in dataclasses.asdict(wanted.agent).items() if value != usual[name]}
-        begun = {"agent": config.agent.algorithm, "replay_every": config.replay_every, **config.task_kwargs}
-        begun |= dataclasses.asdict(config.agent)
-        for name, value in {**own, **wanted.task_kwargs, **chosen}.items():
-            if begun.get(name) != value:
-                there = agent_config.shown(begun[name]) if name in begun else "not chosen"
+    def _refuse_others(self, config: config_lib.TrainConfig, path: Path) -> None:
+        """Refuses given options that differ from those of the run that is resumed."""
+        if (config.domain, config.task) != (self.domain, self.task):
+            raise ValueError(f"{path} holds a run of {config.domain}/{config.task}; name that task")
+        usual = {"agent": config_lib.DEFAULT_ALGORITHM, "replay_every": config_lib.REPLAY_EVERY}
+        given = {name: getattr(self, name) for name, default in usual.items() if getattr(self, name) != default}
+        stored = {"agent": config.agent.algorithm, "replay_every": config.replay_every, **config.task_kwargs}
+        stored |= dataclasses.asdict(config.agent)
+        for name, value in {**given, **self.task_kwargs, **self.hyperparameters}.items():
+            if stored.get(name) != value:
+                there = agent_config.shown(stored[name]) if name in stored else "not chosen"
                 raise ValueError(
                     f"{name} is {agent_config.shown(value)}, and in {path} it is {there}; leave it out to go on with "
                     "that, or train anew in another --run-dir"
                 )
 
     def _tell_how_to_go_on(self, run) -> None:
-        """Names the last checkpoint of a run that was interrupted, and the command that goes on from it."""
+        """Names the last checkpoint of an interrupted run, and the command that resumes it."""
         paths = run.checkpointer.paths()
         if not paths:
             printing.warn(f"there is no checkpoint in {run.path} yet: the same command starts anew")
@@ -139,15 +161,12 @@ class Train(Generic[Config, options_lib.Options]):
 
 @dataclasses.dataclass
 class Demo:
-    """Train an agent for a minute or two, and compare it with randomized interaction.
+    """Train an agent for a minute or two, and compare it with randomized interaction."""
 
-    Attributes:
-      run_dir: the folder of the run; another demonstration in it is moved aside.
-    """
-
-    run_dir: Path = Path("runs/demo")
+    run_dir: Path = option(Path("runs/demo"), "the folder of the run; another demonstration in it is moved aside")
 
     def run(self) -> None:
+        """Trains and evaluates the demonstration's agent."""
         extras.require("matplotlib")
         from physexp.cli import demo
 

@@ -1,7 +1,6 @@
 """Importing the suite costs nothing it need not: no torch, no GL context, no process, no thread."""
 
 import _ctypes
-import ctypes.util
 import shutil
 
 import interpreters
@@ -51,37 +50,10 @@ def test_importing_the_suite_imports_neither_torch_nor_what_learns_and_plots():
     assert [name for name in found["physexp"] if not name.startswith("physexp.suite")] == ["physexp", "physexp.checks"]
 
 
-def test_importing_physexp_imports_nothing_heavy():
-    found, _ = interpreters.run("import sys\nimport physexp\nfound['loaded'] = sorted(sys.modules)")
-    assert not {"torch", "mujoco", "dm_control", "numpy"} & set(found["loaded"])
-
-
-def test_playing_with_features_opens_no_context_and_starts_no_process():
-    found, _ = interpreters.run(f"{LOOK_AROUND}\n{PLAY}\nfound.update(look_around())")
-    assert (found["children"], found["contexts"]) == (0, 0)
-    assert "torch" not in found["loaded"]
-
-
 def test_features_need_no_gl_at_all():
     found, _ = interpreters.run(f"{LOOK_AROUND}\n{PLAY}\nfound.update(look_around())", MUJOCO_GL="disable")
     assert found["backend"] == "disable"
     assert "OpenGL" not in found["loaded"]
-
-
-def test_the_users_choice_of_a_backend_is_left_alone():
-    code = "import os\nimport physexp.suite\nfound['backend'] = os.environ['MUJOCO_GL']"
-    assert interpreters.run(code, MUJOCO_GL="disable")[0] == {"backend": "disable"}
-
-
-@pytest.mark.parametrize("unset", [None, ""])
-def test_without_a_choice_the_backend_is_one_that_is_installed(unset):
-    """EGL before OSMesa, as it may use a GPU; with neither, none."""
-    libraries = {"egl": "EGL", "osmesa": "OSMesa"}
-    installed = [backend for backend, library in libraries.items() if ctypes.util.find_library(library)]
-    found, _ = interpreters.run(
-        "import os\nimport physexp.suite\nfound['backend'] = os.environ['MUJOCO_GL']", MUJOCO_GL=unset
-    )
-    assert found == {"backend": (installed + ["disable"])[0]}
 
 
 def test_the_backend_is_settled_before_dm_control_is_imported():

@@ -97,11 +97,12 @@ def test_a_lost_terminal_ends_training_with_a_checkpoint(tmp_path):
 def test_a_command_that_trains_nothing_ends_with_one_line():
     code = """
         import os, signal, sys
-        from physexp.cli import parsing, tasks
+        from physexp import cli
+        from physexp.cli import tasks
 
         tasks.Doctor.run = lambda self: (os.kill(os.getpid(), signal.SIGTERM), signal.pause())
         sys.argv = ["physexp", "doctor"]
-        parsing.main()
+        cli.main()
     """
     done = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (128 + signal.SIGTERM, "physexp: interrupted\n")

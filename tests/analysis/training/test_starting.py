@@ -18,7 +18,8 @@ from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
-from physexp.cli import demo, parsing
+from physexp import cli
+from physexp.cli import demo
 
 TASK = ("which_is_heavier", "features")
 
@@ -26,7 +27,7 @@ TASK = ("which_is_heavier", "features")
 def refusal(capsys, *arguments):
     """The one line with which `physexp` refuses arguments, with exit status 2; it runs in this process."""
     with pytest.raises(SystemExit) as ended:
-        parsing._run([str(argument) for argument in arguments])
+        cli.run([str(argument) for argument in arguments])
     output, errors = capsys.readouterr()
     assert ended.value.code == 2 and output == "" and errors.count("\n") == 1, errors
     return errors
@@ -168,7 +169,7 @@ def test_a_run_that_has_had_its_frames_says_so_when_it_is_to_go_on(tmp_path, cap
     run.create(small(frames=100))
     trainer.train(run)
     assert run.is_finished
-    parsing._run(["train", *TASK, "--run-dir", str(run.path), "--resume"])
+    cli.run(["train", *TASK, "--run-dir", str(run.path), "--resume"])
     assert f"{run.path} has had its 100 frames; to train longer, train anew with more" in capsys.readouterr().err
 
 
