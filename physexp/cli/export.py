@@ -35,16 +35,16 @@ class Export:
 
         if self.minari:
             extras.require("minari")
-        chosen = targets.find(self.target).choose(self.tasks, self.observations)
+        target = targets.find(self.target, self.greedy)
+        chosen = target.choose(self.tasks, self.observations)
         folder = self.output or playing.unfinished(Path("exports") / targets.file_name(self.target))
         with playing_in(folder), progress.bar("episodes", self.episodes * len(chosen)) as show:
             found = exporting.export(
-                self.target,
+                target,
                 chosen,
                 self.episodes,
                 folder,
                 seed=exporting.SEED if self.seed is None else self.seed,
-                greedy=self.greedy,
                 timeout=self.timeout,
                 as_minari=self.minari,
                 show=show,

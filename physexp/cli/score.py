@@ -46,22 +46,15 @@ class Score:
         from physexp.analysis.score import playing, protocol, scoring, targets
         from physexp.analysis.training import progress
 
-        chosen = targets.find(self.target).choose(self.tasks, self.observations)
+        target = targets.find(self.target, self.greedy)
+        chosen = target.choose(self.tasks, self.observations)
         usual = protocol.QUICK_EPISODES if self.quick else protocol.EPISODES
         count = usual if self.episodes is None else self.episodes
         folder = self.output or playing.unfinished(Path("scores") / targets.file_name(self.target))
         made = self._made()
         with playing_in(folder), progress.bar("episodes", count * len(chosen)) as show:
             found = scoring.score(
-                self.target,
-                chosen,
-                count,
-                folder,
-                greedy=self.greedy,
-                timeout=self.timeout,
-                made=made,
-                show=show,
-                finish=_write_report,
+                target, chosen, count, folder, timeout=self.timeout, made=made, show=show, finish=_write_report
             )
         if self.json:
             printing.show(found, as_json=True)
