@@ -1,4 +1,4 @@
-"""The style of figures: readable in grey and by colour-blind readers; each is saved as SVG and as PNG."""
+"""The style of figures, which are readable in grey and by colour-blind readers, and their files."""
 
 import contextlib
 import io
@@ -89,17 +89,16 @@ def png(figure) -> bytes:
     return packed.getvalue()
 
 
-def save(figure, folder: Path, name: str) -> list[Path]:
-    """Writes a figure as SVG and PNG; returns the paths.
+def save(figure: Any, folder: Path, name: str) -> Path:
+    """Writes a figure as PNG; returns the path.
 
     Raises:
       OSError: if it cannot be written.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    paths = [folder / f"{name}.svg", folder / f"{name}.png"]
-    for path, draw in zip(paths, (svg, png), strict=True):
-        files.write_atomically(path, draw(figure))
-    return paths
+    path = folder / f"{name}.png"
+    files.write_atomically(path, png(figure))
+    return path
 
 
 def reference(axes, level: float, text: str, vertical: bool = False, at: float = 1.0) -> None:

@@ -1,19 +1,18 @@
 """The parts of an experiment: the agents it needs, the episodes they play, its claims and its figure."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import dataclasses
-import functools
 import json
-import math
 from pathlib import Path
 from typing import Any
 
-import numpy as np
+import pandas
 
 from physexp.agents import files
 from physexp.analysis.data import plots
+from physexp.analysis.data import results as results_lib
 from physexp.analysis.experiments import claims as claims_lib
-from physexp.analysis.experiments import conditions
+from physexp.analysis.experiments import conditions as conditions_lib
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import records
 from physexp.analysis.training import run as run_lib
@@ -49,106 +48,104 @@ class Results:
 
     It holds::
 
-        runs/NAME/                     a run: configuration, metrics, the agent in half precision
-        episodes/TRIAL/NAME.parquet    what the run's agent played, a row an episode
+        tables/                        runs, learning curves, evaluations and episodes: see `data.results`
+        agents/                        the weights of some agents
+        runs/NAME/                     the folder of a run that is being trained, or was trained here
         ideal/, generalization/, timing/, noise/
-                                       what experimenters earn that nobody trained
-        figures/EXPERIMENT.{svg,png}
-        report.md, report.html
+                                       returns of the ideal experimenters, and of rules without training
+        figures/EXPERIMENT.png
+        report.md
     """
 
     path: Path
 
     def run(self, config: config_lib.TrainConfig) -> run_lib.Run:
+        """Returns the folder of a run, in which there need be nothing."""
         return run_lib.Run(self.path / "runs" / config.name)
 
-    def episodes_path(self, trial: Trial, config: config_lib.TrainConfig) -> Path:
-        return self.path / "episodes" / trial.name / f"{config.name}.parquet"
+    def lacks(self, kind: str) -> ValueError:
+        """Returns the error of an experiment without stored data of a kind, such as `episodes`."""
+        return ValueError(f"{self.path} holds no {kind} of this experiment; `physexp reproduce EXPERIMENT` makes them")
 
-    def lacks(self, what: str) -> ValueError:
-        """Returns the error of an experiment of whose data, as `episodes`, there are none yet."""
-        return ValueError(f"{self.path} holds no {what} of this experiment; `physexp reproduce EXPERIMENT` makes them")
+    def load(self, table: str, columns: Sequence[str], filters: results_lib.Filters = ()) -> pandas.DataFrame:
+        """Returns rows of a table as `data.results.load`; none if the table does not exist yet."""
+        try:
+            return results_lib.load(self.path, table, columns, filters)
+        except FileNotFoundError:
+            return pandas.DataFrame(columns=list(columns))
 
-    def all_episodes(self, config: config_lib.TrainConfig) -> list[Path]:
-        """The files of all that a run's agent played, of whichever trial."""
-        return sorted(self.path.glob(f"episodes/*/{config.name}.parquet"))
+    def played(self) -> set[tuple[str, str, int]]:
+        """Returns condition, trial and training seed of everything that has been played."""
+        rows = self.load("evaluations", ["condition", "trial", "training_seed"])
+        return set(rows.itertuples(index=False, name=None))
+
+    def has_played(self, trial: Trial, condition: conditions_lib.Condition) -> bool:
+        """Returns whether an agent of a condition has played a trial."""
+        return bool(self._seeds([trial], condition))
+
+    def has_finished(self, condition: conditions_lib.Condition) -> bool:
+        """Returns whether an agent of a condition has been trained."""
+        return bool(len(self.load("runs", ["run"], [("condition", "==", condition.id)])))
 
     def episodes(
-        self, trials: Sequence[Trial], configs: Sequence[config_lib.TrainConfig], columns: Sequence[str] = ()
-    ) -> Any:
-        """What agents of these conditions have played: a DataFrame with `condition` and columns that `records` reads.
+        self, trials: Sequence[Trial], wanted: Sequence[conditions_lib.Condition], columns: Sequence[str] = ()
+    ) -> pandas.DataFrame:
+        """Returns the episodes of some trials, with the label of their condition in `condition`.
 
         Args:
-          trials: what was played; of every seed that has played all of it.
-          configs: the conditions, whatever the seed in them.
-          columns: those wanted beside the ones that tell what was played; few are quick to read.
+          trials: the trials; of each condition those seeds are read that have played all of them.
+          wanted: the conditions.
+          columns: wanted beside those that identify the condition and the trial, as `records.completed` takes them.
 
         Raises:
           ValueError: if there are none.
         """
         always = ["domain", "task", "difficulty", "discount", "training_seed", "interaction", "control_timestep"]
-        paths = [path for config in configs for path in self._complete(trials, config)]
-        if not paths:
-            raise self.lacks("episodes")
-        frame = records.read(paths, [*always, *columns])
-        return frame.assign(condition=_labels(frame))
-
-    def has_played(self, trial: Trial, config: config_lib.TrainConfig) -> bool:
-        """Returns whether an agent of a condition has played what is asked for, whatever its seed."""
-        return bool(self._complete([trial], config))
-
-    def has_finished(self, config: config_lib.TrainConfig) -> bool:
-        """Returns whether an agent of a condition has been trained, whatever its seed."""
-        return any(self._finished(config))
-
-    def curves(self, configs: Sequence[config_lib.TrainConfig]) -> Any:
-        """Learning curves: a DataFrame of the rows of `metrics.METRICS` of all seeds of these conditions."""
-        import pandas
-
         frames = []
-        for config in configs:
-            for run in self._finished(config):
+        for condition in wanted:
+            if not (seeds := self._seeds(trials, condition)):
+                continue
+            of_seeds = [("condition", "==", condition.id), ("training_seed", "in", seeds)]
+            for trial in trials:
+                rows = results_lib.read(self.path, "episodes", records.STORED, [*of_seeds, ("trial", "==", trial.name)])
+                frame = records.completed(
+                    rows, condition.config, [*always, *columns], trial.interaction, trial.task_kwargs
+                )
+                frames.append(frame.assign(condition=condition.label))
+        if not frames:
+            raise self.lacks("episodes")
+        return pandas.concat(frames, ignore_index=True)
+
+    def curves(self, wanted: Sequence[conditions_lib.Condition]) -> pandas.DataFrame:
+        """Returns the learning curves of all runs of some conditions, with the label of their condition in `condition`.
+
+        Raises:
+          ValueError: if there are none.
+        """
+        frames = []
+        for condition in wanted:
+            if self.has_finished(condition):
+                filters = [("condition", "==", condition.id)]
+                rows = results_lib.read(self.path, "curves", ["training_seed", *records.METRICS], filters)
                 frames.append(
-                    pandas.DataFrame(run.metrics()).assign(
-                        domain=config.domain,
-                        task=config.task,
-                        difficulty=config.task_kwargs.get("difficulty"),
-                        discount=config.agent.discount,
-                        training_seed=run.config.agent.seed,
-                        algorithm=config.agent.title,
+                    records.curves(rows).assign(
+                        domain=condition.domain,
+                        task=condition.task,
+                        difficulty=condition.task_kwargs.get("difficulty"),
+                        discount=condition.agent.discount,
+                        algorithm=condition.agent.title,
+                        condition=condition.label,
                     )
                 )
         if not frames:
             raise self.lacks("finished runs")
-        frame = pandas.concat(frames, ignore_index=True)
-        return frame.assign(condition=_labels(frame))
+        return pandas.concat(frames, ignore_index=True)
 
-    def _finished(self, config: config_lib.TrainConfig) -> Iterator[run_lib.Run]:
-        """Yields the finished runs of a condition, in the order of their names."""
-        for folder in sorted((self.path / "runs").glob(f"{_without_seed(config)}-seed*")):
-            run = run_lib.Run(folder)
-            if run.is_finished:
-                yield run
-
-    def _complete(self, trials: Sequence[Trial], config: config_lib.TrainConfig) -> list[Path]:
-        """The episodes of the seeds of a condition that have played all of the trials."""
-        pattern = f"{_without_seed(config)}-seed*.parquet"
-        folders = [self.path / "episodes" / trial.name for trial in trials]
-        names = set.intersection(*({path.name for path in folder.glob(pattern)} for folder in folders))
-        return [folder / name for folder in folders for name in sorted(names)]
-
-
-def _without_seed(config: config_lib.TrainConfig) -> str:
-    return config.name.removesuffix(f"-seed{config.agent.seed}")
-
-
-def _labels(frame) -> np.ndarray:
-    """Returns the names of the conditions of rows, of which many have the same."""
-    kinds = frame[["domain", "task", "difficulty"]].astype({"difficulty": float})
-    numbers = kinds.groupby(list(kinds), dropna=False, sort=False, observed=True).ngroup().to_numpy()
-    rows = kinds.iloc[np.unique(numbers, return_index=True)[1]].itertuples(index=False)
-    labels = [_label(row.domain, row.task, None if math.isnan(row.difficulty) else row.difficulty) for row in rows]
-    return np.array(labels, object)[numbers]
+    def _seeds(self, trials: Sequence[Trial], condition: conditions_lib.Condition) -> list[int]:
+        """Returns the training seeds of a condition that have played all of the trials."""
+        rows = self.load("evaluations", ["trial", "training_seed"], [("condition", "==", condition.id)])
+        played = [set(rows.training_seed[rows.trial == trial.name]) for trial in trials]
+        return sorted(int(seed) for seed in set.intersection(*played))
 
 
 def keep_made(path: Path, made: Any) -> None:
@@ -176,11 +173,6 @@ def read_made(path: Path, experiment: str, is_as_written: Callable[[Any], bool])
     return found
 
 
-@functools.cache
-def _label(domain: str, task: str, difficulty: float | None) -> str:
-    return conditions.label(domain, task, **({} if difficulty is None else {"difficulty": difficulty}))
-
-
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Experiment:
     """An experiment.
@@ -204,7 +196,7 @@ class Experiment:
     title: str
     section: str
     caption: str
-    conditions: tuple[config_lib.TrainConfig, ...] = ()
+    conditions: tuple[conditions_lib.Condition, ...] = ()
     trials: tuple[Trial, ...] = ()
     prepare: Callable[[Results, Callable[[str], None]], None] | None = None
     load: Callable[[Results], Any]

@@ -1,210 +1,274 @@
-"""The conditions that agents are trained in: all of the paper's, each for as long as it takes to level off."""
+"""The conditions that agents are trained in: the paper's, and ours, each with the environment steps that it needs."""
 
 from collections.abc import Mapping, Sequence
 import dataclasses
-import re
 from typing import Any
 
 from physexp import suite
+from physexp.agents import config as agent_config
 from physexp.agents.a3c import config as a3c
 from physexp.analysis import domains
 from physexp.analysis.domains import which_is_heavier
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import records
 
 DIFFICULTIES = (3.0, 5.0, 10.0)
 OBSERVATIONS = ("features", "pixels")
 ACTUATORS = ("direct", "fist")
-PATIENT_DISCOUNT = 0.99  # Under which waiting costs little.
-SEEDS = {"features": 10, "pixels": 5}  # How many agents are trained in each condition.
-
-# Environment steps: the easier, the sooner the curve is flat.
-_PATIENT_FRAMES = {3.0: 4_000_000, 5.0: 3_000_000, 10.0: 2_000_000}
-_FRAMES = {
-    ("features", 3.0): 6_000_000,
-    ("features", 5.0): 4_000_000,
-    ("features", 10.0): 2_000_000,
-    ("pixels", 3.0): 700_000,
-    ("pixels", 5.0): 500_000,
-    ("pixels", 10.0): 250_000,
-}
-# Of the belief learner, set before any agent that is reported was trained.
-_BELIEF_FRAMES = {
-    "3-F": 250_000,
-    "5-F": 60_000,
-    "10-F": 30_000,
-    "D-F": 60_000,
-    "F-F": 50_000,
-    "3-P": 200_000,
-    "5-P": 100_000,
-    "10-P": 40_000,
-    "D-P": 60_000,
-    "F-P": 80_000,
-    "threshold features": 60_000,
-    "balance features": 150_000,
-    "strings features": 150_000,
-    "sealed_box features": 200_000,
-    "strike features": 300_000,
-}
-_PAPERS_FRAMES = {"10-F": 2_000_000}  # The same, of the paper's own learner.
-_NOISY_FRAMES = {"5-F": 120_000}  # The same, with noise.
-_TIMED_FRAMES = {"F-F": 200_000}  # The same, with control steps of many lengths.
-_VARIED_FRAMES = {"D-F": 150_000, "F-F": 150_000, "D-P": 400_000, "F-P": 1_000_000}  # The same, with variation.
-# Environment steps for each step of Adam where images vary: agents who learn more from each learn them by heart.
-_VARIED_FRAMES_PER_STEP = 16
+PATIENT_DISCOUNT = 0.99  # Waiting costs little.
+SEEDS = {"features": 10, "pixels": 5}  # Agents trained in each condition.
 
 
-def heavier(
-    difficulty: float, observations: str, frames: int, discount: float = which_is_heavier.DOMAIN.discount
-) -> config_lib.TrainConfig:
-    """Returns Which is Heavier at a difficulty, for so many environment steps, the agent's gamma being `discount`."""
-    agent = config_lib.preset("which_is_heavier", observations, algorithm="a3c")
-    return config_lib.TrainConfig(
-        domain="which_is_heavier",
-        task=observations,
-        task_kwargs={"difficulty": difficulty},
-        agent=agent.replace(discount=discount, frames=frames, num_workers=1),
-    )
+@dataclasses.dataclass(frozen=True)
+class Condition:
+    """Agents that are trained alike but for their seeds.
 
-
-def towers(actuator: str, observations: str = "features") -> config_lib.TrainConfig:
-    """Returns Towers with an actuator."""
-    task = f"{actuator}_{observations}"
-    agent = config_lib.preset("towers", task, algorithm="a3c").replace(num_workers=1)
-    return config_lib.TrainConfig(domain="towers", task=task, agent=agent)
-
-
-HEAVIER = tuple(heavier(beta, kind, _FRAMES[kind, beta]) for kind in OBSERVATIONS for beta in DIFFICULTIES)
-"""At the paper's gamma of 0.95."""
-
-PATIENT = tuple(heavier(beta, "features", _PATIENT_FRAMES[beta], discount=PATIENT_DISCOUNT) for beta in DIFFICULTIES)
-"""At the paper's gamma of 0.99."""
-
-TOWERS = tuple(towers(actuator, kind) for actuator in ACTUATORS for kind in OBSERVATIONS)
-
-BY_LABEL = {config.label: config for config in (*HEAVIER, *TOWERS)}
-"""The paper's tasks by the names of their conditions, as 10-F and D-P; see `label`."""
-
-THRESHOLD, BALANCE, STRINGS, SEALED_BOX, STRIKE = (
-    config_lib.TrainConfig(
-        domain=domain,
-        task="features",
-        agent=config_lib.preset(domain, "features", algorithm="a3c").replace(num_workers=1),
-    )
-    for domain in ("threshold", "balance", "strings", "sealed_box", "strike")
-)
-
-
-def with_ppo(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
-    """Returns a condition with PPO as the learner."""
-    agent = config_lib.preset(config.domain, config.task, algorithm="ppo")
-    return dataclasses.replace(config, agent=agent.replace(discount=config.agent.discount, num_threads=1))
-
-
-def with_papers_learner(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
-    """Returns a condition with A3C as the paper has it: one episode an update, raw observations, and no hint."""
-    agent = a3c.A3CConfig(
-        discount=config.agent.discount,
-        frames=_PAPERS_FRAMES[config.label],
-        learning_rate=0.01,
-        entropy_cost=1.0,
-        num_workers=1,
-        envs_per_worker=1,
-        observation_scale=1.0,
-        relative_pixels=False,
-    )
-    return dataclasses.replace(config, agent=agent)
-
-
-def with_belief(config: config_lib.TrainConfig, **changes: Any) -> config_lib.TrainConfig:
-    """Returns a condition with the belief learner: one configuration, but for `changes`, and each task's own budget."""
-    agent = config_lib.preset(config.domain, config.task, algorithm="belief")
-    agent = agent.replace(discount=config.agent.discount, frames=_BELIEF_FRAMES[config.label], **changes)
-    return dataclasses.replace(config, agent=agent)
-
-
-def with_each_learner(configs: Sequence[config_lib.TrainConfig]) -> tuple[config_lib.TrainConfig, ...]:
-    """Returns conditions with A3C, with PPO, and with the belief learner in both tracks, one task after the other."""
-    return tuple(
-        config
-        for task in configs
-        for config in (task, with_ppo(task), with_belief(task), with_belief(task, answers_revealed=True))
-    )
-
-
-def with_task_kwargs(config: config_lib.TrainConfig, **task_kwargs: Any) -> config_lib.TrainConfig:
-    """Returns a condition with further options of the task."""
-    return dataclasses.replace(config, task_kwargs={**config.task_kwargs, **task_kwargs})
-
-
-def with_variation(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
-    """Returns a condition of Towers with full variation, and the belief learner's budget for that."""
-    varied = with_task_kwargs(_trained_for(config, _VARIED_FRAMES), variation=1.0)
-    if observations(config) == "features":
-        return varied
-    return dataclasses.replace(varied, agent=varied.agent.replace(frames_per_step=_VARIED_FRAMES_PER_STEP))
-
-
-def with_step_variation(config: config_lib.TrainConfig) -> config_lib.TrainConfig:
-    """Returns a condition of Towers with control steps from half to one and a half times as long as usual."""
-    return with_task_kwargs(_trained_for(config, _TIMED_FRAMES), step_variation=0.5)
-
-
-def with_noise(config: config_lib.TrainConfig, noise: float) -> config_lib.TrainConfig:
-    """Returns a condition with noise of a standard deviation, m, and the belief learner's budget for that."""
-    return with_task_kwargs(_trained_for(config, _NOISY_FRAMES), noise=noise)
-
-
-def _trained_for(config: config_lib.TrainConfig, frames: Mapping[str, int]) -> config_lib.TrainConfig:
-    return dataclasses.replace(config, agent=config.agent.replace(frames=frames[config.label]))
-
-
-def observations(config: config_lib.TrainConfig) -> str:
-    """Returns what agents of a condition observe, `features` or `pixels`."""
-    (kind,) = suite.tags(config.domain, config.task) & set(OBSERVATIONS)
-    return kind
-
-
-def ideal(config: config_lib.TrainConfig):
-    """Returns the ideal experimenter of a condition: the `Solution` that no agent trained so can beat.
-
-    Raises:
-      ValueError: if none is known.
+    Attributes:
+      config: the configuration of the first run, with the seed 0.
+      label: the short name of the task, as in `10-F`; figures and claims use it.
     """
-    find = domains.find(config.domain).ideal_with(config.task_kwargs)
-    if find is None:
-        raise ValueError(f"no ideal experimenter of {config.name} is known")
-    return find(config.task, config.task_kwargs, config.agent.discount)
+
+    config: config_lib.TrainConfig
+    label: str
+
+    @property
+    def id(self) -> str:
+        """The name of the runs without their seeds; stored rows carry it."""
+        return records.condition_id(self.config)
+
+    @property
+    def budget(self) -> int:
+        """Environment steps of training."""
+        return self.agent.frames
+
+    @property
+    def domain(self) -> str:
+        """The domain's name."""
+        return self.config.domain
+
+    @property
+    def task(self) -> str:
+        """The task's name."""
+        return self.config.task
+
+    @property
+    def task_name(self) -> str:
+        """Domain and task, as in `towers/fist_features`."""
+        return self.config.task_name
+
+    @property
+    def task_kwargs(self) -> Mapping[str, Any]:
+        """Options of the task."""
+        return self.config.task_kwargs
+
+    @property
+    def agent(self) -> agent_config.AgentConfig:
+        """The learner's configuration."""
+        return self.config.agent
+
+    def run(self, seed: int, frames: int | None = None) -> config_lib.TrainConfig:
+        """Returns the configuration of one run; `frames` replaces the budget in a rehearsal."""
+        agent = self.agent.replace(seed=seed, frames=frames or self.budget)
+        return dataclasses.replace(self.config, agent=agent)
+
+    def changed(self, agent: agent_config.AgentConfig | None = None, **task_kwargs: Any) -> "Condition":
+        """Returns a condition of the same task with another learner, or with further options of the task."""
+        options = {**self.task_kwargs, **task_kwargs}
+        return dataclasses.replace(
+            self, config=dataclasses.replace(self.config, agent=agent or self.agent, task_kwargs=options)
+        )
 
 
-def heavier_ideal(difficulty: float, discount: float = which_is_heavier.DOMAIN.discount):
-    """Returns the ideal experimenter of Which is Heavier at a difficulty and a discount, a `Solution`."""
-    return ideal(heavier(difficulty, "features", 1, discount))
+@dataclasses.dataclass(frozen=True)
+class _Budget:
+    """A task's name in words, and the environment steps of its learners, set before their reported agents were trained.
+
+    Attributes:
+      words: the task in words.
+      belief: of the belief learner.
+      varied: of the belief learner, with variation.
+      a3c, patient: of A3C where they differ from the preset's: at the task's gamma, and at `PATIENT_DISCOUNT`.
+    """
+
+    words: str
+    belief: int
+    varied: int = 0
+    a3c: int = 0
+    patient: int = 0
+
+
+_BUDGETS = {  # The easier the task, the sooner its curve is flat.
+    "3-F": _Budget("difficulty 3, features", belief=250_000, a3c=6_000_000, patient=4_000_000),
+    "5-F": _Budget("difficulty 5, features", belief=60_000, a3c=4_000_000, patient=3_000_000),
+    "10-F": _Budget("difficulty 10, features", belief=30_000, a3c=2_000_000, patient=2_000_000),
+    "3-P": _Budget("difficulty 3, pixels", belief=200_000, a3c=700_000),
+    "5-P": _Budget("difficulty 5, pixels", belief=100_000, a3c=500_000),
+    "10-P": _Budget("difficulty 10, pixels", belief=40_000, a3c=250_000),
+    "D-F": _Budget("direct, features", belief=60_000, varied=150_000),
+    "D-P": _Budget("direct, pixels", belief=60_000, varied=400_000),
+    "F-F": _Budget("fist, features", belief=50_000, varied=150_000),
+    "F-P": _Budget("fist, pixels", belief=80_000, varied=1_000_000),
+    "threshold features": _Budget("threshold features", belief=60_000),
+    "balance features": _Budget("balance features", belief=150_000),
+    "strings features": _Budget("strings features", belief=150_000),
+    "sealed_box features": _Budget("sealed_box features", belief=200_000),
+    "strike features": _Budget("strike features", belief=300_000),
+}
+_PAPERS_FRAMES = 2_000_000  # Of the paper's own learner at difficulty 10 from features.
+_NOISY_FRAMES = 120_000  # Of the belief learner at difficulty 5 from features, with noise.
+_TIMED_FRAMES = 200_000  # Of the belief learner with the fist from features, with control steps of many lengths.
+# Environment steps for each update where images vary: agents that learn more from each memorize them.
+_VARIED_FRAMES_PER_UPDATE = 16
 
 
 def label(domain: str, task: str, **task_kwargs: Any) -> str:
-    """Returns the paper's name of a condition: 10-F is difficulty 10 from features, D-P direct actuation from pixels.
+    """Returns the label of a task: 10-F is difficulty 10 from features, D-P direct actuation from pixels.
 
-    Where a domain has no such names, it is domain and task.
+    In domains without labels, it is domain and task.
     """
     return domains.find(domain).label(task, task_kwargs)
 
 
+def _make(domain: str, task: str, agent: agent_config.AgentConfig, **task_kwargs: Any) -> Condition:
+    config = config_lib.TrainConfig(domain=domain, task=task, task_kwargs=task_kwargs, agent=agent)
+    return Condition(config, label(domain, task, **task_kwargs))
+
+
+def heavier(
+    difficulty: float, observations: str, frames: int, discount: float = which_is_heavier.DOMAIN.discount
+) -> Condition:
+    """Returns A3C on Which is Heavier with a difficulty, a number of environment steps, and a gamma."""
+    agent = config_lib.preset("which_is_heavier", observations, algorithm="a3c")
+    agent = agent.replace(discount=discount, frames=frames, num_workers=1)
+    return _make("which_is_heavier", observations, agent, difficulty=difficulty)
+
+
+def towers(actuator: str, observations: str = "features") -> Condition:
+    """Returns A3C on Towers with an actuator."""
+    return _with_preset("towers", f"{actuator}_{observations}")
+
+
+def _with_preset(domain: str, task: str) -> Condition:
+    return _make(domain, task, config_lib.preset(domain, task, algorithm="a3c").replace(num_workers=1))
+
+
+HEAVIER = tuple(
+    heavier(beta, kind, _BUDGETS[f"{beta:g}-{kind[0].upper()}"].a3c) for kind in OBSERVATIONS for beta in DIFFICULTIES
+)
+"""A3C at the paper's gamma of 0.95."""
+
+PATIENT = tuple(
+    heavier(beta, "features", _BUDGETS[f"{beta:g}-F"].patient, discount=PATIENT_DISCOUNT) for beta in DIFFICULTIES
+)
+"""A3C at the paper's gamma of 0.99."""
+
+TOWERS = tuple(towers(actuator, kind) for actuator in ACTUATORS for kind in OBSERVATIONS)
+
+BY_LABEL = {condition.label: condition for condition in (*HEAVIER, *TOWERS)}
+"""A3C on the paper's tasks, by their labels."""
+
+THRESHOLD, BALANCE, STRINGS, SEALED_BOX, STRIKE = (
+    _with_preset(domain, "features") for domain in ("threshold", "balance", "strings", "sealed_box", "strike")
+)
+
+
+def with_ppo(condition: Condition) -> Condition:
+    """Returns a condition with PPO as the learner."""
+    agent = config_lib.preset(condition.domain, condition.task, algorithm="ppo")
+    return condition.changed(agent.replace(discount=condition.agent.discount, num_threads=1))
+
+
+def with_papers_learner(condition: Condition) -> Condition:
+    """Returns a condition with A3C as in the paper: one episode an update, raw observations, and no hint."""
+    return condition.changed(
+        a3c.A3CConfig(
+            discount=condition.agent.discount,
+            frames=_PAPERS_FRAMES,
+            learning_rate=0.01,
+            entropy_cost=1.0,
+            num_workers=1,
+            envs_per_worker=1,
+            observation_scale=1.0,
+            relative_pixels=False,
+        )
+    )
+
+
+def with_belief(condition: Condition, **changes: Any) -> Condition:
+    """Returns a condition with the belief learner: one configuration, but for `changes`, and each task's own budget."""
+    agent = config_lib.preset(condition.domain, condition.task, algorithm="belief")
+    frames = _BUDGETS[condition.label].belief
+    return condition.changed(agent.replace(discount=condition.agent.discount, frames=frames, **changes))
+
+
+def with_each_learner(tasks: Sequence[Condition]) -> tuple[Condition, ...]:
+    """Returns conditions with A3C, with PPO, and with the belief learner in both tracks, one task after the other."""
+    return tuple(
+        condition
+        for task in tasks
+        for condition in (task, with_ppo(task), with_belief(task), with_belief(task, answers_revealed=True))
+    )
+
+
+def with_task_kwargs(condition: Condition, **task_kwargs: Any) -> Condition:
+    """Returns a condition with further options of the task."""
+    return condition.changed(**task_kwargs)
+
+
+def with_variation(condition: Condition) -> Condition:
+    """Returns a condition of Towers with full variation, and the belief learner's budget for that."""
+    agent = condition.agent.replace(frames=_BUDGETS[condition.label].varied)
+    if observations(condition) == "pixels":
+        agent = agent.replace(frames_per_update=_VARIED_FRAMES_PER_UPDATE)
+    return condition.changed(agent, variation=1.0)
+
+
+def with_step_variation(condition: Condition) -> Condition:
+    """Returns a condition of Towers with control steps from half to one and a half times as long as usual."""
+    return condition.changed(condition.agent.replace(frames=_TIMED_FRAMES), step_variation=0.5)
+
+
+def with_noise(condition: Condition, noise: float) -> Condition:
+    """Returns a condition with noise of a standard deviation, m, and the belief learner's budget for that."""
+    return condition.changed(condition.agent.replace(frames=_NOISY_FRAMES), noise=noise)
+
+
+def observations(condition: Condition | config_lib.TrainConfig) -> str:
+    """Returns the kind of observations of a condition, `features` or `pixels`."""
+    (kind,) = suite.tags(condition.domain, condition.task) & set(OBSERVATIONS)
+    return kind
+
+
+def ideal(condition: Condition) -> Any:
+    """Returns the ideal experimenter of a condition, a `Solution`: no agent that is trained so can earn more.
+
+    Raises:
+      ValueError: if none is known.
+    """
+    find = domains.find(condition.domain).ideal_with(condition.task_kwargs)
+    if find is None:
+        raise ValueError(f"no ideal experimenter of {condition.id} is known")
+    return find(condition.task, condition.task_kwargs, condition.agent.discount)
+
+
+def heavier_ideal(difficulty: float, discount: float = which_is_heavier.DOMAIN.discount) -> Any:
+    """Returns the ideal experimenter of Which is Heavier at a difficulty and a discount, a `Solution`."""
+    return ideal(heavier(difficulty, "features", 1, discount))
+
+
 def chance(domain: str, task: str) -> float:
-    """Returns the share of right answers of one who answers at random."""
+    """Returns the share of right answers of an agent that answers at random."""
     return 1 / suite.load_task(domain, task).num_labels
 
 
-_WORDS = {"F": "features", "P": "pixels"}
-
-
 def spelled_out(text: str) -> str:
-    """Returns a text with the paper's names of conditions in words, since its F is both the fist and features.
+    """Returns a text with labels in words, since their F is both the fist and features.
 
     `10-F` becomes `difficulty 10, features`, and `F-F` becomes `fist, features`.
     """
-    text = re.sub(r"\b([\d.]+)-([FP])\b", lambda found: f"difficulty {found[1]}, {_WORDS[found[2]]}", text)
-    actuators = {name[0].upper(): name for name in ACTUATORS}
-    return re.sub(r"\b([DF])-([FP])\b", lambda found: f"{actuators[found[1]]}, {_WORDS[found[2]]}", text)
+    for name in sorted(_BUDGETS, key=len, reverse=True):  # 10-F before 0-F.
+        text = text.replace(name, _BUDGETS[name].words)
+    return text
 
 
 def tick(name: str) -> str:

@@ -1,18 +1,16 @@
-"""The report: every figure, and the table of claims, as Markdown and as one HTML page."""
+"""The report: every figure, and the table of claims, as Markdown."""
 
-import base64
 import collections
 import dataclasses
-import html
 import math
 from pathlib import Path
+from typing import Any
 
 from physexp.agents import files
 from physexp.analysis.data import plots, provenance, text
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions, summary, sweep
 from physexp.analysis.experiments import claims as claims_lib
 from physexp.analysis.training import callbacks
-from physexp.analysis.training import run as run_lib
 
 _INTRODUCTION = (
     "The paper is *Learning to Perform Physics Experiments via Deep Reinforcement Learning* (Denil et al., ICLR "
@@ -85,40 +83,34 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
         verdicts = claims_lib.corrected(found)
         tested += [_Tested(claim, verdict, experiment) for claim, verdict in zip(found, verdicts, strict=True)]
         tell(f"drew {experiment.name}")
-    markdown, runs = results.path / "report.md", _finished(results)
-    files.write_atomically(markdown, _markdown(shown, tested, missing, runs).encode())
-    files.write_atomically(results.path / "report.html", _page(shown, tested, missing, runs, results).encode())
-    return markdown
+    path, runs = results.path / "report.md", results.load("runs", ["run", "commit", "config"])
+    files.write_atomically(path, _markdown(shown, tested, missing, runs).encode())
+    return path
 
 
 def _missing(experiment: base.Experiment, results: base.Results) -> str:
-    """Says which agents of the plan are not trained yet; nothing where all are."""
+    """Returns a sentence about the planned agents that are not trained yet; nothing where there are none."""
+    finished = set(results.load("runs", ["run"]).run)
     seeds = collections.defaultdict(list)
     for job in sweep.jobs([experiment], conditions.OBSERVATIONS, conditions.SEEDS.__getitem__):
-        if not results.run(job.config).is_finished:
+        if job.config.name not in finished:
             condition, _, seed = job.config.name.rpartition("-seed")
             seeds[condition].append(seed)
     words = "; ".join(f"{condition} ({', '.join(its)})" for condition, its in seeds.items())
     return f"Planned, and not trained yet (seeds): {words}." if words else ""
 
 
-def _finished(results: base.Results) -> list[run_lib.Run]:
-    """Returns the runs of all agents; those that are still in training are left out."""
-    runs = [run_lib.Run(path.parent) for path in sorted((results.path / "runs").glob("*/config.json"))]
-    return [run for run in runs if run.is_finished]
-
-
-def _summary(tested: list[_Tested], runs: list[run_lib.Run]) -> dict[str, list[str]]:
+def _summary(tested: list[_Tested], runs: Any) -> dict[str, list[str]]:
     """Returns the paragraphs at the beginning, and the points below each."""
     claims = [(one.claim, one.verdict) for one in tested if one.claim.section != claims_lib.OURS]
     counted = [(claim, verdict) for claim, verdict in claims if not claim.is_sanity_check]
-    sentences = " ".join(filter(None, [summary.in_numbers(counted), summary.of_workers(runs)]))
+    sentences = " ".join(filter(None, [summary.in_numbers(counted), summary.of_workers(runs.config)]))
     return {sentences: [], **summary.of_claims(counted), _INTRODUCTION: []}
 
 
-def _provenance(runs: list[run_lib.Run]) -> list[str]:
+def _provenance(runs: Any) -> list[str]:
     """Returns how many agents each commit has made, and the commit that has made the report."""
-    commits = (text.escaped(provenance.shortened(str(run.facts.get("commit", "unknown")))) for run in runs)
+    commits = (text.escaped(provenance.shortened(commit)) for commit in runs.commit)
     made = ", ".join(f"{number} by {commit}" for commit, number in collections.Counter(commits).items())
     return [
         f"Agents: {len(runs)}, trained by the source of these commits: {made}.",
@@ -174,7 +166,7 @@ def _anchor(experiment: base.Experiment) -> str:
     return experiment.name.replace("_", "-")
 
 
-def _markdown(shown, tested, missing, runs) -> str:
+def _markdown(shown: list[_Shown], tested: list[_Tested], missing: list[str], runs: Any) -> str:
     lines = ["# Results", ""]
     for paragraph, points in _summary(tested, runs).items():
         lines += [paragraph, "", *(f"- {point}" for point in points), ""] if points else [paragraph, ""]
@@ -210,51 +202,3 @@ def _markdown(shown, tested, missing, runs) -> str:
 def _header(names) -> list[str]:
     """Returns the first two lines of a Markdown table."""
     return ["| " + " | ".join(names) + " |", "|" + "---|" * len(names)]
-
-
-def _page(shown, tested, missing, runs, results) -> str:
-    parts = []
-    for paragraph, points in _summary(tested, runs).items():
-        parts.append(f"<p>{html.escape(paragraph).replace('*', '')}</p>")
-        parts += [f"<ul>{''.join(f'<li>{html.escape(point)}</li>' for point in points)}</ul>"] if points else []
-    head = "".join(f"<th>{name}</th>" for name in _HEADER)
-    for title, rows in _tables(tested).items():
-        body = "".join(
-            f'<tr><td class="{one.verdict}">{one.words}</td>'
-            + "".join(f"<td>{html.escape(cell)}</td>" for cell in _row(one))
-            + f'<td><a href="#{_anchor(one.experiment)}">{one.experiment.name}</a></td></tr>'
-            for one in rows
-        )
-        parts.append(f"<h2>{title}</h2><p>{_tally(rows)}.</p><table><tr>{head}</tr>{body}</table>")
-        parts += [f"<p>{html.escape(reason)}</p>" for reason in _reasons(rows)]
-    for one in shown:
-        experiment, table = one.experiment, one.table
-        image = base64.b64encode((results.path / "figures" / f"{experiment.name}.svg").read_bytes()).decode()
-        parts.append(
-            f'<h2 id="{_anchor(experiment)}">{html.escape(experiment.title)} '
-            f"<small>{html.escape(experiment.section)}</small></h2>"
-            f'<img alt="{html.escape(experiment.title)}" src="data:image/svg+xml;base64,{image}">'
-            f"<p>{html.escape(experiment.caption)}</p>"
-        )
-        if table:
-            cells = [
-                "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in row)
-                for tag, row in zip(["th"] + ["td"] * len(table), table, strict=False)
-            ]
-            parts.append("<table>" + "".join(f"<tr>{row}</tr>" for row in cells) + "</table>")
-        if one.missing:
-            parts.append(f"<p>{html.escape(one.missing)}</p>")
-    parts += [f"<p>Left out: {html.escape(line)}</p>" for line in missing]
-    parts += ["<h2>Provenance</h2>", *(f"<p>{line}</p>" for line in _provenance(runs))]
-    return f"<!doctype html><meta charset=utf-8><title>physexp: results</title><style>{_STYLE}</style>" + (
-        "<h1>Results</h1>" + "\n".join(parts) + "\n"
-    )
-
-
-_STYLE = """
-body {font: 15px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; color: #222}
-img {max-width: 100%; height: auto; display: block; margin: 1rem 0}
-table {border-collapse: collapse; font-size: 13px} td, th {border-bottom: 1px solid #ccc; padding: .25rem .5rem;
-text-align: left; vertical-align: top} small {color: #777; font-weight: normal}
-.holds {color: #00664b; font-weight: bold} .fails {color: #b33; font-weight: bold} .undecided {color: #666}
-"""

@@ -1,11 +1,10 @@
 """Reproducing the paper: trains the agents of experiments, lets them play, draws the figures and tests the claims."""
 
-from collections.abc import Callable, Sequence
-from concurrent import futures
+from collections.abc import Sequence
 
 from physexp.agents import processes
 from physexp.analysis.data import plots
-from physexp.analysis.experiments import EXPERIMENTS, base, claims, conditions, sweep
+from physexp.analysis.experiments import EXPERIMENTS, base, claims, conditions, pools, sweep
 from physexp.analysis.training import callbacks
 
 ALL = "all"
@@ -32,36 +31,36 @@ def run(
     num_seeds: int | None = None,
     num_processes: int | None = None,
     frames: int | None = None,
-    submit: Callable[[sweep.Job], futures.Future] | None = None,
+    cluster: str | None = None,
     tell: callbacks.Tell,
 ) -> None:
     """Does everything for some experiments that is not done yet.
 
     Args:
-      experiments: which.
-      results: where everything goes.
+      experiments: the experiments.
+      results: the folder for their data.
       observations: kinds of observations whose agents are trained.
       num_seeds: agents in each condition; by default `conditions.SEEDS`.
-      num_processes: agents trained at a time; by default as many as there are cores.
+      num_processes: agents trained at a time; by default one for each core.
       frames: environment steps of training, for a rehearsal; by default each condition's own budget.
-      submit: trains an agent elsewhere; by default agents are trained here.
-      tell: called with lines that tell how it goes.
+      cluster: the address of a Ray cluster to train on; by default agents are trained on this machine.
+      tell: called with lines about the progress.
 
     Raises:
-      ValueError: for numbers that make no sense, or a folder whose runs are not these.
+      ValueError: for numbers out of range, a cluster that cannot be joined, or a folder with other runs.
       RuntimeError: if some agents could not be trained.
     """
     for name, value, most in (("seeds", num_seeds, 1_000), ("jobs", num_processes, 1_000), ("frames", frames, 10**12)):
         if value is not None and not 1 <= value <= most:
             raise ValueError(f"{name} is {value}; give an integer >= 1 and <= {most}")
     jobs = sweep.jobs(experiments, observations, lambda kind: num_seeds or conditions.SEEDS[kind], frames)
-    sweep.run(jobs, results, num_processes or processes.num_cores(), tell, submit)
+    with pools.opened(num_processes, cluster) as pool:
+        sweep.run(jobs, results, pool, num_processes or processes.num_cores(), tell)
     for experiment in experiments:
         if experiment.prepare is not None:
             experiment.prepare(results, tell)
         frame = experiment.load(results)
-        for path in plots.save(experiment.figure(frame), results.path / "figures", experiment.name):
-            tell(str(path))
+        tell(str(plots.save(experiment.figure(frame), results.path / "figures", experiment.name)))
         found = experiment.claims(frame)
         for claim, verdict in zip(found, claims.corrected(found), strict=True):
             estimate = claim.estimate

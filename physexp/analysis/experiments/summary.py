@@ -2,11 +2,10 @@
 
 import collections
 from collections.abc import Sequence
+import json
 
-from physexp.agents.a3c import config as a3c
 from physexp.analysis.experiments import claims as claims_lib
 from physexp.analysis.experiments import conditions
-from physexp.analysis.training import run as run_lib
 
 Tested = tuple[claims_lib.Claim, str]
 """A claim under one condition, and its verdict."""
@@ -49,9 +48,14 @@ def _groups(tested: Sequence[Tested]) -> list[list[list[Tested]]]:
     return [groups[one] for one in (claims_lib.HOLDS, claims_lib.FAILS, claims_lib.UNDECIDED)]
 
 
-def of_workers(runs: Sequence[run_lib.Run]) -> str:
-    """Returns a sentence about the A3C agents that had one worker; nothing where there are none."""
-    workers = [run.config.agent.num_workers for run in runs if isinstance(run.config.agent, a3c.A3CConfig)]
+def of_workers(configs: Sequence[str]) -> str:
+    """Returns a sentence about the A3C agents that had one worker; nothing where there are none.
+
+    Args:
+      configs: the configurations of the runs, in JSON.
+    """
+    agents = [json.loads(config)["agent"] for config in configs]
+    workers = [agent["num_workers"] for agent in agents if agent["algorithm"] == "a3c"]
     if not (alone := workers.count(1)):
         return ""
     share = f"All {alone}" if alone == len(workers) else f"{alone} of the {len(workers)}"

@@ -1,24 +1,32 @@
-"""Sweeps: trains the agents that are missing, several at a time, lets them play, and picks up where it was stopped."""
+"""Sweeps: trains runs, several at a time, lets them play, and adds their rows to the stored tables.
 
+A run works in a folder of its own, `runs/NAME`, from whose last checkpoint it goes on after an interruption. Everything
+that is in the tables already is skipped.
+"""
+
+from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from concurrent import futures
 import dataclasses
+import json
 from pathlib import Path
+import sys
 import tempfile
 import time
+from typing import Protocol
 
-import pyarrow
+import filelock
+from pyarrow import parquet
 
 from physexp import suite
 from physexp.agents import files
+from physexp.analysis.data import results as results_lib
 from physexp.analysis.experiments import base, conditions
-from physexp.analysis.experiments import jobs as jobs_lib
 from physexp.analysis.training import (
     callbacks,
     finding,
     playing,
     progress,
-    recorder,
     records,
     stopping,
     trainer,
@@ -33,10 +41,20 @@ _REPORT_SECONDS = 60.0
 
 @dataclasses.dataclass(frozen=True)
 class Job:
-    """One agent: how it is trained, and what it then plays."""
+    """One run: its configuration, and the trials that its agent plays afterwards."""
 
     config: config_lib.TrainConfig
     trials: tuple[base.Trial, ...]
+
+
+class Pool(Protocol):
+    """Does jobs on this machine or on others."""
+
+    def submit(self, job: Job, results: base.Results) -> futures.Future[Mapping[str, bytes]]:
+        """Does a job as soon as there is room; its result are files by path that belong into the results."""
+
+    def stop(self) -> None:
+        """Asks all jobs to end. A job on this machine writes a checkpoint first."""
 
 
 def jobs(
@@ -45,85 +63,61 @@ def jobs(
     num_seeds: Callable[[str], int],
     frames: int | None = None,
 ) -> list[Job]:
-    """Returns the agents that experiments need, each once, the first seed of all before the second of any.
+    """Returns the runs that experiments need, each once, the first seed of all before the second of any.
 
     Args:
-      experiments: what is asked for.
+      experiments: the experiments.
       observations: kinds of observations that agents may have.
-      num_seeds: how many agents to train in each condition, by kind of observation.
-      frames: environment steps to train for; None for each condition's own budget.
+      num_seeds: the number of agents of each condition, by kind of observation.
+      frames: environment steps of training; None for each condition's own budget.
     """
-    played: dict[config_lib.TrainConfig, list[base.Trial]] = {}
+    trials: dict[config_lib.TrainConfig, dict[base.Trial, None]] = defaultdict(dict)
     for experiment in experiments:
         for condition in experiment.conditions:
             kind = conditions.observations(condition)
             for seed in range(num_seeds(kind) if kind in observations else 0):
-                agent = condition.agent.replace(seed=seed, frames=frames or condition.agent.frames)
-                trials = played.setdefault(dataclasses.replace(condition, agent=agent), [])
-                trials += [trial for trial in experiment.trials if trial not in trials]
-    return [Job(config, tuple(played[config])) for config in sorted(played, key=lambda config: config.agent.seed)]
+                trials[condition.run(seed, frames)] |= dict.fromkeys(experiment.trials)
+    return [Job(config, tuple(trials[config])) for config in sorted(trials, key=lambda config: config.agent.seed)]
 
 
-def run(
-    jobs: Sequence[Job],
-    results: base.Results,
-    num_processes: int,
-    tell: callbacks.Tell,
-    submit: Callable[[Job], futures.Future] | None = None,
-) -> None:
-    """Does what is not done yet.
+def run(jobs: Sequence[Job], results: base.Results, pool: Pool, num_processes: int, tell: callbacks.Tell) -> None:
+    """Does the jobs that are not done yet.
 
     Args:
-      jobs: the agents.
-      results: where everything goes.
-      num_processes: how many agents to train at a time, here.
-      tell: called with lines that tell how it goes.
-      submit: trains an agent elsewhere, as `cluster.submit` does; by default agents are trained here, as those are
-        always that have begun here.
+      jobs: the runs.
+      results: the folder for their data.
+      pool: does the jobs.
+      num_processes: jobs at a time, for the estimate of the time left.
+      tell: called with lines about the progress.
 
     Raises:
-      RuntimeError: when some agents could not be trained; all others are done by then.
-      stopping.Interrupted: after a request to end, when the agents that were being trained have their checkpoints.
-      ValueError: when the folder holds a run of the same name with another configuration, or what such a run played.
+      RuntimeError: if some agents could not be trained; all others are done by then.
+      stopping.Interrupted: after a request to end, when the jobs on this machine have written their checkpoints.
+      ValueError: if the results hold a run of the same name with another configuration, or one that has to play more
+        and whose weights are not there.
     """
-    for job in jobs:
-        _check(job, results)
-    todo = [job for job in jobs if not _is_done(job, results)]
+    done = _done(jobs, results)
+    todo = [job for job in jobs if job not in done]
     tell(f"{len(jobs) - len(todo)} of {len(jobs)} agents are done")
     if not todo:
         return
-    meter = Meter(jobs, results, num_processes)
-    reported = time.monotonic()
-    failures = []
-    with (
-        jobs_lib.Processes(_work, num_processes, tell) as processes,
-        stopping.Interruption(processes.stop) as interruption,
-    ):
-        here, elsewhere = {}, {}
-        for job in todo:
-            if submit is None or results.run(job.config).path.exists():
-                here[processes.submit(job.config.name, job, results)] = job
-            else:
-                elsewhere[submit(job)] = job
-        pending = here | elsewhere
-        # The cluster forgets its tasks when this process ends.
+    meter, reported, failures = Meter(jobs, results, num_processes), time.monotonic(), []
+    with stopping.Interruption(pool.stop) as interruption:
+        pending = {pool.submit(job, results): job for job in todo}
         while pending:
-            done, _ = futures.wait(pending, timeout=_POLL_SECONDS, return_when=futures.FIRST_COMPLETED)
-            if interruption.happened and not done and pending.keys() <= elsewhere.keys():
-                break
-            for future in done:
+            finished, _ = futures.wait(pending, timeout=_POLL_SECONDS, return_when=futures.FIRST_COMPLETED)
+            if interruption.happened:
+                pool.stop()  # Also jobs that have just begun.
+            for future in finished:
                 job = pending.pop(future)
-                if interruption.happened and future in here:
-                    continue
-                obstacle = future.exception() or _keep(future.result() or {}, results)
-                if obstacle is not None:
+                if failure := _take(future, job, results):
                     if not interruption.happened:
-                        failures.append(f"{job.config.name}: {obstacle}")
+                        failures.append(f"{job.config.name}: {failure}")
                         tell(f"FAILED {failures[-1]}")
                     continue
                 problem = verdict.of_run(results.run(job.config))
                 tell(f"done: {job.config.name}" + (f", but {problem}" if problem else ""))
-            if pending and not interruption.happened and (done or time.monotonic() - reported > _REPORT_SECONDS):
+            if pending and not interruption.happened and (finished or time.monotonic() - reported > _REPORT_SECONDS):
                 tell(meter.line(len(pending)))
                 reported = time.monotonic()
     if interruption.happened:
@@ -132,82 +126,112 @@ def run(
         raise RuntimeError(f"{len(failures)} of {len(todo)} agents could not be trained: {'; '.join(failures)}")
 
 
-def _keep(made: Mapping[str, bytes], results: base.Results) -> OSError | None:
-    """Writes the files of an agent that was trained elsewhere; returns what was in the way.
+def _done(jobs: Sequence[Job], results: base.Results) -> list[Job]:
+    """Returns the jobs whose rows are stored, after storing those of runs that have ended without it."""
+    rows = results.load("runs", ["run", "config"])
+    stored, played = dict(zip(rows.run, rows.config, strict=True)), results.played()
+    done = []
+    for job in jobs:
+        run, missing = results.run(job.config), _missing(job, played)
+        if (run.path / "config.json").exists():
+            is_same = run.config == job.config
+        else:
+            is_same = json.loads(stored.get(job.config.name, "null")) in (None, _as_json(job.config))
+        if not is_same:
+            raise ValueError(
+                f"{job.config.name} in {results.path} has another configuration; move its run away or choose another "
+                "--results-dir"
+            )
+        if job.config.name in stored and missing and not run.agent_path.exists():
+            raise ValueError(
+                f"{job.config.name} is stored in {results.path} without its weights, so it cannot play "
+                f"{', '.join(missing)}; choose another --results-dir"
+            )
+        if missing and run.agent_path.exists() and all(_trial_path(run, name).exists() for name in missing):
+            _store(job, results)
+            missing = {}
+        if not missing and (job.trials or job.config.name in stored):
+            done.append(job)
+    return done
 
-    They are written so that a part of them is a run that can go on: its configuration first, what it played last.
-    """
-    for name in sorted(made, key=lambda name: (name.startswith("episodes"), not name.endswith("config.json"), name)):
-        try:
-            (results.path / name).parent.mkdir(parents=True, exist_ok=True)
-            files.write_atomically(results.path / name, made[name])
-        except OSError as error:
-            return error
+
+def _missing(job: Job, played: set[tuple[str, str, int]]) -> dict[str, base.Trial]:
+    key, seed = records.condition_id(job.config), job.config.agent.seed
+    return {trial.name: trial for trial in job.trials if (key, trial.name, seed) not in played}
+
+
+def _as_json(config: config_lib.TrainConfig) -> dict:
+    return json.loads(json.dumps(config.to_json()))
+
+
+def _take(future: futures.Future[Mapping[str, bytes]], job: Job, results: base.Results) -> BaseException | None:
+    """Stores what a job has made; returns the error if it has failed."""
+    try:
+        # A part of these files is a run that can go on: its configuration first, and the episodes last.
+        for name, content in sorted(future.result().items(), key=lambda made: (made[0].endswith(".parquet"), made[0])):
+            path = results.path / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            files.write_atomically(path, content)
+        _store(job, results)
+    except BaseException as error:
+        return error
     return None
 
 
-def _check(job: Job, results: base.Results) -> None:
-    """Refuses what another agent of the same name has left."""
-    run_of_job = results.run(job.config)
-    if (run_of_job.path / "config.json").exists():
-        if run_of_job.config != job.config:
-            raise ValueError(
-                f"{run_of_job.path} was made with another configuration; move it away or choose another --results-dir"
-            )
-    elif played := results.all_episodes(job.config):
-        raise ValueError(
-            f"{', '.join(map(str, played))}: the run that played this is gone; move it away or choose "
-            "another --results-dir"
-        )
+def _store(job: Job, results: base.Results) -> None:
+    """Adds the rows of a finished run to the tables, and removes the files in which its trials have waited for that."""
+    run, config = results.run(job.config), job.config
+    tables = results.path / results_lib.TABLES
+    tables.mkdir(parents=True, exist_ok=True)
+    with filelock.FileLock(tables / ".lock"):  # Other sweeps may store rows, too.
+        if not len(results.load("runs", ["run"], [("run", "==", config.name)])):
+            results_lib.append(results.path, "curves", records.of_curve(run))
+            results_lib.append(results.path, "runs", records.of_run(run))
+        for name, trial in _missing(job, results.played()).items():
+            rows = parquet.read_table(_trial_path(run, name))
+            results_lib.append(results.path, "episodes", rows)
+            evaluation = records.of_evaluation(rows, config, trial.name, trial.task_kwargs)
+            results_lib.append(results.path, "evaluations", evaluation)
+    for trial in job.trials:
+        _trial_path(run, trial.name).unlink(missing_ok=True)
 
 
-def _is_done(job: Job, results: base.Results) -> bool:
-    if not job.trials:
-        return results.run(job.config).is_finished
-    return all(results.episodes_path(trial, job.config).exists() for trial in job.trials)
+def _trial_path(run: run_lib.Run, trial: str) -> Path:
+    return run.path / f"{trial}.parquet"
 
 
-def _work(tell: callbacks.Tell, job: Job, results: base.Results) -> None:
-    """Trains an agent, if that is not done, and plays what it has not played."""
+def work(job: Job, results: base.Results) -> dict[str, bytes]:
+    """Trains an agent, if that is not done, and plays the trials that are not stored; returns no files."""
     run = results.run(job.config)
     with run.locked():
         if not run.agent_path.exists():
-            is_new = not run.checkpointer.paths()
             trainer.train(
                 run,
-                tell=lambda line: tell(f"{job.config.name}: {line}"),
-                start=job.config if is_new else None,
-                on_checkpoint=_replays(run, job.config),
+                tell=lambda line: _warn(f"{job.config.name}: {line}"),
+                start=None if run.checkpointer.paths() else job.config,
             )
         run.keep_agent_only()
-    for trial in job.trials:
-        path = results.episodes_path(trial, job.config)
-        if not path.exists():
-            records.write(path, _play(run, trial))
+        for name, trial in _missing(job, results.played()).items():
+            path = _trial_path(run, name)
+            if not path.exists():
+                files.write_atomically(path, _play(run, trial))
+    return {}
+
+
+def _warn(line: str) -> None:
+    sys.stderr.write(f"{line}\n")
 
 
 def work_elsewhere(job: Job) -> dict[str, bytes]:
-    """Trains an agent on a machine that does not see the results; returns the files that belong there, by path."""
+    """Does a job on a machine that does not see the results; returns its files by their paths in the results."""
     with tempfile.TemporaryDirectory() as folder:
-        _work(print, job, base.Results(Path(folder)))
-        return {
-            str(path.relative_to(folder)): path.read_bytes()
-            for path in sorted(Path(folder).rglob("*"))
-            if path.is_file()
-        }
+        work(job, base.Results(Path(folder)))
+        paths = [path for path in sorted(Path(folder).rglob("*")) if path.is_file()]
+        return {str(path.relative_to(folder)): path.read_bytes() for path in paths}
 
 
-def _replays(run: run_lib.Run, config: config_lib.TrainConfig) -> recorder.OnCheckpoint | None:
-    """Returns what writes replays while a run trains, if it is to have any."""
-    if not config.replay_every:
-        return None
-    from physexp.analysis.replay import training  # Takes seconds, and most runs do without.
-
-    return training.Writer(run, config)
-
-
-def _play(run: run_lib.Run, trial: base.Trial) -> pyarrow.Table:
-    """Returns the rows of what a run's agent plays."""
+def _play(run: run_lib.Run, trial: base.Trial) -> bytes:
+    """Plays a trial with a run's agent; returns the Parquet file of its episodes."""
     config = run.config
     played_as = dataclasses.replace(config, task_kwargs={**config.task_kwargs, **trial.task_kwargs})
     played = playing.play(
@@ -220,28 +244,31 @@ def _play(run: run_lib.Run, trial: base.Trial) -> pyarrow.Table:
     )
     options = suite.options(config.domain)(**played_as.task_kwargs)
     timestep = options.draw_substeps(played.seed, played.episode) * options.physics_timestep
-    return records.table(played, played_as, trial.interaction, timestep)
+    return results_lib.packed(records.of_episodes(played, config, trial.name, timestep))
 
 
 class Meter:
-    """Tells how far a sweep is and how long it will take, from the speed of its own runs."""
+    """Estimates the rest of a sweep from the speed of its own runs."""
 
     def __init__(self, jobs: Sequence[Job], results: base.Results, num_processes: int):
         self._jobs, self._results, self._num_processes = jobs, results, num_processes
 
     def line(self, num_pending: int) -> str:
-        """Returns how many agents and frames there are to go, and for how long, as far as that is known."""
+        """Returns the number of agents and frames to go, and the time left once a speed is known."""
+        stored = self._results.load("runs", ["run", "frames", "seconds"]).set_index("run")
         done = total = left = 0.0
-        speeds: dict[tuple[str, ...], list[tuple[float, float]]] = {}
-        remaining: dict[tuple[str, ...], float] = {}
+        speeds, remaining = defaultdict(list), defaultdict(float)
         for job in self._jobs:
-            kind: tuple[str, ...] = (job.config.domain, job.config.task, job.config.agent.algorithm)
-            rows = self._results.run(job.config).metrics()
-            frames = min(rows[-1]["frames"], job.config.agent.frames) if rows else 0
+            kind, budget = (job.config.task_name, job.config.agent.algorithm), job.config.agent.frames
+            if job.config.name in stored.index:
+                frames, seconds = stored.loc[job.config.name, ["frames", "seconds"]]
+            else:
+                rows = self._results.run(job.config).metrics()
+                frames, seconds = (rows[-1]["frames"], rows[-1]["seconds"]) if rows else (0, 0)
             if frames:
-                speeds.setdefault(kind, []).append((rows[-1]["seconds"], rows[-1]["frames"]))
-            remaining[kind] = remaining.get(kind, 0) + job.config.agent.frames - frames
-            done, total = done + frames, total + job.config.agent.frames
+                speeds[kind].append((seconds, frames))
+            remaining[kind] += budget - min(frames, budget)
+            done, total = done + min(frames, budget), total + budget
         agents = "1 agent" if num_pending == 1 else f"{num_pending} agents"
         line = f"{agents} to go, {done / 1e6:.2f} of {total / 1e6:.2f} million frames"
         if not speeds:

@@ -1,137 +1,237 @@
-"""Records of played episodes: tidy tables, one row an episode, in Parquet files."""
+"""The rows of the stored tables: of runs, of their learning curves, of what they have played, and of its episodes."""
 
 from collections.abc import Mapping, Sequence
-import functools
-from pathlib import Path
+import itertools
+import json
+from typing import Any
 
 import numpy as np
 import pyarrow
+from pyarrow import compute
 
 from physexp import suite
 from physexp.analysis import domains
-from physexp.analysis.data import episodes, provenance, tables
+from physexp.analysis.data import episodes, provenance
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import metrics
+from physexp.analysis.training import run as run_lib
 
-SCHEMA = pyarrow.schema(
+_RUN = [("condition", pyarrow.string()), ("training_seed", pyarrow.int32())]
+_TRIAL = [("condition", pyarrow.string()), ("trial", pyarrow.string()), ("training_seed", pyarrow.int32())]
+_COUNTS = ("frames", "updates", "episodes")
+METRICS = tuple(
+    dict.fromkeys(
+        [*metrics.METRICS, *itertools.chain.from_iterable(agent.metrics for agent in config_lib.ALGORITHMS.values())]
+    )
+)
+"""The metrics of all learners, by name."""
+
+RUNS = pyarrow.schema(
     [
+        ("run", pyarrow.string()),
+        *_RUN,
         ("domain", pyarrow.string()),
         ("task", pyarrow.string()),
-        ("difficulty", pyarrow.float32()),  # Null where none was chosen.
-        ("discount", pyarrow.float32()),  # That the agent was trained with.
-        ("training_seed", pyarrow.int64()),
-        ("interaction", pyarrow.string()),  # Learned or random.
-        ("control_timestep", pyarrow.float32()),  # s
-        ("seed", pyarrow.int64()),  # Of the environment: with `episode`, it rebuilds the episode.
-        ("episode", pyarrow.int64()),
-        ("actions", pyarrow.list_(pyarrow.int32())),
-        ("answer", pyarrow.int32()),  # The right label.
-        ("label", pyarrow.int32()),  # The label given, -1 when time ran out.
-        ("reward", pyarrow.float32()),
-        ("length", pyarrow.int32()),  # Actions, the label among them.
+        ("learner", pyarrow.string()),
+        ("frames", pyarrow.int64()),
+        ("seconds", pyarrow.float32()),
+        ("config", pyarrow.string()),  # JSON of `TrainConfig`.
+        ("versions", pyarrow.string()),  # JSON.
+        ("commit", pyarrow.string()),
+        ("renderer", pyarrow.string()),
     ]
 )
-"""The columns of every file. What was hidden is drawn again when it is asked for."""
+"""A row a run."""
 
-RECKONED = pyarrow.schema(
+CURVES = pyarrow.schema(_RUN + [(name, pyarrow.int64() if name in _COUNTS else pyarrow.float32()) for name in METRICS])
+"""The rows of `metrics.csv`, whose six digits single precision holds; null where the learner has no such metric."""
+
+EVALUATIONS = pyarrow.schema(
     [
-        ("interactions", pyarrow.int32()),
-        ("time", pyarrow.float32()),  # Of interaction before the label, s.
+        *_TRIAL,
+        ("episodes", pyarrow.int64()),
+        ("success_rate", pyarrow.float64()),
+        ("mean_return", pyarrow.float64()),  # Discounted.
+        ("mean_interactions", pyarrow.float64()),
+        ("timeouts", pyarrow.int64()),
+        ("commit", pyarrow.string()),
     ]
 )
-"""The columns that follow from these whenever a file is read."""
+"""A row for each trial that a run has played."""
 
-_RECKONED_FROM = ("label", "length", "control_timestep")
-_DRAWN_BY = ("domain", "task", "difficulty", "seed", "episode", "answer")  # Columns that tell what was hidden.
+EPISODES = pyarrow.schema(
+    [
+        *_TRIAL,
+        ("seed", pyarrow.int64()),  # Of the environment: with `episode`, it rebuilds the episode.
+        ("episode", pyarrow.int32()),
+        ("control_timestep", pyarrow.float32()),  # s
+        ("answer", pyarrow.uint16()),  # The right label.
+        ("actions", pyarrow.list_(pyarrow.uint16())),
+    ]
+)
+"""A row an episode. `completed` adds the columns that follow from these."""
+
+STORED = tuple(name for name in EPISODES.names if name not in ("condition", "trial"))
+"""The columns that `completed` needs."""
 
 
-def table(
-    played: episodes.Episodes, config: config_lib.TrainConfig, interaction: str, control_timestep: float | np.ndarray
+def condition_id(config: config_lib.TrainConfig) -> str:
+    """Returns the id of a condition: the name of its runs without the seed."""
+    return config.name.removesuffix(f"-seed{config.agent.seed}")
+
+
+def of_run(run: run_lib.Run) -> pyarrow.Table:
+    """Returns the row of `RUNS` of a finished run."""
+    facts, config, last = run.facts, run.config, run.metrics()[-1]
+    row = {
+        "run": config.name,
+        **_named(config),
+        "domain": config.domain,
+        "task": config.task,
+        "learner": config.agent.title,
+        "frames": int(last["frames"]),
+        "seconds": last["seconds"],
+        "config": json.dumps(config.to_json(), sort_keys=True),
+        "versions": json.dumps(facts["versions"], sort_keys=True),
+        "commit": facts["commit"],
+        "renderer": facts["renderer"],
+    }
+    return pyarrow.Table.from_pylist([row], RUNS)
+
+
+def of_curve(run: run_lib.Run) -> pyarrow.Table:
+    """Returns the rows of `CURVES` of a run."""
+    named = _named(run.config)
+    rows = [{**named, **row, **{name: int(row[name]) for name in _COUNTS}} for row in run.metrics()]
+    return pyarrow.Table.from_pylist(rows, CURVES)
+
+
+def of_evaluation(
+    rows: pyarrow.Table, config: config_lib.TrainConfig, trial: str, task_kwargs: Mapping[str, Any]
 ) -> pyarrow.Table:
-    """Returns the rows of some episodes, as `SCHEMA` has them.
+    """Returns the row of `EVALUATIONS` of the episodes, rows of `EPISODES`, that a run has played in a trial.
+
+    Args:
+      rows: the episodes.
+      config: of the run.
+      trial: the name of the trial.
+      task_kwargs: options of the task that differ from those of training.
+    """
+    frame = completed(rows, config, ["reward", "length", "interactions", "label"], task_kwargs=task_kwargs)
+    row = {
+        **_named(config),
+        "trial": trial,
+        "episodes": len(frame),
+        "success_rate": float((frame.reward > 0).mean()),
+        "mean_return": float((frame.reward * config.agent.discount ** (frame.length - 1)).mean()),
+        "mean_interactions": float(frame.interactions.mean()),
+        "timeouts": int((frame.label < 0).sum()),
+        "commit": provenance.commit(),
+    }
+    return pyarrow.Table.from_pylist([row], EVALUATIONS)
+
+
+def of_episodes(
+    played: episodes.Episodes, config: config_lib.TrainConfig, trial: str, control_timestep: np.ndarray
+) -> pyarrow.Table:
+    """Returns the rows of `EPISODES` of some episodes.
 
     Args:
       played: the episodes.
       config: of the agent that played them.
-      interaction: `learned` or `random`.
-      control_timestep: time between actions, s; one for all, or of each, float64 [number of episodes].
+      trial: the name of the trial.
+      control_timestep: time between the actions of each episode, s, float64 [number of episodes].
     """
-    return played.table(
-        SCHEMA,
-        domain=config.domain,
-        task=config.task,
-        difficulty=config.task_kwargs.get("difficulty"),
-        discount=config.agent.discount,
-        training_seed=config.agent.seed,
-        interaction=interaction,
-        control_timestep=control_timestep,
-    )
+    return played.table(EPISODES, **_named(config), trial=trial, control_timestep=control_timestep)
 
 
-def write(path: Path, rows: pyarrow.Table) -> None:
-    """Writes rows and the commit that made them: the whole file, or nothing.
-
-    Raises:
-      OSError: if it cannot be written.
-    """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    stamped = rows.replace_schema_metadata({"commit": provenance.commit()})
-    tables.write(path, stamped, compression="zstd", compression_level=9)
+def _named(config: config_lib.TrainConfig) -> dict[str, Any]:
+    return {"condition": condition_id(config), "training_seed": config.agent.seed}
 
 
-def read(paths: list[Path], columns: Sequence[str] = (*SCHEMA.names, *RECKONED.names)):
-    """Returns the rows of some files as a pandas DataFrame; `commit` is what made them.
+def curves(rows: pyarrow.Table) -> Any:
+    """Returns rows of `CURVES` as a DataFrame of the very numbers, of six digits, that were recorded."""
+    frame = rows.to_pandas()
+    for name in METRICS:
+        values = frame[name].to_numpy(np.float64)
+        frame[name] = values if name in _COUNTS else _six_digits(values)
+    return frame
+
+
+def _six_digits(values: np.ndarray) -> np.ndarray:
+    """Returns the decimal numbers of six digits that are nearest to numbers in single precision."""
+    with np.errstate(divide="ignore"):
+        digits = 5 - np.floor(np.log10(np.abs(values)))
+    digits[~np.isfinite(digits)] = 0
+    scale = 10.0 ** np.abs(digits)
+    return np.where(digits >= 0, np.rint(values * scale) / scale, np.rint(values / scale) * scale)
+
+
+def completed(
+    rows: pyarrow.Table,
+    config: config_lib.TrainConfig,
+    columns: Sequence[str],
+    interaction: str = "learned",
+    task_kwargs: Mapping[str, Any] | None = None,
+) -> Any:
+    """Returns episodes of one condition as a pandas DataFrame, with columns that follow from the stored ones.
 
     Args:
-      paths: files that `write` has written, each with the episodes of one agent.
-      columns: which columns: of `SCHEMA` and `RECKONED`, and of what was hidden, as `hidden_columns` of the domain has
-        them.
+      rows: of `EPISODES`.
+      config: of the condition.
+      columns: which columns: those of `EPISODES`; `domain`, `task`, `difficulty`, `discount` and `interaction` of the
+        condition; `label` (-1 after a timeout), `reward`, `length`, `interactions` and `time` (s); and the hidden
+        properties, by the names that the domain gives them.
+      interaction: `learned` or `random`.
+      task_kwargs: options of the task that differ from those of training.
 
     Raises:
-      OSError: if a file cannot be opened.
-      ValueError: if a file is damaged, or other properties are hidden today than when it was played; it names the file.
+      ValueError: if the hidden properties that are drawn again belong to other answers than the stored ones.
     """
     import pandas
 
-    needed = [name for name in columns if name in SCHEMA.names]
-    reckoned = [name for name in columns if name in RECKONED.names]
-    hidden = [name for name in columns if name not in (*SCHEMA.names, *RECKONED.names)]
-    needed += [*(_RECKONED_FROM if reckoned else ()), *(_DRAWN_BY if hidden else ())]
-    frames = []
-    for path in paths:
-        rows = tables.read(path, SCHEMA, [*dict.fromkeys(needed)])
-        commit = (rows.schema.metadata or {}).get(b"commit", b"unknown").decode("ascii", "replace")
-        frame = rows.to_pandas()
-        if reckoned:
-            interactions = frame.length - (frame.label >= 0)
-            seconds = interactions * frame.control_timestep.map(_chosen)
-            frame = frame.assign(interactions=interactions, time=seconds.astype(np.float32))
-        if hidden:
-            frame = frame.assign(**_draw_again(frame, path))
-        frames.append(frame[[*columns]].assign(commit=commit))
-    return pandas.concat(frames, ignore_index=True)
+    task = suite.load_task(config.domain, config.task, {**config.task_kwargs, **(task_kwargs or {})})
+    actions = rows["actions"].combine_chunks().cast(pyarrow.list_(pyarrow.int32()))
+    length = compute.list_value_length(actions).to_numpy()
+    last = actions.flatten().to_numpy()[np.cumsum(length) - 1]
+    label = np.where(last >= task.num_interactions, last - task.num_interactions, -1)
+    answer = rows["answer"].to_numpy().astype(np.int32)
+    interactions = length - (label >= 0)
+    seconds = rows["control_timestep"].to_pandas().map(_shortest)
+    known = {
+        "domain": config.domain,
+        "task": config.task,
+        "difficulty": np.float32(config.task_kwargs.get("difficulty", np.nan)),
+        "discount": np.float32(config.agent.discount),
+        "interaction": interaction,
+        "answer": answer,
+        "label": label,
+        "reward": np.where(label == answer, 1, -1).astype(np.float32),
+        "length": length,
+        "interactions": interactions,
+        "time": (interactions * seconds).astype(np.float32),
+    }
+    if hidden_names := [name for name in columns if name not in known and name not in rows.column_names]:
+        hidden = task.draw(rows["seed"].to_numpy(), rows["episode"].to_numpy())
+        if (task.answers(hidden) != answer).any():
+            raise ValueError(
+                f"episodes of {condition_id(config)} are drawn otherwise today; let its agents play again in another "
+                "--results-dir"
+            )
+        drawn = domains.find(config.domain).hidden_columns(hidden)
+        known |= {name: list(drawn[name]) for name in hidden_names}
+    stored = rows.select([name for name in columns if name not in known and name != "actions"]).to_pandas()
+    if "actions" in columns:
+        known["actions"] = actions.to_pandas()
+    values = {name: known[name] if name in known else stored[name] for name in columns}
+    return pandas.DataFrame(values, index=range(len(rows)))
 
 
-def _draw_again(frame, path: Path) -> Mapping[str, Sequence]:
-    """Returns the columns of what was hidden in the episodes of a file; what has several values each is a list."""
-    [(domain, task, difficulty)] = frame[["domain", "task", "difficulty"]].drop_duplicates().to_numpy()
-    played = _load_task(domain, task, None if np.isnan(difficulty) else _chosen(difficulty))
-    hidden = played.draw(frame.seed.to_numpy(), frame.episode.to_numpy())
-    if (played.answers(hidden) != frame.answer).any():
-        raise ValueError(f"{path} has episodes that are drawn otherwise today; remove it, and its agent plays again")
-    return {name: list(values) for name, values in domains.find(domain).hidden_columns(hidden).items()}
-
-
-@functools.cache
-def _chosen(value: float) -> float:
-    """Returns what was chosen, of all that single precision does not tell apart: what has the fewest digits."""
+def _shortest(value: float) -> float:
+    """Returns the number of the fewest digits among those that equal this one in single precision."""
     return float(str(np.float32(value)))
 
 
-@functools.cache
-def _load_task(domain: str, task: str, difficulty: float | None):
-    return suite.load_task(domain, task, {} if difficulty is None else {"difficulty": difficulty})
-
-
-def discounted_return(frame) -> np.ndarray:
-    """Returns discounted returns of the episodes in a frame, as `Episodes.returns` does, in single precision."""
+def discounted_return(frame: Any) -> np.ndarray:
+    """Returns discounted returns of the episodes in a frame, in single precision."""
     return (frame.reward * frame.discount ** (frame.length - 1).astype(np.float32)).to_numpy()

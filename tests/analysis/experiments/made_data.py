@@ -32,7 +32,6 @@ from physexp.analysis.experiments import (
 )
 from physexp.analysis.experiments import patience as patience_lib
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.training import records
 
 NUM_AGENTS = 6
 _EPISODES = 300  # Of each agent.
@@ -71,9 +70,11 @@ def table(agents: list[dict[str, np.ndarray]]) -> pandas.DataFrame:
     """The episodes of all agents, with the types they have when read from files."""
     columns = {name: np.concatenate([agent[name] for agent in agents]) for name in agents[0]}
     conditions_of_rows = columns.pop("condition")
-    types = {field.name: field.type for field in (*records.SCHEMA, *records.RECKONED)}
+    single = dict.fromkeys(("difficulty", "discount", "control_timestep", "reward", "time"), pyarrow.float32())
+    whole = dict.fromkeys(("answer", "label", "length", "interactions"), pyarrow.int32())
+    types = {**single, **whole, "training_seed": pyarrow.int32(), "actions": pyarrow.list_(pyarrow.int32())}
     rows = pyarrow.table({name: pyarrow.array(values, types.get(name)) for name, values in columns.items()})
-    return rows.to_pandas().assign(commit="made", condition=conditions_of_rows)
+    return rows.to_pandas().assign(condition=conditions_of_rows)
 
 
 def answers(success: float, count: int) -> dict[str, np.ndarray]:
