@@ -74,11 +74,14 @@ def check(tensors: Mapping[str, torch.Tensor], like: Mapping[str, torch.Tensor])
     if differing := sorted(set(tensors) ^ set(like)):
         raise ValueError(f"does not fit the configuration: only one of them has {_listed(differing)}")
     for name, own in like.items():
-        found, wanted = ((value.is_floating_point(), list(value.shape)) for value in (tensors[name], own))
-        if found != wanted:
-            raise ValueError(f"does not fit the configuration: {name} has shape {found[1]} instead of {wanted[1]}")
+        if _kind(tensors[name]) != _kind(own):
+            raise ValueError(f"does not fit the configuration: {name} is {_kind(tensors[name])}, not {_kind(own)}")
     if wrong := not_finite(tensors):
         raise ValueError(f"holds numbers that are not finite in {wrong}")
+
+
+def _kind(value: torch.Tensor) -> str:
+    return f"{'floating' if value.is_floating_point() else 'integer'} {list(value.shape)}"
 
 
 def digest(tensors: Mapping[str, torch.Tensor], text: str = "") -> str:

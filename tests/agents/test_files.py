@@ -1,146 +1,168 @@
-"""Files are replaced whole, never through links, and what is no plain file is refused at once."""
+"""Files are replaced as a whole, and files of tensors come back to the bit or are refused."""
 
-import os
-import socket
+import json
+import math
+import random
+import struct
 import subprocess
 import sys
 import textwrap
 import threading
 
+import bits
 import pytest
+from seeds import fresh_seed
+import torch
 
-from physexp.agents import files
+from physexp.agents import core, files, tensors
+
+TENSORS = {"frames": torch.tensor(7), "turned": torch.arange(6.0).reshape(2, 3).T, "image": torch.ones(2).byte()}
+FACTS = {"task": "towers/fist_features", "seconds": 12.5}
 
 
 def names(folder):
     return sorted(path.name for path in folder.iterdir())
 
 
-def test_a_link_is_replaced_and_what_it_points_to_stays(tmp_path):
-    target, link = tmp_path / "target", tmp_path / "link"
-    target.write_bytes(b"precious")
-    link.symlink_to(target)
-    files.write_atomically(link, b"new")
-    assert target.read_bytes() == b"precious"
-    assert link.read_bytes() == b"new" and not link.is_symlink()
+def python(script, *arguments):
+    return subprocess.Popen(
+        [sys.executable, "-c", textwrap.dedent(script), *map(str, arguments)], stdout=subprocess.PIPE, text=True
+    )
 
 
-def test_threads_that_write_the_same_file_each_write_all_of_it(tmp_path):
+# Writing.
+
+WRITE_TOO_MUCH = """
+    import pathlib, resource, sys
+    from physexp.agents import files
+
+    path = pathlib.Path(sys.argv[1])
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))  # The kernel refuses all bytes beyond.
+    try:
+        files.write_atomically(path, b"new" * 1000)
+    except OSError as error:
+        print(type(error).__name__, error.filename)
+    files.write_atomically(path.with_name("small"), b"fits")
+"""
+
+
+def test_a_failed_write_leaves_the_old_file_and_nothing_else(tmp_path):
+    path = tmp_path / "file"
+    path.write_bytes(b"old")
+    assert python(WRITE_TOO_MUCH, path).communicate()[0] == f"OSError {path}\n"
+    assert path.read_bytes() == b"old" and (tmp_path / "small").read_bytes() == b"fits"
+    assert names(tmp_path) == ["file", "small"]
+
+
+WRITE_FOR_EVER = """
+    import itertools, pathlib, sys
+    from physexp.agents import files
+
+    for number in itertools.count():
+        files.write_atomically(pathlib.Path(sys.argv[1]), bytes([number % 256]) * 1_000_000)
+"""
+
+
+def test_a_killed_writer_leaves_a_whole_file(tmp_path):
+    path = tmp_path / "file"
+    path.write_bytes(b"\0" * 1_000_000)
+    writer = python(WRITE_FOR_EVER, path)
+    while path.read_bytes()[:1] == b"\0":  # Until it is writing.
+        assert writer.poll() is None
+    writer.kill()
+    writer.communicate()
+    content = path.read_bytes()
+    assert len(content) == 1_000_000 and set(content) == {content[0]}
+    files.remove_litter(tmp_path)
+    assert names(tmp_path) == ["file"]
+
+
+def test_threads_that_write_one_file_each_write_all_of_it(tmp_path):
     contents = [bytes([number]) * 300_000 for number in range(4)]
-    errors = []
-
-    def write(content):
-        try:
-            for _ in range(10):
-                files.write_atomically(tmp_path / "file", content)
-        except OSError as error:
-            errors.append(error)
-
-    threads = [threading.Thread(target=write, args=(content,)) for content in contents]
+    threads = [threading.Thread(target=files.write_atomically, args=(tmp_path / "f", each)) for each in contents]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert not errors
-    assert (tmp_path / "file").read_bytes() in contents
-    assert names(tmp_path) == ["file"]
+    assert (tmp_path / "f").read_bytes() in contents and names(tmp_path) == ["f"]
 
 
-def test_a_folder_where_the_file_goes_is_named_and_nothing_stays(tmp_path):
+def test_a_folder_in_the_place_of_the_file_is_named(tmp_path):
     (tmp_path / "file").mkdir()
     with pytest.raises(OSError, match="file'$"):
         files.write_atomically(tmp_path / "file", b"new")
     assert names(tmp_path) == ["file"]
 
 
-STOPPED_WRITER = """
-    import os, pathlib, signal, sys
-    from physexp.agents import files
-
-    os.replace = lambda *_, **__: (print("written", flush=True), signal.pause())
-    files.write_atomically(pathlib.Path(sys.argv[1]), b"half way")
-"""
+# Tensors with facts.
 
 
-def test_a_file_may_have_the_longest_name_that_there_is(tmp_path):
-    name = "\N{GREEK SMALL LETTER MU}" * 127  # 254 bytes of the 255 that file systems allow.
-    files.write_atomically(tmp_path / name, b"1")
-    assert names(tmp_path) == [name]
+def test_tensors_and_facts_come_back_bit_for_bit(tmp_path):
+    tensors.write(tmp_path / "file", TENSORS, FACTS)
+    found, facts = tensors.read(tmp_path / "file")
+    assert facts == tensors.read_facts(tmp_path / "file") == FACTS
+    assert set(found) == set(TENSORS)
+    for name, value in TENSORS.items():
+        assert torch.equal(found[name], value) and found[name].dtype == value.dtype
 
 
-def test_what_a_killed_writer_leaves_is_removed_by_the_next_and_that_of_a_living_one_is_not(tmp_path):
-    script = textwrap.dedent(STOPPED_WRITER)
-    with subprocess.Popen([sys.executable, "-c", script, tmp_path / "one"], stdout=subprocess.PIPE) as writer:
-        try:
-            assert writer.stdout.readline() == b"written\n"
-            (litter,) = names(tmp_path)
-            (tmp_path / ".mine.tmp").touch()  # Of another program.
-            files.write_atomically(tmp_path / "two", b"")
-            assert names(tmp_path) == sorted([litter, ".mine.tmp", "two"])
-        finally:
-            writer.kill()
-    files.write_atomically(tmp_path / "two", b"")
-    assert names(tmp_path) == [".mine.tmp", "two"]
+def test_a_file_of_tensors_is_plain_data(tmp_path):
+    tensors.write(tmp_path / "file", TENSORS, FACTS)
+    content = (tmp_path / "file").read_bytes()
+    # A safetensors file: the header's length (8 bytes, little endian), the header as JSON, then the raw numbers: one
+    # int64, six float32 and two bytes.
+    (length,) = struct.unpack("<Q", content[:8])
+    assert set(json.loads(content[8 : 8 + length])) == {"__metadata__", *TENSORS}
+    assert len(content) == 8 + length + 8 + 24 + 2
 
 
-def _link(path):
-    (path.parent / "target").write_bytes(b"precious")
-    path.symlink_to(path.parent / "target")
-
-
-def _socket(path):
-    with socket.socket(socket.AF_UNIX) as listener:
-        listener.bind(str(path))
-
-
-KINDS = {
-    "a symbolic link": _link,
-    "a pipe": os.mkfifo,
-    "a folder": lambda path: path.mkdir(),
-    "a socket": _socket,
-}
-
-
-@pytest.mark.parametrize("mode", ["rb", "r", "ab", "w", "r+b"])
-@pytest.mark.parametrize("kind", KINDS)
-def test_what_is_no_plain_file_is_refused_in_one_line_without_waiting(kind, mode, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)  # A socket's path is short.
+def test_every_bit_of_a_file_of_tensors_counts(tmp_path):
     path = tmp_path / "file"
-    KINDS[kind](path.relative_to(tmp_path) if kind == "a socket" else path)
-    with pytest.raises(ValueError, match=f"file is {kind}; put a regular file in its place$"):
-        files.open_plain(path, mode)
-    if kind == "a symbolic link":
-        assert (tmp_path / "target").read_bytes() == b"precious"
+    tensors.write(path, TENSORS, FACTS)
+    content = path.read_bytes()
+    for bit in random.Random(fresh_seed()).sample(range(8 * len(content)), 1000):
+        path.write_bytes(bits.flipped(content, bit))
+        try:
+            found, facts = tensors.read(path)
+        except core.DamagedError as error:
+            assert str(path) in str(error) and "\n" not in str(error)
+        else:  # A changed name of the facts leaves none.
+            assert facts in (FACTS, {}) and all(torch.equal(found[name], TENSORS[name]) for name in TENSORS)
 
 
-def test_devices_are_refused():
-    with pytest.raises(ValueError, match="/dev/zero is a device; put a regular file in its place$"):
-        files.read_plain("/dev/zero", 10)
+@pytest.mark.parametrize("content", [b"", b"{", bytes(range(256)) * 20, struct.pack("<Q", 2**63) + b"{}"])
+def test_other_content_is_refused_in_one_line(content, tmp_path):
+    (tmp_path / "file").write_bytes(content)
+    for read in (tensors.read, tensors.read_facts):
+        with pytest.raises(core.DamagedError, match=f"^{tmp_path / 'file'} is damaged: .*; put back what was written$"):
+            read(tmp_path / "file")
 
 
-def test_plain_files_are_opened_as_ever(tmp_path):
-    with files.open_plain(tmp_path / "file", "w") as file:
-        file.write("one\n")
-    with files.open_plain(tmp_path / "file", "a") as file:
-        file.write("two\n")
-    with files.open_plain(tmp_path / "file", "r") as file:
-        assert file.readlines() == ["one\n", "two\n"]
-    assert files.read_plain(tmp_path / "file", 8) == b"one\ntwo\n"
-    with pytest.raises(FileNotFoundError, match="nothing"):
-        files.open_plain(tmp_path / "nothing")
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("turned", torch.full((3, 2), math.nan), "not finite in turned"),
+        ("turned", torch.zeros(2, 3), r"turned is floating \[2, 3\], not floating \[3, 2\]"),
+        ("turned", torch.zeros(3, 2).long(), r"turned is integer \[3, 2\], not floating"),
+        ("more\nlines", torch.zeros(1), r"only one of them has 'more\\nlines'"),
+    ],
+)
+def test_tensors_that_do_not_fit_are_refused(name, value, message):
+    with pytest.raises(ValueError, match=message):
+        tensors.check({**TENSORS, name: value}, TENSORS)
+    with pytest.raises(ValueError, match="only one of them has image"):
+        tensors.check({key: TENSORS[key] for key in ("frames", "turned")}, TENSORS)
 
 
-def test_a_file_larger_than_any_of_its_kind_is_not_read(tmp_path):
-    with open(tmp_path / "file", "wb") as file:
-        file.truncate(2**40)  # It takes no space on the disk.
-    with pytest.raises(ValueError, match="file is larger than 1 MB"):
-        files.read_plain(tmp_path / "file", 1_000_000)
+@pytest.mark.parametrize("worst", [math.nan, math.inf, 65_520.0])  # Half precision ends at 65,504.
+def test_weights_beyond_half_precision_are_refused(worst):
+    assert tensors.halved(TENSORS)["turned"].dtype == torch.half
+    with pytest.raises(ValueError, match=r"not finite in half precision \(bias\)"):
+        tensors.halved({"bias": torch.tensor([0.0, worst])})
 
 
-def test_a_folder_that_is_a_link_is_refused(tmp_path):
-    (tmp_path / "elsewhere").mkdir()
-    (tmp_path / "folder").symlink_to(tmp_path / "elsewhere")
-    with pytest.raises(ValueError, match="folder is a symbolic link; put the folder itself in its place$"):
-        files.refuse_link(tmp_path / "folder")
-    files.refuse_link(tmp_path / "elsewhere")
-    files.refuse_link(tmp_path / "nothing")
+def test_json_that_is_none_is_refused_in_one_line(tmp_path):
+    for content in ("", "[" * 100_000, "{'a': 1}"):
+        (tmp_path / "file").write_text(content)
+        with pytest.raises(ValueError, match=f"^{tmp_path / 'file'} is no JSON: .*; put back what was written$"):
+            files.read_json(tmp_path / "file")
