@@ -12,7 +12,7 @@ with warnings.catch_warnings():  # dm_control shows all deprecations in its call
     from dm_control import composer as _  # noqa: F401
 
 from physexp import checks
-from physexp.suite.domains import DOMAINS as _DOMAINS
+from physexp.suite import domains as _domains
 from physexp.suite.engine import batch as _batch
 from physexp.suite.engine import environment as _environment
 from physexp.suite.engine.batch import BatchEnvironment
@@ -34,6 +34,9 @@ __all__ = [
     "tagged",
     "tags",
 ]
+
+_domains.register()
+_DOMAINS = _domains.DOMAINS
 
 TASKS_BY_DOMAIN = {name: tuple(domain.SUITE) for name, domain in _DOMAINS.items()}
 """A mapping from each domain name to the names of its tasks."""
