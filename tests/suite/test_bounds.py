@@ -2,12 +2,10 @@
 
 import dm_env
 from every_task import FEATURES, load_batch
-import gymnasium
 import numpy as np
 import pytest
 
 from physexp import suite
-from physexp.suite import gymnasium as adapter
 
 REGISTERED = {"/".join(names) for names in suite.ALL_TASKS}
 # With the task's own control steps, and with the shortest and the longest of the paper's tasks, s, in episodes of so
@@ -55,14 +53,3 @@ def test_the_bounds_of_heights_are_not_far_from_what_is_reached(seed):
     heights = [batch.step(np.full(16, 0)).observation["heights"] for _ in range(5)]
     (bounded,) = batch.observation_spec().values()
     assert np.max(heights) > 0.75 * bounded.maximum
-
-
-@pytest.mark.parametrize("domain_name, task_name", suite.tagged("features"))
-def test_gymnasium_has_the_bounds_of_the_specs(domain_name, task_name):
-    environment = gymnasium.make(adapter.environment_id(domain_name, task_name))
-    spec = suite.load(domain_name, task_name).observation_spec()
-    for name, box in environment.observation_space.items():
-        assert box.is_bounded() and box.dtype == np.float32
-        np.testing.assert_array_equal(box.low, np.broadcast_to(spec[name].minimum, box.shape).astype(np.float32))
-        np.testing.assert_array_equal(box.high, np.broadcast_to(spec[name].maximum, box.shape).astype(np.float32))
-    environment.close()

@@ -15,10 +15,11 @@ from physexp import suite
 from physexp.suite import gymnasium as adapter
 
 NAMES = [adapter.environment_id(*names) for names in suite.ALL_TASKS]
+FEATURES = [name for name in NAMES if "features" in name]
 PIXELS = "physexp/threshold-pixels-v0"
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [*FEATURES, PIXELS])
 def test_gymnasium_and_stable_baselines_accept_every_task(name):
     environment = gymnasium.make(name)
     with warnings.catch_warnings():
@@ -40,7 +41,7 @@ assert batch.reset(seed=0)[0]["positions"].shape == (5, 5, 3)
     subprocess.run([sys.executable, "-c", program], check=True)
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if "features" in name])
+@pytest.mark.parametrize("name", FEATURES)
 def test_an_episode_is_that_of_the_environment_behind_it(name, seed):
     domain, task = name.removeprefix("physexp/").removesuffix("-v0").split("-")
     environment = gymnasium.make(name)
@@ -78,20 +79,6 @@ def test_running_out_of_time_terminates_with_a_wrong_answer():
         if terminated or truncated:
             break
     assert (steps, reward, terminated, truncated) == (100, -1.0, True, False)
-
-
-def test_a_seed_makes_the_same_episodes_again_and_none_goes_on_with_others(seed):
-    environment = gymnasium.make(NAMES[0])
-
-    def hidden(**kwargs):
-        environment.reset(**kwargs)
-        return environment.unwrapped.dm_env.task.hidden
-
-    first, second = hidden(seed=seed), hidden()
-    assert not np.array_equal(first, second)
-    np.testing.assert_array_equal(hidden(seed=seed), first)
-    np.testing.assert_array_equal(hidden(), second)
-    assert not np.array_equal(hidden(seed=seed + 1), first)
 
 
 def test_the_seed_that_is_told_starts_the_same_episode_again():
@@ -184,19 +171,6 @@ def test_an_unknown_keyword_is_a_type_error_as_torchrl_expects(make):
         make(NAMES[0], frameskip=1)
 
 
-def test_modes_of_autoreset_are_given_by_name():
-    for mode in gymnasium.vector.AutoresetMode:
-        for given in (mode, mode.value, mode.name.lower()):
-            assert adapter.VectorEnvironment("threshold", "features", autoreset_mode=given).autoreset_mode is mode
-
-
-def test_an_image_for_people_is_larger_than_what_agents_see():
-    environment = gymnasium.make("physexp/towers-direct_features-v0", render_mode="rgb_array")
-    environment.reset(seed=0)
-    image = environment.render()
-    assert image.shape == (480, 480, 3) and len(np.unique(image.reshape(-1, 3), axis=0)) > 10
-
-
 @pytest.mark.parametrize("name", ["physexp/towers-fist_features-v0", "physexp/which_is_heavier-pixels-v0"])
 def test_a_vector_environment_draws_what_each_environment_behind_it_draws(name, seed):
     vector = gymnasium.make_vec(name, num_envs=3, vectorization_mode="vector_entry_point", render_mode="rgb_array")
@@ -223,14 +197,6 @@ def test_a_vector_environment_draws_what_each_environment_behind_it_draws(name, 
     vector.close()
     for single in singles:
         single.close()
-
-
-def test_images_of_many_environments_fit_into_a_square_of_1920_pixels():
-    vector = adapter.VectorEnvironment("which_is_heavier", "features", 65, render_mode="rgb_array")
-    vector.reset(seed=0)
-    images = vector.render()
-    assert len(images) == 65 and images[0].shape == (213, 213, 3)  # 9 by 9 of them: 1920 / 9 = 213.3.
-    vector.close()
 
 
 def test_a_grid_has_the_images_row_by_row_and_black_where_there_is_none():
@@ -267,19 +233,7 @@ def test_a_step_without_an_episode_says_that_a_reset_is_needed(size):
 
 
 @pytest.mark.parametrize("make", [adapter.Environment, adapter.VectorEnvironment])
-def test_a_closed_environment_says_so_and_is_closed_twice(make):
-    environment = make("which_is_heavier", "features", render_mode="rgb_array")
-    environment.reset(seed=0)
-    environment.close()
-    environment.close()
-    action = 0 if make is adapter.Environment else [0]
-    for use in (environment.reset, environment.render, lambda: environment.step(action)):
-        with pytest.raises(RuntimeError, match=r"^the (environment|batch) is closed; load another$"):
-            use()
-
-
-@pytest.mark.parametrize("make", [adapter.Environment, adapter.VectorEnvironment])
-@pytest.mark.parametrize("seed", [-1, 2**63, 1.5, "1", True, [1, 2], np.float64(1)])
+@pytest.mark.parametrize("seed", [2**63, True, [1, 2]])
 def test_a_seed_that_is_none_is_refused_and_changes_nothing(make, seed):
     environment = make("which_is_heavier", "features", random=5)
     with pytest.raises(ValueError, match=r"^seed is .*; give an integer >= 0 and < 2\*\*63$"):
@@ -302,10 +256,6 @@ def test_an_option_that_makes_no_sense_is_refused_and_changes_nothing(make, opti
     with pytest.raises(ValueError, match=message):
         environment.reset(seed=3, options=options)
     assert environment.reset()[1]["episode_index"] == 0 and environment.np_random_seed == 5
-
-
-def test_a_limit_of_gymnasium_s_own_that_no_episode_reaches_is_accepted():
-    assert gymnasium.make_vec(NAMES[0], num_envs=2, max_episode_steps=600).num_envs == 2
 
 
 def test_a_mask_that_makes_no_sense_is_refused():

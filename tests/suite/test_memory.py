@@ -36,18 +36,3 @@ def test_resets_of_one_environment_leave_memory_as_it_is(seed, domain_name, task
 def test_resets_of_a_batch_leave_memory_as_it_is(seed, domain_name, task_name):
     batch = suite.load_batch(domain_name, task_name, 4, {"random": seed})
     _assert_memory_is_flat(batch.reset, NUM_RESETS, num_warm_up=100 if batch.task.num_structures == 1 else 300)
-
-
-@pytest.mark.parametrize("domain_name, task_name", [("which_is_heavier", "features"), ("towers", "fist_features")])
-def test_environments_and_batches_that_are_dropped_give_their_memory_back(domain_name, task_name):
-    def build_and_drop():
-        env = suite.load(domain_name, task_name, {"random": 0})
-        env.reset()
-        env.step(0)
-        env.close()
-        batch = suite.load_batch(domain_name, task_name, 4, {"random": 0})
-        batch.reset()
-        batch.step([0, 0, 0, 0])
-
-    # Either one takes half a megabyte or more.
-    assert growth(build_and_drop, 6, num_warm_up=6) < 6 * 100_000

@@ -59,30 +59,10 @@ def test_readings_with_noise_have_no_bounds(domain, task):
         assert spec.shape == exact.observation_spec()[name].shape
 
 
-def test_an_answer_that_is_revealed_has_no_noise_and_keeps_its_bounds():
-    spec = suite.load("which_is_heavier", "features", {"noise": NOISE, "reveal": True}).observation_spec()["answer"]
-    assert (spec.minimum, spec.maximum) == (0, 1)
-
-
-def test_an_answer_leaves_the_last_observation_as_it_was(seed):
-    environment = suite.load("towers", "fist_features", {"random": seed, "noise": NOISE})
-    environment.reset()
-    before = environment.step(0).observation["positions"]
-    after = environment.step(environment.task.num_interactions)
-    assert after.last()
-    np.testing.assert_array_equal(before, after.observation["positions"])
-
-
-@pytest.mark.parametrize("domain, task", [names for names in suite.ALL_TASKS if "/".join(names) not in NOISY])
-def test_noise_is_refused_where_nothing_is_read_in_metres(domain, task):
+@pytest.mark.parametrize("domain, task", [("threshold", "features"), ("towers", "fist_pixels")])
+def test_noise_is_refused_where_no_position_is_read(domain, task):
     with pytest.raises(ValueError, match="^noise is 0.01; give 0 where no reading in metres is observed$"):
         suite.load(domain, task, {"noise": NOISE})
-
-
-@pytest.mark.parametrize("value", [-0.1, 101, np.nan, "much", None])
-def test_noise_that_makes_no_sense_is_refused(value):
-    with pytest.raises(ValueError, match=r"^noise is .*; give a number from 0 to 100 m$"):
-        suite.load("towers", "fist_features", {"noise": value})
 
 
 def test_normal_numbers_are_independent_of_the_uniform_ones(seed):

@@ -115,22 +115,6 @@ def test_who_only_waits_sees_a_box_that_stands_still_whatever_is_in_it(seed):
         assert not _places(batch).any()
 
 
-def test_nobody_pushes_a_box_or_its_weight_out_of_the_room_there_is(seed):
-    """Who pushes along with the box's velocity, or back and forth in any rhythm, brings it farthest."""
-    rng = np.random.default_rng(seed)
-    contents = np.tile(ALL, 8)
-    batch = suite.load_batch("sealed_box", "features", len(contents), {"random": seed, "difficulty": 1})
-    bound = batch.observation_spec()["place"].maximum * 0.010
-    batch.reset(hidden=contents)
-    periods = rng.integers(1, 8, size=len(contents))
-    for step in range(batch.task.rules.step_limit - 1):
-        velocities = np.array([snapshots.view(batch, "qvel", row)[0] for row in range(len(contents))])
-        forwards = np.where(periods == 7, velocities >= 0, step // periods % 2 == 0)
-        batch.step(np.where(forwards, 3, 0))
-        box, weight = np.abs(_places(batch)).max(axis=0)
-        assert box < bound and weight < sealed_box.BOX_HALF_SIZE - 0.03
-
-
 def test_kinds_are_equally_likely_and_so_are_the_contents_of_one_kind(seed):
     """Each content's share of 100 000 episodes is what its probability makes likely."""
     count = 100_000

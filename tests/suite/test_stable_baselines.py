@@ -1,10 +1,9 @@
 """Our batches under Stable-Baselines3: its conventions, and a learner of sb3-contrib that learns on them."""
 
-import gymnasium
 import numpy as np
 import pytest
 from sb3_contrib import RecurrentPPO
-from stable_baselines3.common import evaluation, vec_env
+from stable_baselines3.common import vec_env
 
 from physexp import suite
 from physexp.suite import stable_baselines
@@ -59,21 +58,6 @@ def test_the_seeds_that_are_told_rebuild_the_episodes(seed):
     assert [info["episode_index"] for info in vector.reset_infos] == [5, 6, 5]
 
 
-def test_success_rates_are_those_that_evaluations_of_stable_baselines_show(seed):
-    vector = stable_baselines.VecEnv("threshold", "features", 2, random=seed)
-    found = []
-
-    class RightInTheFirst:
-        def predict(self, observations, state=None, **_):
-            return 8 + (vector._batch.correct_answers + [0, 1]) % 8, state
-
-    def keep(names, _):
-        found.append((names["i"], names["info"]["is_success"]))
-
-    evaluation.evaluate_policy(RightInTheFirst(), vector, 4, callback=keep, warn=False)
-    assert found == [(0, True), (1, False)] * 2
-
-
 def test_keywords_and_options_that_there_are_not_are_refused():
     with pytest.raises(TypeError, match="^VecEnv got an unexpected keyword argument 'frameskip'; allowed: num_envs, "):
         stable_baselines.VecEnv("threshold", "features", 2, frameskip=1)
@@ -110,12 +94,6 @@ def test_rendering_lays_the_images_of_all_environments_side_by_side(seed):
     vector.close()
 
 
-def test_a_step_before_the_first_reset_says_that_a_reset_is_needed():
-    vector = stable_baselines.VecEnv("which_is_heavier", "features", 2)
-    with pytest.raises(gymnasium.error.ResetNeeded, match=r"reset\(\)"):
-        vector.step(np.zeros(2, int))
-
-
 @pytest.mark.long
 def test_recurrent_ppo_of_sb3_contrib_learns_to_beat_chance(tmp_path, monkeypatch):
     monkeypatch.setenv("SB3_LOGDIR", str(tmp_path))  # It would leave a folder among the system's temporary files.
@@ -145,14 +123,3 @@ def test_recurrent_ppo_of_sb3_contrib_learns_to_beat_chance(tmp_path, monkeypatc
     # Chance is a quarter right: 4 standard deviations above it, and half as much again, is no luck.
     assert total > 100
     assert right / total > 0.25 + 4 * np.sqrt(0.25 * 0.75 / total)
-
-
-@pytest.mark.parametrize("seed", [-3, 1.5, 2**63, True, "a"])
-def test_a_seed_that_is_none_is_refused_and_changes_nothing(seed):
-    environment, twin = (stable_baselines.VecEnv("threshold", "features", 2, random=0) for _ in range(2))
-    with pytest.raises(ValueError, match=r"^seed is .*; give an integer"):
-        environment.seed(seed)
-    expected = twin.reset()
-    for name, value in environment.reset().items():
-        np.testing.assert_array_equal(value, expected[name])
-    assert environment.env_is_wrapped(object) == [False, False]

@@ -92,20 +92,13 @@ def test_two_threads_that_step_one_environment_at_once_end_no_process():
 
 
 @pytest.mark.parametrize("which", [0, 1], ids=["environment", "batch"])
-@pytest.mark.parametrize("duplicate", [copy.copy, copy.deepcopy, pickle.dumps])
-def test_a_copy_is_refused_with_what_to_do_instead(which, duplicate):
+def test_a_copy_is_refused_with_what_to_do_instead(which):
     environment, _ = _environments()[which]
-    with pytest.raises(TypeError, match="neither copied nor pickled; load another"):
-        duplicate(environment)
-
-
-@pytest.mark.parametrize("make", [gymnasium.Environment, gymnasium.VectorEnvironment, stable_baselines.VecEnv])
-@pytest.mark.parametrize("duplicate", [copy.copy, copy.deepcopy, pickle.dumps])
-def test_a_copy_of_an_adapter_is_refused_as_that_of_its_environment(make, duplicate):
-    environment = make(*TASK, **({} if make is gymnasium.Environment else {"num_envs": 2}))
-    with pytest.raises(TypeError, match="neither copied nor pickled; load another"):
-        duplicate(environment)
-    environment.close()
+    make = (gymnasium.Environment, stable_baselines.VecEnv)[which]
+    for each in (environment, make(*TASK, **({"num_envs": 2} if which else {}))):
+        for duplicate in (copy.copy, copy.deepcopy, pickle.dumps):
+            with pytest.raises(TypeError, match="neither copied nor pickled; load another"):
+                duplicate(each)
 
 
 FORK = """

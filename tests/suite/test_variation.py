@@ -39,28 +39,8 @@ def test_before_an_interaction_episodes_differ_but_not_by_what_is_hidden(seed, n
     batch.close()
 
 
-def test_blocks_that_are_not_poked_stay_as_they_are(seed):
-    batch = load_batch("which_is_heavier/features", 4, random=seed, variation=1.0)
-    first = batch.reset().observation["heights"]
-    for _ in range(3):
-        now = batch.step(np.full(4, 1)).observation["heights"]
-    assert now[:, 2:].tobytes() == first[:, 2:].tobytes()
-    assert (now[:, 1] > first[:, 1]).all()
-    batch.close()
-
-
-def test_a_tower_stays_as_it_is_while_the_fist_goes_away_from_it(seed):
-    batch = load_batch("towers/fist_features", 4, random=seed, variation=1.0)
-    first = batch.reset().observation
-    for _ in range(3):
-        now = batch.step(np.full(4, 1)).observation  # To -x.
-    assert now["positions"].tobytes() == first["positions"].tobytes()
-    assert (now["fist_position"][:, 0] < first["fist_position"][:, 0]).all()
-    batch.close()
-
-
-@pytest.mark.parametrize("share", [0.5, 1.0])
-def test_towers_vary_by_as_much_as_is_said(seed, share):
+def test_towers_vary_by_as_much_as_is_said(seed):
+    share = 0.5
     size = 400
     batch = suite.load_batch("towers", "fist_features", size, {"random": seed, "variation": share})
     plain = suite.load_batch("towers", "fist_features", 1, {"random": seed}).reset().observation
@@ -85,8 +65,7 @@ def _varied(task_name, nuisances, structure=0):
     return kit, model, found
 
 
-@pytest.mark.parametrize("task_name", TOWERS)
-@pytest.mark.parametrize("mass", [-1.0, 0.5])
+@pytest.mark.parametrize("task_name, mass", [(TOWERS[0], -1.0), (TOWERS[1], 0.5)])
 def test_the_masses_are_what_mujoco_would_compute(task_name, mass):
     kit, model, _ = _varied(task_name, [0, 0, 0, 0, 0, 0, 0, mass, 0, 0, 0])
     expected = copy.copy(kit.model)
@@ -102,9 +81,9 @@ def test_the_masses_are_what_mujoco_would_compute(task_name, mass):
     np.testing.assert_allclose(*below, rtol=1e-6)
 
 
-@pytest.mark.parametrize("task_name", TOWERS)
 @pytest.mark.parametrize("value, friction", [(-1.0, 0.25), (-0.5, 0.275), (0.0, 0.3), (1.0, 0.4)])
-def test_friction_is_between_what_is_said(task_name, value, friction):
+def test_friction_is_between_what_is_said(value, friction):
+    task_name = TOWERS[1]
     kit, model, _ = _varied(task_name, [0, 0, 0, 0, 0, 0, value, 0, 0, 0, 0])
     changed = kit.model.geom_friction[:, 0] == 0.3
     assert changed.sum() >= tower.NUM_BLOCKS + 1  # The cubes and the ground.
@@ -164,7 +143,9 @@ def test_the_fist_is_as_fast_and_pokes_are_as_strong_as_is_said(seed):
     alone.close()
 
 
-@pytest.mark.parametrize("domain, task", [name.split("/") for name in VARYING if name.endswith("pixels")])
+@pytest.mark.parametrize(
+    "domain, task", [("which_is_heavier", "pixels"), ("towers", "fist_pixels"), ("strings", "pixels")]
+)
 def test_images_are_those_of_a_displaced_camera_and_the_next_is_drawn_from_its_own(seed, domain, task):
     batch = suite.load_batch(domain, task, 8, {"random": seed, "variation": 1.0})
     corners = np.array(list(itertools.product([-1.0, 1.0], repeat=3)))  # Of where cameras are.
@@ -195,9 +176,3 @@ def test_numbers_of_variation_are_uniform_and_independent_of_what_is_hidden(seed
 def test_variation_is_refused_where_nothing_varies():
     with pytest.raises(ValueError, match="^variation is 0.5; give 0 where episodes differ in nothing else$"):
         suite.load("threshold", "features", {"variation": 0.5})
-
-
-@pytest.mark.parametrize("value", [-0.1, 1.1, np.nan, "much", None])
-def test_variation_that_makes_no_sense_is_refused(value):
-    with pytest.raises(ValueError, match=r"^variation is .*; give a "):
-        suite.load("towers", "fist_features", {"variation": value})

@@ -44,12 +44,6 @@ def test_four_blocks_can_be_poked_or_named_in_a_hundred_steps(task_name):
     assert (rules.num_interactions, rules.num_labels, rules.step_limit) == (4, 4, 100)
 
 
-def test_the_features_are_the_heights():
-    assert {
-        name: reading.shape for name, reading in suite.load_task("which_is_heavier", "features").readings.items()
-    } == {"heights": (4,)}
-
-
 def test_a_poke_lifts_a_block_as_the_spring_damper_law_predicts(seed):
     env = suite.load("which_is_heavier", "features", task_kwargs={"random": seed, "difficulty": 1})
     for episode in range(20):
@@ -85,19 +79,11 @@ def _heights_under_random_pokes(seed, difficulty, hold):
 
 
 # Difficulty 1 makes every mass equally likely, 1e300 only the two extreme ones.
-@pytest.mark.parametrize("hold", [1, 3, 8])
-@pytest.mark.parametrize("difficulty", [1, 1e300])
-def test_random_pokes_take_no_block_below_its_rest(seed, difficulty, hold):
+@pytest.mark.parametrize("difficulty, hold", [(1, 1), (1, 8), (1e300, 3)])
+def test_random_pokes_take_no_block_below_its_rest_or_above_its_end(seed, difficulty, hold):
     heights = _heights_under_random_pokes(seed, difficulty, hold)
     assert heights.max() > CEILING / 2, "the blocks were hardly moved"
-    assert heights.min() >= -TOLERANCE_AT_REST
-
-
-@pytest.mark.parametrize("difficulty", [1, 1e300])
-def test_random_pokes_take_no_block_above_the_ceiling(seed, difficulty):
-    for hold in (1, 3, 8):
-        heights = _heights_under_random_pokes(seed, difficulty, hold)
-        assert heights.max() <= CEILING + TOLERANCE_AT_CEILING, f"pokes held for {hold} control steps"
+    assert heights.min() >= -TOLERANCE_AT_REST and heights.max() <= CEILING + TOLERANCE_AT_CEILING
 
 
 @pytest.mark.parametrize("pokes_first", [0, 20], ids=["random pokes", "pushed to the ceiling first"])
@@ -123,14 +109,6 @@ def test_the_masses_act_as_if_they_were_compiled_into_the_model(seed, pokes_firs
         assert not pokes_first or highest > CEILING, "the ceiling was not reached"
 
 
-@pytest.mark.parametrize("difficulty", [1, 3, 5, 10, 100])
-def test_each_mass_is_heavy_once_in_four_and_light_otherwise(seed, difficulty):
-    """Block by block, the distribution function is Beta(b, 1)'s / 4 + 3 Beta(1, b)'s / 4."""
-    heavy, light = stats.beta(difficulty, 1), stats.beta(1, difficulty)
-    for masses in _draw(seed, difficulty, 5000).T:
-        assert stats.kstest(masses, lambda x: heavy.cdf(x) / 4 + 3 * light.cdf(x) / 4).pvalue > P_VALUE
-
-
 def test_heavy_and_light_masses_follow_their_own_distributions(seed):
     # At difficulty 100 a mass above 0.5 is the heavy one but for a probability of 0.5 ** 100.
     masses = _draw(seed, 100, 5000)
@@ -141,7 +119,7 @@ def test_heavy_and_light_masses_follow_their_own_distributions(seed):
     assert stats.chisquare(is_heavy.sum(axis=0)).pvalue > P_VALUE, "a block is heavy more often than others"
 
 
-@pytest.mark.parametrize("difficulty", [1, 3, 5, 10])
+@pytest.mark.parametrize("difficulty", [1, 5])
 def test_the_masses_of_an_episode_are_independent(seed, difficulty):
     # The largest of four independent masses has the product of their distribution functions, F and G three times.
     largest = _draw(seed, difficulty, 5000).max(axis=1)
@@ -149,7 +127,7 @@ def test_the_masses_of_an_episode_are_independent(seed, difficulty):
     assert stats.kstest(largest, lambda x: heavy.cdf(x) * light.cdf(x) ** 3).pvalue > P_VALUE
 
 
-@pytest.mark.parametrize("difficulty", [1, 5, 1e6, 1e300])
+@pytest.mark.parametrize("difficulty", [1, 1e300])
 def test_exactly_one_block_is_heaviest_and_it_is_the_answer(seed, difficulty):
     masses = _draw(seed, difficulty, 20_000)
     assert ((masses >= 0) & (masses <= 1)).all()
@@ -159,17 +137,3 @@ def test_exactly_one_block_is_heaviest_and_it_is_the_answer(seed, difficulty):
         env.reset()
         np.testing.assert_array_equal(env.task.hidden, expected)
         assert env.task.correct_answer == np.argmax(expected)
-
-
-@pytest.mark.parametrize("difficulty", [1, 5])
-def test_every_block_is_equally_often_the_heaviest(seed, difficulty):
-    counts = np.bincount(_draw(seed, difficulty, 5000).argmax(axis=1), minlength=4)
-    assert stats.chisquare(counts).pvalue > P_VALUE
-
-
-def test_a_larger_difficulty_makes_the_mass_gap_larger(seed):
-    gaps = []
-    for difficulty in (1, 3, 5, 10, 100):
-        two_heaviest = np.sort(_draw(seed, difficulty, 2000), axis=1)[:, -2:]
-        gaps.append(np.diff(two_heaviest, axis=1).mean())
-    assert gaps == sorted(gaps)

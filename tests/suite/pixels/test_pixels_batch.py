@@ -30,17 +30,6 @@ def test_a_batch_is_its_single_environments(seed, domain_name, task_name):
 
 
 @every_pixel_task
-def test_chosen_environments_step_without_the_others(seed, domain_name, task_name):
-    rng = np.random.default_rng(seed)
-    batch, singles = start_both(domain_name, task_name, 3)
-    for _ in range(25):
-        chosen = np.flatnonzero(rng.random(3) < 0.6)
-        actions = random_actions(rng, batch.task, len(chosen))
-        expected = [singles[i].step(a) for i, a in zip(chosen, actions, strict=True)]
-        assert_same(batch.step(actions, chosen), expected)
-
-
-@every_pixel_task
 def test_an_image_does_not_depend_on_how_many_environments_or_threads_there_are(load, seed, domain_name, task_name):
     rng = np.random.default_rng(seed)
     batches = [load(domain_name, task_name, seed, 1), load_shared(domain_name, task_name, seed, 3)]

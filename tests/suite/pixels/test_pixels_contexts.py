@@ -5,15 +5,13 @@ import ctypes.util
 import gc
 
 from episodes import SEED
-from images import FIST, HEAVIER, MARKS, PIXEL_TASKS, every_pixel_task, image_of, load_single, play_episode
+from images import FIST, HEAVIER, MARKS, every_pixel_task, image_of, load_single, play_episode
 import interpreters
 import numpy as np
 import pytest
 import screens
 
 from physexp import suite
-
-import mujoco  # isort: skip  # The suite chooses the GL backend, which mujoco looks at once.
 
 pytestmark = MARKS
 
@@ -37,18 +35,6 @@ def test_environments_that_take_turns_each_see_their_own_state(load, domain_name
     assert (expected[-1] != expected_others[-1]).any()
 
 
-def test_environments_of_different_tasks_take_turns():
-    actions = [0, 2, 1, 3, 0, 0]
-    envs = [load_single(*task) for task in PIXEL_TASKS]
-    expected = [play_episode(env, actions) for env in envs]
-    for env in envs:
-        env.task.next_episode = 0
-        env.reset()
-    for t, action in enumerate(actions):
-        for env, images in zip(envs, expected, strict=True):
-            np.testing.assert_array_equal(image_of(env.step(action)), images[t + 1])
-
-
 @pytest.mark.parametrize("end", ["closed", "dropped"])
 @pytest.mark.parametrize("which", ["drawn first", "drawn last"])
 def test_when_one_environment_is_gone_the_others_and_new_ones_see_as_before(load, end, which):
@@ -64,38 +50,6 @@ def test_when_one_environment_is_gone_the_others_and_new_ones_see_as_before(load
     gc.collect()
     for env in (staying, load(*FIST, random)):
         np.testing.assert_array_equal(play_episode(env, actions), expected)
-
-
-def test_a_renderer_of_mujoco_that_comes_and_goes_in_between_changes_nothing(load):
-    """It frees its buffers in whatever context is current, which must not be the environment's."""
-    actions = [0, 1, 2, 3]
-    expected = play_episode(load_single(*FIST), actions)
-    env = load(*FIST, suite.environment_seed(SEED, 0))
-    env.reset()
-    for t, action in enumerate(actions):
-        with mujoco.Renderer(env.physics.model.ptr, 30, 40) as other:
-            other.update_scene(env.physics.data.ptr)
-            other.render()
-            np.testing.assert_array_equal(image_of(env.step(action)), expected[t + 1], err_msg=f"step {t}")
-
-
-def test_an_environment_and_dm_controls_own_rendering_take_turns(load):
-    """As when a film is made of an episode: `physics.render` draws in a context of its own."""
-    actions = [0] * 5
-
-    def film(env):
-        env.reset()
-        return [(env.step(action), env.physics.render(60, 100, camera_id="observer"))[1] for action in actions]
-
-    random = suite.environment_seed(SEED, 0)
-    expected = film(load("towers", "fist_features", random))
-    images = play_episode(load_single(*FIST), actions)
-    env, frames = load(*FIST, random), []
-    env.reset()
-    for t, action in enumerate(actions):
-        np.testing.assert_array_equal(image_of(env.step(action)), images[t + 1])
-        frames.append(env.physics.render(60, 100, camera_id="observer"))
-    assert [(frame == other).all() for frame, other in zip(frames, expected, strict=True)] == [True] * len(frames)
 
 
 DISTURB = """
@@ -203,19 +157,6 @@ def test_any_thread_may_draw(load, size):
     _in_another_thread(env.close)
 
 
-@every_pixel_task
-def test_an_environment_that_was_made_in_one_thread_is_played_by_another(domain_name, task_name):
-    expected = play_episode(load_single(domain_name, task_name), [0, 1])
-    env = suite.load(domain_name, task_name, {"random": suite.environment_seed(SEED, 0)})
-
-    def play_and_close():
-        images = play_episode(env, [0, 1])
-        env.close()
-        return images
-
-    np.testing.assert_array_equal(_in_another_thread(play_and_close), expected)
-
-
 @pytest.mark.parametrize("size", [None, 2])
 def test_an_environment_may_be_closed_by_another_thread_than_the_one_that_drew(load, size):
     neighbour = load_single(*HEAVIER)
@@ -229,19 +170,6 @@ def test_an_environment_may_be_closed_by_another_thread_than_the_one_that_drew(l
     env = None
     gc.collect()
     np.testing.assert_array_equal(play_episode(neighbour, [0, 1]), expected)
-
-
-@every_pixel_task
-@pytest.mark.parametrize("drawn_before", [True, False])
-def test_a_closed_environment_says_so_and_may_be_closed_again(load, domain_name, task_name, drawn_before):
-    for env, action in ((load(domain_name, task_name, 0), 0), (load(domain_name, task_name, 0, 2), [0, 0])):
-        if drawn_before:
-            env.reset()
-        env.close()
-        env.close()
-        for use in (env.reset, lambda env=env, action=action: env.step(action)):
-            with pytest.raises(RuntimeError, match="closed; load another"):
-                use()
 
 
 POOL = """

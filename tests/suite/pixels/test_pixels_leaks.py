@@ -23,27 +23,7 @@ from images import (
 import numpy as np
 import pytest
 
-from physexp.suite.parts import tower
-
 pytestmark = MARKS
-
-
-@pytest.mark.parametrize("task_name", ["direct_pixels", "fist_pixels"])
-def test_every_tower_looks_the_same_at_first(task_name):
-    _, _, first = batch_of_patterns(task_name, EVERY_PATTERN)
-    env = load_shared("towers", task_name, SEED)
-    for pattern in EVERY_PATTERN:
-        env.task.next_episode = episode_with(pattern, SEED)
-        image = image_of(env.reset())
-        assert env.task.hidden == pattern
-        assert image.tobytes() == first[pattern].tobytes() == first[0].tobytes(), tower.PATTERNS[pattern]
-
-
-def test_all_masses_look_the_same_at_first(load, seed):
-    images = image_of(load(*HEAVIER, seed, 64, difficulty=1).reset())
-    env = load(*HEAVIER, seed, difficulty=1)
-    for image in (*images, *(image_of(env.reset()) for _ in range(20))):
-        assert image.tobytes() == images[0].tobytes()
 
 
 @pytest.mark.parametrize(

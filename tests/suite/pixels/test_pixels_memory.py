@@ -2,7 +2,7 @@
 
 import gc
 
-from images import EDGE, HEAVIER, MARKS, image_of, load_shared
+from images import EDGE, HEAVIER, MARKS, load_shared
 import memory
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ from physexp.suite.engine import gl
 pytestmark = MARKS
 
 
-def test_ten_thousand_resets_leave_memory_as_it_is(seed, drawn):
+def test_two_thousand_resets_leave_memory_as_it_is(seed, drawn):
     """Of one environment, where each of them draws, and of a batch, where each is followed by a step that does."""
     env, batch = load_shared(*HEAVIER, seed), load_shared(*HEAVIER, seed, 16)
 
@@ -24,20 +24,17 @@ def test_ten_thousand_resets_leave_memory_as_it_is(seed, drawn):
         batch.reset()
         batch.step(np.zeros(16, int))
 
-    grown = memory.growth(play, 500, num_warm_up=20)
-    assert sum(drawn) >= 520 * (4 + 1 + 16)
-    assert grown < 2_000_000, f"{grown} bytes; an image has {EDGE * EDGE * 3}"
+    grown = memory.growth(play, 100, num_warm_up=20)
+    assert sum(drawn) >= 120 * (4 + 1 + 16)
+    assert grown < 400_000, f"{grown} bytes; an image has {EDGE * EDGE * 3}"
 
 
-@pytest.mark.parametrize("end", ["closed", "dropped"])
-def test_environments_that_are_gone_give_their_memory_back(end):
+def test_environments_that_are_dropped_give_their_memory_back():
     """A context and its buffers take 7 MB, and not one of those of six environments may be lost."""
 
     def play():
         for env in (suite.load(*HEAVIER), suite.load_batch(*HEAVIER, 1)):
             env.reset()
-            if end == "closed":
-                env.close()
         del env
         gc.collect()
         gl.draw(lambda: None)  # The drawing thread has freed all that it was given before.
@@ -62,17 +59,3 @@ def test_two_hundred_environments_opened_and_closed_leave_nothing(size):
     grown = memory.growth(play, 200, num_warm_up=20)
     assert grown < 4_000_000, f"{grown} bytes"
     assert memory.open_files() <= files  # Of those of other tests, some may be closed late.
-
-
-def test_a_dozen_environments_draw_in_turn_while_all_are_open_and_leave_no_file(load):
-    """Each has a context of its own."""
-    files = memory.open_files()
-    environments = [load(*HEAVIER, number) for number in range(12)]
-    first = [image_of(environment.reset()) for environment in environments]
-    poked = [image_of(environment.step(0)) for environment in environments]
-    for number in (0, 6, 11):
-        np.testing.assert_array_equal(first[number], first[0])
-        assert (poked[number] != first[number]).any()
-    for environment in environments:
-        environment.close()
-    assert memory.open_files() <= files + 1
