@@ -1,4 +1,4 @@
-"""Ideal experimenters of domains, each made once: a search takes long."""
+"""Ideal experimenters of domains; each is solved once in a session, because a search takes long."""
 
 import functools
 
@@ -11,5 +11,5 @@ def of(domain: str, task: str = "features", **task_kwargs):
     """Returns the ideal experimenter of a task at its domain's discount."""
     known = domains.find(domain)
     if not task_kwargs:
-        return protocol.ideal(protocol.question(domain, task))  # Which tests of the score use as well.
+        return protocol.ideal(protocol.question(domain, task))  # Shared with the tests of the score.
     return known.ideal(task, task_kwargs, known.discount)

@@ -21,7 +21,8 @@ class MadeWorld:
 
     def __init__(self, num_actions, tells, step_limit=26):
         rules = types.SimpleNamespace(step_limit=step_limit)
-        self.task = types.SimpleNamespace(num_interactions=num_actions, num_labels=5, control_timestep=0.1, rules=rules)
+        options = types.SimpleNamespace(control_timestep=0.1)
+        self.task = types.SimpleNamespace(num_interactions=num_actions, num_labels=5, options=options, rules=rules)
         self.hidden, self.prior, self.answers = np.arange(PATTERNS), PRIOR, np.array(COUNTS) - 1
         self.steps, self._tells = 0, tells
 

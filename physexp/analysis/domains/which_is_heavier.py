@@ -53,7 +53,7 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks
     if blocks is not None:
         prior = dataclasses.replace(prior, num_things=blocks)
     can_read = "features" in suite.tags(_NAME, task) and blocks is None
-    find_read = functools.partial(calibration.calibrate, _NAME, task, "heights", task_kwargs)
+    find_read = functools.cache(functools.partial(calibration.calibrate, _NAME, task, "heights", task_kwargs))
     return odd_one_out.Solution(prior, discount, played.rules.step_limit, find_read if can_read else None)
 
 

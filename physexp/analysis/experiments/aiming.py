@@ -38,7 +38,7 @@ def shares_left(pucks, actions) -> dict[str, np.ndarray]:
 
     @functools.cache
     def left(puck, taken):
-        return list(solution.left(puck, taken)[-1])
+        return list(solution.supports(puck, taken)[-1])
 
     groups = [left(int(puck), tuple(map(int, taken))) for puck, taken in zip(pucks, actions, strict=True)]
     return {name: np.array([values[group].var() for group in groups]) / values.var() for name, values in known.items()}

@@ -1,7 +1,7 @@
-"""Things of which some are joined by bands, and one clamp: which are joined, when a pull shows only what it moves?
+"""Things that may be joined by bands, and one clamp: which pairs are joined?
 
-A pull moves all things that bands join to the pulled one, directly or through others, unless the way goes through the
-thing that the clamp holds. Pulls alone thus tell which things hang together, and not how.
+A pull moves all things that bands connect to the pulled one, directly or through others, except through the thing that
+the clamp holds. Pulls alone thus reveal the connected components, not the bands.
 """
 
 from collections.abc import Sequence
@@ -25,7 +25,7 @@ class Clamped(resting.Apparatus):
         super().__init__(weights, num_interactions=2 * num_things, start=(resting.mask(np.greater(weights, 0)), None))
 
     def readings(self, setting):
-        """Returns which things have moved, as bit masks; moving the clamp moves none."""
+        """Returns the things that have moved, as bit masks; moving the clamp moves none."""
         things, labels = range(self._num_things), range(len(self.weights))
         pulls = [[sum(1 << k for k in self.moved(label, setting, pulled)) for label in labels] for pulled in things]
         return np.concatenate([pulls, np.zeros_like(pulls)])
@@ -35,7 +35,7 @@ class Clamped(resting.Apparatus):
         pairs = itertools.combinations(range(self._num_things), 2)
         bands = [set(pair) for bit, pair in enumerate(pairs) if label >> bit & 1]
         found = {pulled} - {clamped}
-        for _ in range(self._num_things - 1):  # No way is longer.
+        for _ in range(self._num_things - 1):  # The longest path.
             found = found.union(*(band for band in bands if band & found)) - {clamped}
         return found
 

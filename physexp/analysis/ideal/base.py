@@ -17,7 +17,7 @@ class Episode(Protocol):
     Attributes:
       hidden: the hidden property, [...].
       actions: int64 [T].
-      observations: for each name, what was seen before each action and at the end, [T + 1, ...].
+      observations: by name, before each action and at the end, [T + 1, ...].
     """
 
     @property
@@ -32,26 +32,27 @@ class Episode(Protocol):
 
 @dataclasses.dataclass(frozen=True)
 class Judgement:
-    """What could be known in an episode of T actions, and what its actions were worth.
+    """The best possible beliefs in an episode of T actions, and the values of all actions.
 
     Attributes:
-      beliefs: of each of L labels, at the start and after each action, float64 [T + 1, L].
-      values: what each action was worth, interactions first, before each action, float64 [T, A]: an answer, 2 b - 1; an
-        interaction, what the ideal expects to earn after it, times the discount, or -1 at the last step in time.
-      tells: whether the action taken could change what is known of the label, bool [T]; False for answers.
+      beliefs: probability of each of L labels, at the start and after each action, float64 [T + 1, L].
+      values: value of each action, interactions first, before each step, float64 [T, A]: for an answer, 2 b - 1, b
+        being its probability; for an interaction, the ideal's expected return after it, times the discount, or -1 in
+        the last step before the time limit.
+      is_informative: whether the action taken could change the belief, bool [T]; False for answers.
     """
 
     beliefs: np.ndarray
     values: np.ndarray
-    tells: np.ndarray
+    is_informative: np.ndarray
 
 
 class Solution(Protocol):
-    """The best policy for a question, and what it is worth.
+    """The best policy for a question, and its value.
 
     Attributes:
       value: its expected discounted return from an episode's start.
-      bound: an upper bound on any experimenter's; equal to the value where that is exact.
+      bound: an upper bound on any experimenter's; equal to the value if that is exact.
     """
 
     @property
@@ -64,39 +65,39 @@ class Solution(Protocol):
         """Returns an actor that plays the policy in the real environment, from observations alone.
 
         Raises:
-          ValueError: if it cannot be played from what the task observes.
+          ValueError: if the task's observations do not suffice.
         """
 
     def beliefs(self, episode: Episode) -> np.ndarray:
-        """Returns what could be believed at the start and after each action: of each label, float64 [T + 1, L]."""
+        """Returns the best possible beliefs at the start and after each action, float64 [T + 1, L]."""
 
     def judge(self, episode: Episode) -> Judgement:
-        """Returns what could be known in an episode, and what its actions were worth; uses no observations.
+        """Returns the best possible beliefs and the values of the actions; uses no observations.
 
         Raises:
-          ValueError: if it cannot be known.
+          ValueError: if they are not known exactly.
         """
 
     def figures(self) -> dict[str, Any]:
-        """Returns what the function `figures` does."""
+        """Returns the statistics of the function `figures`."""
 
     def summary(self) -> dict[str, Any]:
-        """Returns the figures, and the family's own, such as what others earn: `at_once`, `random_value`."""
+        """Returns the statistics of `figures`, and further ones, such as `at_once` and `random_value`."""
 
 
 def figures(
     solution: Solution, interactions: np.ndarray, right: np.ndarray, shares: np.ndarray | None = None
 ) -> dict[str, Any]:
-    """Returns what a solution is worth and how it plays, by name.
+    """Returns statistics of a solution, by name.
 
     Args:
-      solution: what is played.
-      interactions: numbers of interactions before the answer, of some episodes, int64 [N].
+      solution: the solution.
+      interactions: numbers of interactions before the answer in N kinds of episodes, int64 [N].
       right: whether the answers are right, bool [N].
-      shares: what share of all episodes each of these stands for, float64 [N]; by default the same.
+      shares: the share of each kind among all episodes, float64 [N]; by default equal.
 
     Returns:
-      `value` and `bound` of the solution, None where they are not finite; `accuracy`; `mean_interactions`; and
+      `value` and `bound` of the solution, None if they are not finite; `accuracy`; `mean_interactions`; and
       `histogram`, the share of episodes for each number of interactions.
     """
     if shares is None:
@@ -114,5 +115,5 @@ _Numbers = TypeVar("_Numbers", float, np.ndarray)
 
 
 def worth_of_answers(beliefs: _Numbers) -> _Numbers:
-    """Returns what answers are worth that are right with these probabilities, a number or an array of any shape."""
+    """Returns the values of answers that are right with these probabilities, a number or an array of any shape."""
     return rules.WRONG + (rules.RIGHT - rules.WRONG) * beliefs

@@ -1,7 +1,7 @@
-"""Bounds on the ideal experimenter's return where readings are noisy, or episodes differ in ways that cannot be seen.
+"""Bounds on the ideal experimenter's return with noisy readings or random variation between episodes.
 
-A policy that is played earns no more than the best one. No experimenter earns more than an informed one, which knows
-everything in which an episode differs except the hidden property, and reads without noise; another family solves it.
+Lower bound: the mean return of a policy. Upper bound: the value of an informed experimenter, which reads without noise
+and knows the random variation of an episode; another family solves it.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -15,13 +15,13 @@ from physexp import suite
 from physexp.agents import core
 from physexp.analysis.ideal import base, rollouts
 
-NUM_EPISODES = 6400  # Played; their mean is known to 0.005 or better.
-_NUM_ACTORS = 64  # Side by side.
-SEED = 1  # Of the environments, one for each actor.
+NUM_EPISODES = 6400  # The standard error of their mean return is at most 0.005.
+_NUM_ACTORS = 64  # That play side by side.
+SEED = 1  # Of their environments.
 
 
 def is_certain(task_kwargs: Mapping[str, Any]) -> bool:
-    """Returns whether a task with these options has neither noise nor variation."""
+    """Returns whether a task with these options has no noise and no variation."""
     return not task_kwargs.get("noise") and not task_kwargs.get("variation")
 
 
@@ -31,7 +31,7 @@ def made_certain(task_kwargs: Mapping[str, Any]) -> dict[str, Any]:
 
 
 class Solution:
-    """A policy, its mean return in episodes that are played, and a bound on any experimenter's expected return."""
+    """A policy, its mean return in played episodes, and an upper bound on any experimenter's expected return."""
 
     def __init__(
         self,
@@ -46,15 +46,15 @@ class Solution:
 
         Args:
           domain, task, task_kwargs: as for `suite.load`.
-          discount: the agent's gamma, above 0 and at most 1.
+          discount: the agent's gamma.
           make_actor: makes an actor that plays the policy.
-          find_bounds: finds the values of informed experimenters, one for the first episode of each of the first
+          find_bounds: returns the values of informed experimenters in the first episode of each of the first
             environments of `SEED`; a single one if it is the same in all episodes.
 
         Raises:
-          ValueError: for a value that makes no sense.
+          ValueError: for an unknown task or a bad option.
         """
-        suite.load_task(domain, task, dict(task_kwargs))  # Refuses now what could not be played later.
+        suite.load_task(domain, task, task_kwargs)  # Refuses bad options before any episode.
         self._played = (domain, task, dict(task_kwargs))
         self.discount = discount
         self._make_actor = make_actor
@@ -64,15 +64,15 @@ class Solution:
     def _bounds(self) -> np.ndarray:
         """Estimates of the bound, one or more, whose mean is the bound.
 
-        An informed experimenter earns more in some episodes than in others, as does the policy. The bound is therefore
-        the policy's mean return in all episodes, plus what informed experimenters earn beyond the policy in some.
+        Informed experimenters and the policy earn more in the same episodes. To reduce the variance, the bound is the
+        policy's mean return in all episodes, plus the mean difference between the two in some episodes.
         """
         found = np.asarray(self._find_bounds(), float)
         return found if len(found) == 1 else self.value + found - self._returns[: len(found)]
 
     @functools.cached_property
     def _episodes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Final rewards and numbers of actions, the first episodes of all actors before their second ones."""
+        """Final rewards and numbers of actions; the first episodes of all actors come first."""
         actors = [self._make_actor() for _ in range(_NUM_ACTORS)]
         rewards, lengths = rollouts.play(actors, *self._played, NUM_EPISODES // _NUM_ACTORS, SEED)
         return rewards.ravel(), lengths.ravel()
@@ -84,12 +84,12 @@ class Solution:
 
     @property
     def value(self) -> float:
-        """Returns the mean discounted return of the policy."""
+        """The mean discounted return of the policy."""
         return float(self._returns.mean())
 
     @property
     def bound(self) -> float:
-        """Returns the upper bound on any experimenter's expected return; its standard error is in the summary."""
+        """The upper bound on any experimenter's expected return; `summary` has its standard error."""
         return float(self._bounds.mean())
 
     def actor(self) -> core.Actor:
@@ -97,20 +97,20 @@ class Solution:
         return self._make_actor()
 
     def beliefs(self, episode: base.Episode) -> np.ndarray:
-        """Raises ValueError: the best possible beliefs are not known."""
-        raise ValueError("beliefs are known where there is neither noise nor variation")
+        """Raises ValueError: the best possible beliefs are unknown."""
+        raise ValueError("exact beliefs are only known without noise and variation")
 
     def judge(self, episode: base.Episode) -> base.Judgement:
         """Raises ValueError, as `beliefs` does."""
-        raise ValueError("what actions are worth is known where there is neither noise nor variation")
+        raise ValueError("exact values of actions are only known without noise and variation")
 
     def figures(self) -> dict[str, Any]:
-        """Returns what `base.figures` does."""
+        """Returns the statistics of `base.figures`."""
         rewards, lengths = self._episodes
         return base.figures(self, lengths - 1, rewards > 0)
 
     def summary(self) -> dict[str, Any]:
-        """Returns the figures, and the standard errors of value and bound: `value_error`, `bound_error`."""
+        """Returns the statistics of `figures`, and the standard errors `value_error` and `bound_error`."""
         value_error = _standard_error(self._returns)
         bound_error = math.hypot(value_error, _standard_error(self._bounds)) if len(self._bounds) > 1 else 0.0
         return {**self.figures(), "value_error": value_error, "bound_error": bound_error}

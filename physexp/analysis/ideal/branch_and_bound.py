@@ -7,22 +7,24 @@ import math
 import numpy as np
 
 from physexp.analysis.ideal import base
-from physexp.analysis.ideal import situations as situations_lib
-from physexp.analysis.ideal.situations import Group, Situation
+from physexp.analysis.ideal import histories as histories_lib
+from physexp.analysis.ideal.histories import History, Support
 
 PRECISION = 1e-9
-_WIDTH = 4  # Actions looked into at a time.
+_WIDTH = 4  # Actions explored at a time.
+
+_State = tuple[History, Support, int]  # A history, the support of the belief, and the number of actions left.
 
 
 @dataclasses.dataclass(frozen=True)
-class Objective:
-    """What the search maximizes: a reward, discounted for each interaction before it.
+class Criterion:
+    """The expected value that the search maximizes.
 
     Attributes:
       discount: for each interaction.
       cost: of each interaction.
-      known: what an answer is worth when the right label is known.
-      guesses: whether an answer may be given before, for 2 P - 1, P being the probability that it is right.
+      known: value of an answer when the right label is known.
+      guesses: whether the policy may answer before, for 2 P - 1, P being the probability that the answer is right.
     """
 
     discount: float
@@ -30,156 +32,146 @@ class Objective:
     known: float
     guesses: bool
 
-    def answer(self, chance: float) -> float:
-        """Returns what it is worth to give an answer that is right with this probability."""
-        if chance > 1 - PRECISION:
+    def answer(self, probability: float) -> float:
+        """Returns the value of an answer that is right with some probability."""
+        if probability > 1 - PRECISION:
             return self.known
-        return base.worth_of_answers(chance) if self.guesses else -math.inf
+        return base.worth_of_answers(probability) if self.guesses else -math.inf
 
     def act(self, value: float) -> float:
-        """Returns what an interaction is worth after which this value is expected."""
+        """Returns the value of an interaction, given the expected value after it."""
         return self.discount * value - self.cost
 
 
 @dataclasses.dataclass(frozen=True)
 class Node:
-    """A decision: an action and what follows each of its outcomes, or an answer.
+    """A decision: an interaction and the decisions after each of its outcomes, or an answer.
 
     Attributes:
-      group: the hypotheses that are possible.
-      action: the interaction action, or None to answer.
+      support: the possible hypotheses.
+      action: the interaction, or None to answer.
       label: the label to answer with.
-      seen: what each of them shows after the action, arrays [size of the group, ...]; None for an answer.
-      children: what to do next, for each hypothesis of the group.
+      expected: the observations after the interaction for each of them, arrays [size of the support, ...]; None for an
+        answer.
+      children: the next decision, for each hypothesis of the support.
     """
 
-    group: Group
+    support: Support
     action: int | None
     label: int
-    seen: Mapping[str, np.ndarray] | None = None
+    expected: Mapping[str, np.ndarray] | None = None
     children: Mapping[int, "Node"] = dataclasses.field(default_factory=dict)
 
 
 class Search:
-    """The search, over situations and the groups of hypotheses that each leaves together.
+    """The search, over histories and the supports that each may leave.
 
-    Where it starts, and how much time is left there, can be chosen; what has been found out is used again.
+    It can start anywhere, with any number of actions left; later searches use the results of earlier ones.
 
     Attributes:
-      situations: what actions lead to.
+      histories: the tree of sequences of interactions.
     """
 
-    def __init__(self, objective: Objective, situations: situations_lib.Situations):
-        """Starts with nothing found out.
-
-        Args:
-          objective: what is to be as large as possible.
-          situations: what actions lead to.
-        """
-        self._objective, self.situations = objective, situations
-        self._hypotheses = situations.hypotheses
+    def __init__(self, criterion: Criterion, histories: histories_lib.Histories):
+        self._criterion, self.histories = criterion, histories
+        self._hypotheses = histories.hypotheses
         self._actions = range(self._hypotheses.task.num_interactions)
-        self._closed: dict[tuple[Situation, Group, int], tuple[float, float]] = {}  # Where the bounds have met.
-        self._open: dict[tuple[Situation, Group, int], tuple[float, float]] = {}  # Elsewhere, by what is known so far.
-        self._known = 0  # How many situations that is.
+        self._closed: dict[_State, tuple[float, float]] = {}  # Bounds that have met.
+        self._open: dict[_State, tuple[float, float]] = {}  # Other bounds; they change when histories are added.
+        self._count = 0  # The number of histories that these bounds use.
 
     def run(
-        self, situation: Situation, group: Group, left: int, max_depth: float = math.inf, max_steps: float = math.inf
+        self, history: History, support: Support, left: int, max_depth: float = math.inf, max_steps: float = math.inf
     ) -> tuple[float, float]:
-        """Searches until the bounds meet or so many steps have been simulated.
+        """Searches until the bounds meet, or the limits are reached; returns the bounds.
 
         Args:
-          situation, group: where to start, and what is possible there.
-          left: actions left in the episode, the answer included.
-          max_depth: longest sequences of actions looked at.
+          history, support: the start of the search.
+          left: actions left in the episode, including the answer.
+          max_depth: longest sequences of interactions to try.
           max_steps: control steps that may be simulated.
-
-        Returns:
-          What is earned from there at least and at most.
         """
         end = self._hypotheses.steps + max_steps
         while True:
-            if self._known != self.situations.count:
+            if self._count != self.histories.count:
                 self._open.clear()
-                self._known = self.situations.count
-            low, high = self._bounds(situation, group, left)
+                self._count = self.histories.count
+            low, high = self._bounds(history, support, left)
             if high - low < PRECISION:
                 return low, high
-            passed: dict[tuple[Situation, Group, int], bool] = {}
-            self._collect(situation, group, left, left - max_depth, passed)
-            leaves = dict.fromkeys(leaf for (leaf, _, _), is_leaf in passed.items() if is_leaf)
+            visited: dict[_State, bool] = {}
+            self._collect(history, support, left, left - max_depth, visited)
+            leaves = dict.fromkeys(leaf for (leaf, _, _), is_leaf in visited.items() if is_leaf)
             if not leaves or self._hypotheses.steps >= end:
                 return low, high
             for leaf in leaves:
-                self.situations.expand(leaf)
+                self.histories.expand(leaf)
 
-    def acting(self, situation: Situation, group: Group, left: int, action: int) -> tuple[float, float]:
-        """Returns the lower and the upper bound on the worth of an interaction that follow from the search so far."""
+    def bounds_of(self, history: History, support: Support, left: int, action: int) -> tuple[float, float]:
+        """Returns the bounds on the value of an interaction that follow from the search so far."""
         low = high = 0.0
-        parts, following = self.situations.follow(situation, group, action)
-        for chance, part in parts:
-            least, most = self._bounds(following.like, part, left - 1)
-            low, high = low + chance * least, high + chance * most
-        return self._objective.act(low), self._objective.act(high)
+        partition, following = self.histories.successor(history, support, action)
+        for probability, part in partition:
+            part_low, part_high = self._bounds(following.representative, part, left - 1)
+            low, high = low + probability * part_low, high + probability * part_high
+        return self._criterion.act(low), self._criterion.act(high)
 
-    def policy(self, situation: Situation, group: Group, left: int) -> Node:
+    def policy(self, history: History, support: Support, left: int) -> Node:
         """Returns the policy that earns the lower bound."""
-        label, answer = int(self.situations.chances(group).argmax()), self._answer(group)
-        if left == 1 or answer == self._objective.known or not self.situations.is_expanded(situation):
-            return Node(group, None, label)
-        lows = [self.acting(situation, group, left, action)[0] for action in self._actions]
+        label, answer = int(self.histories.probabilities(support).argmax()), self._answer(support)
+        if left == 1 or answer == self._criterion.known or not self.histories.is_expanded(history):
+            return Node(support, None, label)
+        lows = [self.bounds_of(history, support, left, action)[0] for action in self._actions]
         action = int(np.argmax(lows))
         if answer >= lows[action]:
-            return Node(group, None, label)
+            return Node(support, None, label)
         children: dict[int, Node] = {}
-        parts, following = self.situations.follow(situation, group, action)
-        for _, part in parts:
+        partition, following = self.histories.successor(history, support, action)
+        for _, part in partition:
             children |= dict.fromkeys(part, self.policy(following, part, left - 1))
-        seen = self._hypotheses.observe(situation.moment, group, action)
-        return Node(group, action, label, seen, children)
+        expected = self._hypotheses.observe(history.snapshot, support, action)
+        return Node(support, action, label, expected, children)
 
-    def _answer(self, group) -> float:
-        """Returns what it is worth to answer now."""
-        return self._objective.answer(self.situations.likeliest(group))
+    def _answer(self, support) -> float:
+        return self._criterion.answer(self.histories.max_probability(support))
 
-    def _bounds(self, situation, group, left) -> tuple[float, float]:
-        """Returns what is earned at least and at most from a group, with so many actions left."""
-        key = situation, group, left
-        if key in self._closed:
-            return self._closed[key]
-        if key not in self._open:
-            low, high = self._find_bounds(situation, group, left)
-            (self._closed if high - low < PRECISION else self._open)[key] = low, high
+    def _bounds(self, history, support, left) -> tuple[float, float]:
+        state = history, support, left
+        if state in self._closed:
+            return self._closed[state]
+        if state not in self._open:
+            low, high = self._find_bounds(history, support, left)
+            (self._closed if high - low < PRECISION else self._open)[state] = low, high
             return low, high
-        return self._open[key]
+        return self._open[state]
 
-    def _find_bounds(self, situation, group, left) -> tuple[float, float]:
-        answer, hope = self._answer(group), self._objective.act(self._objective.known)
-        if answer == self._objective.known or left == 1:  # The last action in time is the answer.
+    def _find_bounds(self, history, support, left) -> tuple[float, float]:
+        answer, hope = self._answer(support), self._criterion.act(self._criterion.known)
+        if answer == self._criterion.known or left == 1:  # The last action before the time limit is the answer.
             return answer, answer
-        if not self.situations.is_expanded(situation):
+        if not self.histories.is_expanded(history):
             return answer, max(answer, hope)
-        values = [self.acting(situation, group, left, action) for action in self._actions]
+        values = [self.bounds_of(history, support, left, action) for action in self._actions]
         return max(answer, *(low for low, _ in values)), max(answer, *(high for _, high in values))
 
-    def _collect(self, situation, group, left, least_left, passed) -> None:
-        """Goes where the most promising actions lead, and finds out what to look beyond.
+    def _collect(self, history, support, left, min_left, visited) -> None:
+        """Visits the states that the most promising actions lead to.
 
         Args:
-          situation, group, left: where to start.
-          least_left: how many actions are left where nothing is looked at any more.
-          passed: where it has been, and whether that is to be looked beyond; written to.
+          history, support, left: the state to start from.
+          min_left: number of actions left at which the search stops.
+          visited: written to: the visited states, and whether their histories should be expanded.
         """
-        low, high = self._bounds(situation, group, left)
-        if left == 1 or high - low < PRECISION or (situation, group, left) in passed:
+        low, high = self._bounds(history, support, left)
+        if left == 1 or high - low < PRECISION or (history, support, left) in visited:
             return
-        is_expanded = self.situations.is_expanded(situation)
-        passed[situation, group, left] = not is_expanded and left > least_left
+        is_expanded = self.histories.is_expanded(history)
+        visited[history, support, left] = not is_expanded and left > min_left
         if not is_expanded:
             return
-        highs = [self.acting(situation, group, left, action)[1] for action in self._actions]
+        highs = [self.bounds_of(history, support, left, action)[1] for action in self._actions]
         for action in np.argsort([-value for value in highs], kind="stable")[:_WIDTH]:
             if highs[action] > low + PRECISION:
-                parts, following = self.situations.follow(situation, group, int(action))
-                for _, part in parts:
-                    self._collect(following.like, part, left - 1, least_left, passed)
+                partition, following = self.histories.successor(history, support, int(action))
+                for _, part in partition:
+                    self._collect(following.representative, part, left - 1, min_left, visited)

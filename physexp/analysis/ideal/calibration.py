@@ -1,4 +1,4 @@
-"""From a reading to what is hidden: interacts with things of known values and inverts what it reads."""
+"""Calibration: the readings of things with known hidden values, and their inverse."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -12,9 +12,9 @@ _NODES = 513
 
 
 class Responses:
-    """What is read of a thing of each of many values after it was touched at some steps; simulated when first asked.
+    """Readings of a thing for each of G hidden values, after it was touched at some steps; simulated when needed.
 
-    Interaction k acts on thing k, of which the feature's component k tells; all things are alike.
+    Interaction k acts on thing k, and component k of the feature shows it; all things have the same physics.
     """
 
     def __init__(
@@ -37,7 +37,7 @@ class Responses:
         """Returns the reading for each of `values`, float64 [G].
 
         Args:
-          touched: for each step since the thing was touched first, whether it was.
+          touched: for each step since the first touch, whether the thing was touched.
         """
         if touched not in self._found:
             self._batch.reset(hidden=self._hidden)
@@ -51,9 +51,9 @@ class Responses:
 def calibrate(
     domain_name: str, task_name: str, feature: str, task_kwargs: Mapping[str, Any] | None = None
 ) -> Callable[[Mapping[str, np.ndarray], int], float]:
-    """Returns how to read a thing's hidden value from the observation after one interaction with it.
+    """Returns a function that reads a thing's hidden value from the observation after one interaction with it.
 
-    Interaction k acts on thing k, of which the feature's component k tells; all things are alike.
+    Interaction k acts on thing k, and component k of the feature shows it; all things have the same physics.
 
     Args:
       domain_name, task_name, task_kwargs: as for `suite.load`; the hidden property is K values in [0, 1].
@@ -63,7 +63,7 @@ def calibrate(
       A function of an observation and an interaction, to the value in (0, 1).
 
     Raises:
-      ValueError: if different values are read as the same.
+      ValueError: if different values give the same reading.
     """
     values = np.linspace(0, 1, _NODES)
     responses = Responses(domain_name, task_name, feature, task_kwargs or {}, values)

@@ -1,4 +1,4 @@
-"""Finitely many hypotheses about what is hidden, simulated side by side."""
+"""Finitely many hypotheses about the hidden property, simulated side by side."""
 
 from collections.abc import Mapping, Sequence
 import dataclasses
@@ -10,17 +10,17 @@ import numpy as np
 from physexp import suite
 from physexp.suite.engine import contract, declarations, snapshots
 
-_NUM_THREADS = 2  # That simulate.
+_NUM_THREADS = 2  # For simulations.
 
 
 class Hypotheses:
-    """H hypotheses about what is hidden, each with a simulation of its own for each interaction.
+    """H hypotheses about the hidden property, each with a simulation for each interaction.
 
-    Physics is deterministic: a hypothesis and a sequence of actions make one trajectory.
+    Physics is deterministic: a hypothesis and a sequence of interactions determine one trajectory.
 
     Attributes:
       task: the task that is played.
-      hidden: the hypotheses: all values that the hidden property can have, [H, ...].
+      hidden: the hypotheses: all values of the hidden property, [H, ...].
       prior: their probabilities, float64 [H].
       answers: the right label of each, int64 [H].
       steps: control steps simulated so far.
@@ -42,12 +42,9 @@ class Hypotheses:
         Args:
           domain_name, task_name, task_kwargs: as for `suite.load`.
           hidden, prior: as above.
-          nuisances: what the episode differs in beside, [number of nuisances], where the task has variation.
-          read_as: a task of the domain with the same physics, whose readings tell apart what this task's images do: it
-            is simulated in its place, without drawing.
-
-        Raises:
-          ValueError: for an unknown name or a bad keyword argument.
+          nuisances: the values of the random variation, [number of nuisances], for tasks with variation.
+          read_as: a task of the domain with the same physics, whose readings distinguish the same hypotheses as this
+            task's images. It is simulated instead, without drawing.
         """
         options = {**(task_kwargs or {}), "random": 0}
         self.task = suite.load_task(domain_name, task_name, options)
@@ -59,57 +56,58 @@ class Hypotheses:
 
     @functools.cached_property
     def start(self) -> snapshots.Snapshot:
-        """Where the hypotheses stand before the first action."""
-        return self._moment(range(len(self.hidden)))
+        """The states of all hypotheses before the first interaction."""
+        return self._snapshot(range(len(self.hidden)))
 
     def step(
-        self, moment: snapshots.Snapshot, members: Sequence[int], actions: Sequence[int]
+        self, snapshot: snapshots.Snapshot, members: Sequence[int], actions: Sequence[int]
     ) -> list[tuple[np.ndarray, snapshots.Snapshot]]:
-        """Tries interactions, each from the same moment.
+        """Tries interactions, each from the same states.
 
         Args:
-          moment: where some hypotheses stand, as `start` or this method returned it.
-          members: those that act, indices in increasing order, n of them.
+          snapshot: states of some hypotheses, as returned by `start` or this method.
+          members: the hypotheses that act, n indices in increasing order.
           actions: the interactions.
 
         Returns:
-          For each action, how far apart they look after it, float64 [n, n], as `distances` has it, and where they
-          stand.
+          For each action, the distances between the observations after it, float64 [n, n] (see `distances`), and the
+          states after it.
         """
-        seen, size = self._step(self._reading, moment, members, actions), len(members)
-        found = []
+        observed, size = self._step(self._reading, snapshot, members, actions), len(members)
+        outcomes = []
         for number in range(len(actions)):
             rows = slice(number * size, (number + 1) * size)
-            these = {name: values[rows] for name, values in seen.items()}
-            apart = distances(these, these, self._read.readings)
-            found.append((apart, self._moment(members, number)))
-        return found
+            these = {name: values[rows] for name, values in observed.items()}
+            outcomes.append((distances(these, these, self._read.readings), self._snapshot(members, number)))
+        return outcomes
 
-    def _moment(self, members: Sequence[int], copy: int = 0) -> snapshots.Snapshot:
-        """Returns where hypotheses stand in one of their simulations."""
-        saved = snapshots.take(self._reading, copy * len(self.hidden) + np.asarray(members))
-        return dataclasses.replace(saved, environments=np.asarray(members))
+    def observe(self, snapshot: snapshots.Snapshot, members: Sequence[int], action: int) -> Mapping[str, np.ndarray]:
+        """Returns the observations after an interaction, arrays [n, ...]; arguments as for `step`."""
+        return self._step(self._observing, dataclasses.replace(snapshot, observed={}), members, [action])
 
-    def observe(self, moment: snapshots.Snapshot, members: Sequence[int], action: int) -> Mapping[str, np.ndarray]:
-        """Returns what is observed after an interaction, arrays with a leading axis [n]; arguments as for `step`."""
-        return self._step(self._observing, dataclasses.replace(moment, observed={}), members, [action])
+    def nearest(self, observation: Mapping[str, np.ndarray], expected: Mapping[str, np.ndarray]) -> int:
+        """Returns the index of the expected observation, of arrays [n, ...], that is nearest to an observation."""
+        one = {name: values[None] for name, values in observation.items()}
+        return int(distances(one, expected, self.task.readings)[0].argmin())
 
-    def _step(self, environments: suite.BatchEnvironment, moment, members, actions) -> Mapping[str, np.ndarray]:
-        """Returns what is observed after each of the actions, arrays with a leading axis [number of them * n]."""
+    def _snapshot(self, members: Sequence[int], copy: int = 0) -> snapshots.Snapshot:
+        """Returns the states of hypotheses in one of their simulations."""
+        found = snapshots.take(self._reading, copy * len(self.hidden) + np.asarray(members))
+        return dataclasses.replace(found, environments=np.asarray(members))
+
+    def _step(self, environments: suite.BatchEnvironment, snapshot, members, actions) -> Mapping[str, np.ndarray]:
+        """Returns the observations after each of the actions, arrays [number of actions * n, ...]."""
         size = len(self.hidden)
-        # However long an episode was, its time does not run out here.
-        snapshots.restore(environments, moment.with_step_count(0).repeated(len(actions), size))
+        # With a step count of 0 the time limit never ends an episode here.
+        snapshots.restore(environments, snapshot.with_step_count(0).repeated(len(actions), size))
         acting = (size * np.arange(len(actions))[:, None] + np.asarray(members)).ravel()
         timestep = environments.step(np.repeat(actions, len(members)), acting)
         self.steps += len(acting)
         if environments.num_divergences:
-            raise RuntimeError("the simulation diverged; nothing can be said about what can be told apart")
+            raise RuntimeError(
+                "the simulation diverged, so hypotheses cannot be compared; use a shorter control_timestep"
+            )
         return timestep.observation
-
-    def nearest(self, observation: Mapping[str, np.ndarray], seen: Mapping[str, np.ndarray]) -> int:
-        """Returns which of what was seen, arrays [n, ...], is nearest to an observation."""
-        one = {name: values[None] for name, values in observation.items()}
-        return int(distances(one, seen, self.task.readings)[0].argmin())
 
     @functools.cached_property
     def _reading(self) -> suite.BatchEnvironment:
@@ -129,19 +127,19 @@ class Hypotheses:
 
 
 def distances(
-    seen: Mapping[str, np.ndarray], others: Mapping[str, np.ndarray], readings: Mapping[str, declarations.Reading]
+    observed: Mapping[str, np.ndarray], others: Mapping[str, np.ndarray], readings: Mapping[str, declarations.Reading]
 ) -> np.ndarray:
-    """Returns how far each of what was seen is from each of others, [N, M].
+    """Returns the distances between N and M observations, [N, M].
 
-    Features: the largest distance between what was read of the same thing, in the reading's unit. Images: how many
-    pixels differ.
+    Features: the largest distance between two readings of one thing, in the reading's unit. Images: the number of
+    pixels that differ.
 
     Args:
-      seen, others: arrays by name, [N, ...] and [M, ...].
-      readings: the task's; what is not among them is an image.
+      observed, others: arrays by name, [N, ...] and [M, ...].
+      readings: the task's; arrays with other names are images.
     """
     found = []
-    for name, values in seen.items():
+    for name, values in observed.items():
         theirs = others[name]
         if name in readings:
             points, their_points = (

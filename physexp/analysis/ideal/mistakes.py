@@ -1,7 +1,8 @@
-"""What actions cost against the ideal experimenter, by kind of mistake (docs/ideal.md).
+"""Costs of actions against the ideal experimenter, by kind of mistake (docs/ideal.md).
 
-With V what was known before an action is worth, and Q the action, an action costs V - Q. What an episode returned is
-the ideal's value, minus what its actions cost, plus luck, all discounted; and luck is 0 on average, whatever is done.
+With V the value of the information state before an action, and Q the value of the action, an action costs V - Q. The
+return of an episode is the ideal's value, minus the costs of its actions, plus luck, all discounted. Luck is 0 on
+average for every policy.
 """
 
 from collections.abc import Mapping, Sequence
@@ -12,26 +13,26 @@ import numpy as np
 from physexp.analysis.ideal import base
 
 KINDS: Mapping[str, str] = {
-    "uninformative": "an interaction that could tell nothing new, where another one was best",
-    "inferior": "an interaction that could tell something, where another one was best",
-    "late": "an interaction where answering was best",
-    "early": "an answer where an interaction was best",
-    "wrong": "another answer than the likeliest",
-    "silence": "an interaction in place of the last answer in time",
+    "uninformative": "an interaction that could reveal nothing new, when another one was best",
+    "inferior": "an interaction that could reveal something, when another one was best",
+    "late": "an interaction when answering was best",
+    "early": "an answer when an interaction was best",
+    "wrong": "an answer other than the likeliest",
+    "silence": "an interaction in the last step, instead of an answer",
 }
-"""The kinds of mistakes, in words."""
+"""The kinds of mistakes, and their descriptions."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Actions:
-    """N actions, of any number of episodes, and what the ideal experimenter says of them.
+    """The judgement of N actions, from any number of episodes.
 
     Attributes:
-      value: V, what was known before each action is worth, float64 [N].
-      worth: Q, what the action was worth, float64 [N].
-      answering: what the best answer was worth, float64 [N].
-      tells: whether the action could change what is known of the label, bool [N].
-      bits: by how much the entropy of the belief fell, float64 [N].
+      value: V, the value before each action, float64 [N].
+      worth: Q, the value of the action, float64 [N].
+      answering: the value of the best answer, float64 [N].
+      tells: whether the action could change the belief, bool [N].
+      bits: decrease of the entropy of the belief, float64 [N].
     """
 
     value: np.ndarray
@@ -42,13 +43,13 @@ class Actions:
 
 
 def actions(judgement: base.Judgement, taken: np.ndarray) -> Actions:
-    """Returns what a judgement says of the actions of an episode, int64 [T]."""
+    """Returns the judgement of the actions that were taken in an episode, int64 [T]."""
     num_labels = judgement.beliefs.shape[1]
     return Actions(
         value=judgement.values.max(axis=1),
         worth=judgement.values[np.arange(len(taken)), taken],
         answering=judgement.values[:, -num_labels:].max(axis=1),
-        tells=judgement.tells,
+        tells=judgement.is_informative,
         bits=information(judgement.beliefs),
     )
 
@@ -56,10 +57,10 @@ def actions(judgement: base.Judgement, taken: np.ndarray) -> Actions:
 def of_episodes(
     judged: Sequence[base.Judgement], taken: Sequence[np.ndarray], discount: float
 ) -> dict[str, np.ndarray]:
-    """Returns what the mistakes of episodes cost, discounted, by kind, float64 [N] each.
+    """Returns the discounted costs of the mistakes in N episodes, by kind, float64 [N] each.
 
     Args:
-      judged: the episodes, N.
+      judged: the judgements of the episodes.
       taken: their actions, N arrays int64 [T].
       discount: gamma.
     """
@@ -74,7 +75,7 @@ def of_episodes(
         value=values.max(axis=1),
         worth=values[rows, chosen],
         answering=values[:, num_interactions:].max(axis=1),
-        tells=np.concatenate([judgement.tells for judgement in judged]),
+        tells=np.concatenate([judgement.is_informative for judgement in judged]),
         bits=np.delete(bits, between),
     )
     found = costs(together, chosen >= num_interactions, np.isin(rows, ends - 1))
@@ -83,17 +84,17 @@ def of_episodes(
 
 
 def information(beliefs: np.ndarray) -> np.ndarray:
-    """Returns by how many bits the entropy of beliefs, [T + 1, L], falls with each of T actions, float64 [T]."""
+    """Returns the decrease of the entropy of beliefs, [T + 1, L], with each of T actions, bits, float64 [T]."""
     return np.diff(np.sum(beliefs * np.log2(beliefs.clip(1e-300)), axis=1))
 
 
 def costs(judged: Actions, are_answers: np.ndarray, are_last: np.ndarray) -> dict[str, np.ndarray]:
-    """Returns what actions cost, by kind, float64 [N] each; together V - Q.
+    """Returns the costs of actions by kind, float64 [N] each; their sum is V - Q.
 
     Args:
       judged: the actions.
-      are_answers: which are answers, bool [N].
-      are_last: which ended an episode, bool [N].
+      are_answers: whether they are answers, bool [N].
+      are_last: whether they ended an episode, bool [N].
     """
     cost = judged.value - judged.worth
     are_silent, goes_on = ~are_answers & are_last, ~are_answers & ~are_last

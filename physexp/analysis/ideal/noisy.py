@@ -1,8 +1,9 @@
-"""An experimenter of K things of which one is different, who reads noisily what touches show: a policy, for a bound.
+"""A policy for K things with one odd one out and noisy readings, as a lower bound.
 
-Things are alike and do not disturb each other, so that what is read of one tells of its own value alone. Its belief is
-exact (Bayes' rule, on a grid of values): all readings count, those of things that still move too. It looks one touch
-ahead (the value of information; Howard, 1966), and expects of what is unknown what one expects who reads exactly.
+Things have the same physics and do not disturb each other, so a reading of one thing depends on its own value alone.
+The belief is exact (Bayes' rule on a grid of values) and uses all readings, also of things that still move. The policy
+looks one touch ahead (the value of information; Howard, 1966). It values untouched things as if they were read without
+noise.
 """
 
 from collections.abc import Callable, Mapping
@@ -18,23 +19,23 @@ from physexp.analysis.ideal import base, bounds, calibration, odd_one_out
 from physexp.suite.engine import priors
 
 _NODES = 257  # Of the values.
-_OUTCOMES = 32  # Of a touch, that are thought of; drawn evenly (Sobol).
-_MOST_TOUCHES = 12  # Then it answers, or puts it off.
+_OUTCOMES = 32  # Of a touch, to average over; drawn evenly (Sobol).
+_MAX_TOUCHES = 12  # Then it answers, or waits for the last step.
 
 
 def posterior(likelihoods: np.ndarray, values: np.ndarray, prior: priors.OddOneOut) -> tuple[np.ndarray, np.ndarray]:
-    """Returns how likely each thing is to have the largest value, and how likely its values are.
+    """Returns the probability of each thing to have the largest value, and the distributions of the values.
 
     Args:
-      likelihoods: of what was read of each thing, for each value, up to a factor for each thing; float64 [N, K, G].
+      likelihoods: of the readings of each thing, for each value, up to a factor for each thing; float64 [N, K, G].
       values: the middles of G equal parts of [0, 1].
-      prior: of the values.
+      prior: distribution of the values.
 
     Returns:
-      Probabilities, float64 [N, K] and [N, K, G]. Values in one part are as likely in either order.
+      Probabilities, float64 [N, K] and [N, K, G]. Of two values in one part, either is as likely to be the larger one.
     """
     edges = np.linspace(0, 1, len(values) + 1)
-    # Nothing is impossible, so that what is read is possible somewhere.
+    # Every part has a positive probability, so that every reading is possible.
     chances = (np.diff(cdf(edges)) + np.finfo(float).tiny for cdf in (prior.common_cdf, prior.odd_cdf))
     common, odd = (chance * likelihoods for chance in chances)
     of_common, of_odd = common.sum(-1, keepdims=True), odd.sum(-1, keepdims=True)
@@ -56,7 +57,7 @@ def posterior(likelihoods: np.ndarray, values: np.ndarray, prior: priors.OddOneO
 def players(
     exact: odd_one_out.Solution, domain_name: str, task_name: str, feature: str, task_kwargs: Mapping[str, Any]
 ) -> Callable[[], core.Actor]:
-    """Returns what makes actors that play the policy, which simulate together.
+    """Returns a function that makes actors for the policy; they share their simulations.
 
     Args:
       exact: the ideal experimenter of the task without noise.
@@ -69,7 +70,7 @@ def players(
 
 
 class Player(core.EpisodicActor):
-    """Plays the policy; what it has of an episode is what was read of each thing, and when it was touched."""
+    """Plays the policy; its state is the likelihood of the readings of each thing, and the steps of its touches."""
 
     def __init__(self, exact: odd_one_out.Solution, responses: calibration.Responses, noise: float):
         self._exact, self._responses, self._noise = exact, responses, noise
@@ -78,7 +79,7 @@ class Player(core.EpisodicActor):
         self._levels, self._errors = draws[:, 0], noise * special.ndtri(draws[:, 1])
 
     def beliefs(self) -> np.ndarray:
-        """Returns how likely each thing is to have the largest value, float64 [K]."""
+        """Returns the probability of each thing to have the largest value, float64 [K]."""
         return self._posterior(self._logs[None])[0][0]
 
     def _begin(self, timestep):
@@ -90,25 +91,25 @@ class Player(core.EpisodicActor):
         beliefs, densities = self._posterior(self._logs[None])
         answer, label = base.worth_of_answers(beliefs[0].max()), self._prior.num_things + int(beliefs[0].argmax())
         left = self._exact.step_limit - self._num_touches
-        last = self._exact.discount ** (left - 1) * answer  # The worth of the answer in the last step.
-        if left == 1 or self._num_touches >= _MOST_TOUCHES:
+        last = self._exact.discount ** (left - 1) * answer  # Value of answering in the last step.
+        if left == 1 or self._num_touches >= _MAX_TOUCHES:
             return label if left == 1 or answer >= last else 0
         means = densities[0] @ self._responses.values
         unknown = [k for k, touched in enumerate(self._touched) if not touched]
         means[unknown] = np.nan
         if unknown and self._exact.values(means[None], left)[1][0] > answer:
             return unknown[0]
-        candidates = [k for k in range(self._prior.num_things) if k not in unknown[1:]]  # Unknown ones are alike.
-        worths = [self._worth_of_touching(k, densities[0, k]) for k in candidates]
-        best = int(np.argmax(worths))
-        return candidates[best] if max(worths[best], last) > answer else label
+        candidates = [k for k in range(self._prior.num_things) if k not in unknown[1:]]  # Untouched ones are equal.
+        values = [self._value_of_touching(k, densities[0, k]) for k in candidates]
+        best = int(np.argmax(values))
+        return candidates[best] if max(values[best], last) > answer else label
 
     def _note(self, action, next_timestep):
         if action >= self._prior.num_things or next_timestep.last():
             return
         self._num_touches += 1
-        if self._num_touches > _MOST_TOUCHES:
-            return  # It puts the answer off, for good or until it guesses.
+        if self._num_touches > _MAX_TOUCHES:
+            return  # From here on it only waits.
         read = next_timestep.observation[self._responses.feature]
         for k, touched in enumerate(self._touched):
             if touched or k == action:
@@ -116,14 +117,14 @@ class Player(core.EpisodicActor):
                 self._logs[k] += self._log_likelihoods(read[k], self._touched[k])
 
     def _log_likelihoods(self, read, touched: tuple[bool, ...]) -> np.ndarray:
-        """Returns them for each of the values, up to a constant: [G], or [N, G] of readings [N, 1]."""
+        """Returns the log-likelihoods of the values, up to a constant: [G], or [N, G] for readings [N, 1]."""
         return -0.5 * ((read - self._responses.after(touched)) / self._noise) ** 2
 
     def _posterior(self, logs: np.ndarray):
         return posterior(np.exp(logs - logs.max(-1, keepdims=True)), self._responses.values, self._prior)
 
-    def _worth_of_touching(self, thing: int, density: np.ndarray) -> float:
-        """Returns what it earns to touch a thing once more and to answer then."""
+    def _value_of_touching(self, thing: int, density: np.ndarray) -> float:
+        """Returns the expected return of touching a thing once more and answering then."""
         touched = (*self._touched[thing], True)
         nodes = np.searchsorted(density.cumsum(), self._levels).clip(max=_NODES - 1)
         read = self._responses.after(touched)[nodes] + self._errors

@@ -1,8 +1,8 @@
-"""The ideal experimenter of K things of which one is different, when one touch of a thing reveals its value.
+"""The ideal experimenter of K things with one odd one out, when one touch of a thing reveals its value.
 
-The theory is in docs/ideal.md. Two numbers hold all that is known after some touches: the largest value M found, and
-t, the sum of the likelihood ratios r(m) (odd one's density over a common one's) of the values found, over r(M). The
-worth of states is computed backwards from the last touch, on a grid.
+The theory is in docs/ideal.md. Two numbers are a sufficient statistic of the values found: the largest, M, and t, the
+sum of the likelihood ratios r(m) (odd one's density over a common one's) of all values found, divided by r(M). The
+values of states are computed backwards from the last touch, on a grid.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -20,30 +20,30 @@ from physexp.analysis.ideal import base
 from physexp.suite.engine import priors, rules
 
 _LARGEST_NODES, _RATIO_NODES = 400, 33
-_QUADRATURE_NODES = 48  # Per half of each density; many more where there is only one state to integrate from.
-_EPISODES = 2**17  # Of the histogram; drawn evenly (Sobol), so that its error is far below 0.001.
-_NEGLIGIBLE = 1e-9  # Of a return.
+_QUADRATURE_NODES = 48  # For each half of a density; 16 times as many for the first touch.
+_EPISODES = 2**17  # For the histogram; drawn evenly (Sobol), so that its error is far below 0.001.
+_NEGLIGIBLE = 1e-9  # Part of a return.
 _EASIEST = 1e6  # The largest difficulty for which the grid is exact enough.
 
 Read = Callable[[Mapping[str, np.ndarray], int], float]
-"""Reads the value of the thing that an interaction has touched from the observation after it."""
+"""Returns the value of the touched thing from the observation after an interaction."""
 
 
 def posterior(values: np.ndarray, prior: priors.OddOneOut) -> np.ndarray:
-    """Returns how likely each thing is to have the largest value, given the values of those that were touched.
+    """Returns the probability of each thing to have the largest value, given the values of the touched things.
 
     Args:
-      values: in [0, 1], NaN where a thing was not touched, float64 [N, K].
-      prior: of the values.
+      values: in [0, 1], NaN for untouched things, float64 [N, K].
+      prior: distribution of the values.
 
     Returns:
-      Probabilities, float64 [N, K]. Of the things touched only the largest can be it; unknown ones share the rest.
+      Probabilities, float64 [N, K]. Only the largest touched thing has one above 0; untouched things share the rest.
     """
     return _posterior(values, *_statistics(values, prior), prior)
 
 
 def _posterior(values, largest, log_weight, prior) -> np.ndarray:
-    """Returns the same, given the statistics of the values."""
+    """Returns the posterior, given the statistics of the values."""
     touched = ~np.isnan(values)
     unknown = (~touched).sum(axis=1)
     chance = np.where(touched.any(axis=1), _largest_is_touched(unknown, largest, log_weight, prior), 0.0)
@@ -55,7 +55,7 @@ def _posterior(values, largest, log_weight, prior) -> np.ndarray:
 
 
 def _statistics(values, prior) -> tuple[np.ndarray, np.ndarray]:
-    """Of the things touched: the largest value, and the logarithm of the sum of ratios; -inf where there is none."""
+    """Returns the largest value found, and the logarithm of the sum of ratios; -inf if no thing was touched."""
     known = np.where(np.isnan(values), -np.inf, values)
     ratios = np.where(np.isnan(values), -np.inf, prior.log_ratio(np.nan_to_num(values, nan=0.5)))
     return known.max(axis=1), special.logsumexp(ratios, axis=1)
@@ -64,8 +64,9 @@ def _statistics(values, prior) -> tuple[np.ndarray, np.ndarray]:
 def _largest_is_touched(unknown, largest, log_weight, prior):
     """Returns the probability that the largest value found is the largest of all.
 
-    The odd one is among those touched with probability W / (W + u), W being the sum of their ratios and u how many
-    things are unknown; then u common ones must have smaller values. Otherwise the odd one and u - 1 common ones must.
+    The odd one is among the touched things with probability W / (W + u), W being the sum of their ratios and u the
+    number of unknown things. In that case u common things must have smaller values; otherwise the odd one and u - 1
+    common ones.
     """
     value = np.clip(largest, 0, 1)
     with np.errstate(divide="ignore"):
@@ -78,12 +79,12 @@ def _largest_is_touched(unknown, largest, log_weight, prior):
 
 @dataclasses.dataclass(frozen=True)
 class Solution:
-    """The best policy and its value. It is solved when the worth of a touch is first needed.
+    """The best policy and its value, exact to better than 0.0001; solved when first needed.
 
     Attributes:
-      prior: distribution of the values.
+      prior: distribution of the values, of 2 to 20 things.
       discount: the agent's gamma.
-      step_limit: most actions in an episode, the answer included.
+      step_limit: maximum number of actions in an episode, including the answer.
       find_read: returns a function that reads values from observations; None for images.
     """
 
@@ -103,7 +104,7 @@ class Solution:
 
     @property
     def bound(self) -> float:
-        """Returns the upper bound, which is the value, since that is exact."""
+        """The upper bound, which is the value, since that is exact."""
         return self.value
 
     @property
@@ -123,25 +124,25 @@ class Solution:
         return max(self.at_once, float(touch(np.zeros((1, 2)))[0]))
 
     def values(self, known: np.ndarray, left: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Returns the worth of the best answer and that of one more touch of an unknown thing.
+        """Returns the values of the best answer and of one more touch of an unknown thing.
 
         Args:
-          known: the values that are known, as for `posterior`, [N, K].
-          left: number of actions left in the episode, at least 1; of each row, [N], or of all.
+          known: the values found, as for `posterior`, [N, K].
+          left: number of actions left in the episode, at least 1; one for each row, [N], or one for all.
 
         Returns:
-          Two float64 [N]; a touch is worth -inf if all things are known.
+          Two float64 [N]; the value of a touch is -inf if all things are known.
         """
         beliefs, touch = self._beliefs_and_touch(known, left)
         return base.worth_of_answers(beliefs.max(axis=1)), touch
 
     def _beliefs_and_touch(self, known: np.ndarray, left: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Returns the posterior, [N, K], and the worth of one more touch of an unknown thing, [N]."""
+        """Returns the posterior, [N, K], and the value of one more touch of an unknown thing, [N]."""
         largest, log_weight = _statistics(known, self.prior)
         touches = (~np.isnan(known)).sum(axis=1)
         num_things = self.prior.num_things
-        useful = np.minimum(left, num_things - touches + 1)  # An answer follows the last touch; more steps are no use.
-        touch = np.where(touches < num_things, float(rules.WRONG), -np.inf)  # Silence, in the last step.
+        useful = np.minimum(left, num_things - touches + 1)  # An answer follows the last touch.
+        touch = np.where(touches < num_things, float(rules.WRONG), -np.inf)  # In the last step: no answer in time.
         for number, steps in {*zip(touches.tolist(), useful.tolist(), strict=True)}:
             if number < num_things and steps > 1:
                 rows = (touches == number) & (useful == steps)
@@ -161,7 +162,7 @@ class Solution:
 
         Args:
           values: of the things, float64 [N, K].
-          read: the values that touches show, float64 [N, K]; by default those of the things.
+          read: the values that touches seem to reveal, float64 [N, K]; by default the true ones.
 
         Returns:
           Touches, int64 [N], and whether the answer was right, bool [N].
@@ -183,7 +184,7 @@ class Solution:
         """Returns an actor that reads values from observations.
 
         Raises:
-          ValueError: if they cannot be read from what the task observes.
+          ValueError: if the task observes images.
         """
         if self.find_read is None:
             raise ValueError("the ideal experimenter reads values from features, not from images; choose such a task")
@@ -194,11 +195,11 @@ class Solution:
         return self.judge(episode).beliefs
 
     def judge(self, episode: base.Episode) -> base.Judgement:
-        """Returns the beliefs in an episode, and the worth of its actions."""
+        """Returns the beliefs in an episode, and the values of its actions."""
         return self.judge_all(np.asarray(episode.hidden)[None], [episode.actions])[0]
 
     def judge_all(self, values: np.ndarray, actions: Sequence[np.ndarray]) -> list[base.Judgement]:
-        """Returns the same of N episodes, much faster than one after the other.
+        """Returns the judgements of N episodes, much faster than one after the other.
 
         Args:
           values: values of the things, float64 [N, K].
@@ -209,10 +210,10 @@ class Solution:
         ends = lengths.cumsum()
         rows = np.repeat(np.arange(len(lengths)), lengths)
         steps = np.arange(len(rows)) - np.repeat(ends - lengths, lengths)
-        taken = np.concatenate([np.append(row, num_things) for row in actions])  # None after the last one.
+        taken = np.concatenate([np.append(row, num_things) for row in actions])  # An answer at the end.
         touched_at = np.full(values.shape, len(rows))
-        moments = np.flatnonzero(taken < num_things)[::-1]  # Of several touches of a thing the first one is kept.
-        touched_at[rows[moments], taken[moments]] = steps[moments]
+        touching = np.flatnonzero(taken < num_things)[::-1]  # Backwards: the first touch of a thing is written last.
+        touched_at[rows[touching], taken[touching]] = steps[touching]
         is_known = steps[:, None] > touched_at[rows]
         known = np.where(is_known, values[rows], np.nan)
         left = np.maximum(self.step_limit - steps, 1)
@@ -220,23 +221,23 @@ class Solution:
         _, next_touch = self._beliefs_and_touch(known, np.maximum(left - 1, 1))
         again = self.discount * np.maximum(base.worth_of_answers(beliefs.max(axis=1)), next_touch)
         touches = np.where(is_known, again[:, None], touch[:, None])
-        touches[left == 1] = rules.WRONG  # Silence.
-        worth = np.concatenate([touches, base.worth_of_answers(beliefs)], axis=1)
-        tells = np.append(~is_known, np.zeros_like(is_known), axis=1)[np.arange(len(rows)), taken]
+        touches[left == 1] = rules.WRONG  # The episode ends unanswered.
+        values_of_actions = np.concatenate([touches, base.worth_of_answers(beliefs)], axis=1)
+        is_informative = np.append(~is_known, np.zeros_like(is_known), axis=1)[np.arange(len(rows)), taken]
         parts = [slice(start, end) for start, end in zip(ends - lengths, ends, strict=True)]
-        return [base.Judgement(beliefs[part], worth[part][:-1], tells[part][:-1]) for part in parts]
+        return [base.Judgement(beliefs[p], values_of_actions[p][:-1], is_informative[p][:-1]) for p in parts]
 
     def figures(self) -> dict[str, Any]:
-        """Returns what `base.figures` does."""
+        """Returns the statistics of `base.figures`."""
         return base.figures(self, *_evenly_drawn_episodes(self))
 
     def summary(self) -> dict[str, Any]:
-        """Returns the figures, `at_once` and `random_value`."""
+        """Returns the statistics of `figures`, `at_once` and `random_value`."""
         return {**self.figures(), "at_once": self.at_once, "random_value": self.random_value}
 
 
 class _Player(core.EpisodicActor):
-    """Plays a solution, with values that are read from observations."""
+    """Plays a solution with values read from observations."""
 
     def __init__(self, solution: Solution, read: Read):
         self._solution, self._read = solution, read
@@ -256,7 +257,7 @@ class _Player(core.EpisodicActor):
 
 @functools.lru_cache(maxsize=64)
 def _evenly_drawn_episodes(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
-    """Returns touches and success, as `Solution.play` does, of episodes whose values are spread evenly."""
+    """Returns touches and success, as `Solution.play` does, in evenly drawn episodes."""
     draws = qmc.Sobol(solution.prior.num_things + 1, rng=0).random(_EPISODES).clip(1e-12, 1 - 1e-12)
     return solution.play(solution.prior.from_uniforms(draws))
 
@@ -265,19 +266,19 @@ def _evenly_drawn_episodes(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
 def _touch(
     prior: priors.OddOneOut, discount: float, known: int, left: float, at_random: bool = False
 ) -> Callable[[np.ndarray], np.ndarray]:
-    """Returns the worth of one more touch, as a function of states, points [N, 2] of (largest value found, t).
+    """Returns the value of one more touch, as a function of states, points [N, 2] of (largest value found, t).
 
     Args:
       prior, discount: as in `Solution`.
-      known: number of things known, less than all.
+      known: number of known things, fewer than all.
       left: number of actions left, at least 2.
-      at_random: whether all touches are drawn uniformly, of known things too, instead of touching an unknown one.
+      at_random: whether touches are drawn uniformly among all things, instead of touching an unknown one.
     """
     num_things = prior.num_things
-    again = known / num_things if at_random else 0.0  # The chance to touch a known thing, which tells nothing.
+    again = known / num_things if at_random else 0.0  # The probability of touching a known thing.
     if not at_random:
         left = min(left, num_things - known + 1)
-    elif (discount * (num_things - 1) / num_things) ** (left - 2) < _NEGLIGIBLE:  # All of known things.
+    elif (discount * (num_things - 1) / num_things) ** (left - 2) < _NEGLIGIBLE:  # A touch so late hardly counts.
         left = math.inf
     further = _touch(prior, discount, known + 1, left - 1, at_random) if known + 1 < num_things and left > 2 else None
     largest, ratio, axes = _grid(prior, known)
@@ -296,7 +297,7 @@ def _touch(
 
 
 def _grid(prior: priors.OddOneOut, known: int) -> tuple[np.ndarray, np.ndarray, tuple[np.ndarray, ...]]:
-    """Returns states with so many things known: largest values [N], ratios [N], and the axes of their grid."""
+    """Returns states with `known` known things: largest values [N], ratios [N], and the axes of their grid."""
     if not known:
         return np.zeros(1), np.zeros(1), ()
     levels = np.linspace(0, 1, _LARGEST_NODES // 2 + 2)[1:-1]
@@ -308,13 +309,13 @@ def _grid(prior: priors.OddOneOut, known: int) -> tuple[np.ndarray, np.ndarray, 
 
 
 def _expected(known, largest, ratio, prior, after) -> np.ndarray:
-    """Returns the mean worth of states after one more touch of an unknown thing, [N].
+    """Returns the expected values of states after one more touch of an unknown thing, [N].
 
     Args:
-      known: number of things known before it.
+      known: number of known things before it.
       largest, ratio: the states, [N] each.
       prior: distribution of the values.
-      after: worth of a further touch in states with one thing more known; None if there is none, for an answer.
+      after: value of a further touch in states with one more known thing; None if an answer must follow.
     """
     unknown = prior.num_things - known
     if unknown == 1:
@@ -323,13 +324,13 @@ def _expected(known, largest, ratio, prior, after) -> np.ndarray:
         log_weight = prior.log_ratio(largest) + np.log(ratio) if known else np.full(1, -np.inf)
     nodes, weights = special.roots_legendre(_QUADRATURE_NODES * (1 if known else 16))
     nodes, weights = (nodes + 1) / 2, weights / 2
-    is_odd = special.expit(np.log(unknown) - log_weight) / unknown  # Of one thing among the unknown ones.
+    is_odd = special.expit(np.log(unknown) - log_weight) / unknown  # Probability of each unknown thing to be odd.
     total = np.zeros(len(largest))
     parts = [
         (is_odd, prior.odd_cdf(largest), prior.odd_quantile),
         (1 - is_odd, prior.common_cdf(largest), prior.common_quantile),
     ]
-    for chance, below, quantile in parts:  # Split where the new value becomes the largest: there the worth has a kink.
+    for chance, below, quantile in parts:  # Split where the new value becomes the largest, at a kink.
         for start, width in ((np.zeros_like(below), below), (below, 1 - below)):
             levels = start[:, None] + width[:, None] * nodes
             value = quantile(levels.clip(1e-300, 1 - 1e-16))
@@ -339,7 +340,7 @@ def _expected(known, largest, ratio, prior, after) -> np.ndarray:
 
 
 def _worth_after(known, unknown, largest, ratio, value, prior, after) -> np.ndarray:
-    """Returns the worth of states after one more thing was found to have a value; arrays [N, 1] and [N, Q]."""
+    """Returns the values of states after one more thing turned out to have a value; arrays [N, 1] and [N, Q]."""
     value = value.clip(1e-300, 1 - 1e-16)
     if known:
         difference = prior.log_ratio(value) - prior.log_ratio(largest)
@@ -352,7 +353,7 @@ def _worth_after(known, unknown, largest, ratio, value, prior, after) -> np.ndar
 
 
 def _worth_of_answer(unknown: int, largest, ratio, prior) -> np.ndarray:
-    """Returns the worth of the best answer in states with so many unknown things, at least one."""
+    """Returns the values of the best answers in states with `unknown` unknown things, at least one."""
     log_weight = prior.log_ratio(largest) + np.log(ratio)
     chance = _largest_is_touched(np.full(largest.shape, unknown), largest, log_weight, prior)
     return base.worth_of_answers(np.maximum(chance, (1 - chance) / unknown))

@@ -1,8 +1,8 @@
-"""What random interactions earn among finitely many hypotheses, with good answers at a good moment.
+"""Bounds on the return of random interactions with the best answers at the best moment, among finitely many hypotheses.
 
-Somebody who draws interactions does not know which come next. From below: who answers as soon as the likeliest label
-has some probability, one for all episodes that was best in others. From above: who is told the interactions that will
-be drawn. Both are means over drawn sequences of interactions, which leave a standard error of less than 0.01.
+Lower bound: a policy that answers once the likeliest label exceeds a threshold, tuned on separate sequences. Upper
+bound: a policy that knows the interactions that will be drawn. Both are means over drawn sequences of interactions,
+with a standard error below 0.01.
 """
 
 from collections.abc import Iterator
@@ -12,10 +12,10 @@ import functools
 import numpy as np
 
 from physexp.analysis.ideal import base
-from physexp.analysis.ideal import situations as situations_lib
+from physexp.analysis.ideal import histories as histories_lib
 
 _NUM_SEQUENCES = 512
-_NUM_TRIALS = 64  # Further ones, which choose when to answer.
+_NUM_TRIALS = 64  # Further sequences, to tune the threshold.
 
 
 @dataclasses.dataclass(frozen=True)
@@ -23,9 +23,9 @@ class Bounds:
     """Expected discounted returns.
 
     Attributes:
-      at_once: of the likeliest label, given without any interaction.
-      random_value: of random interactions, with an answer as soon as the likeliest label is likely enough.
-      random_bound: of random interactions, with the best answers at the best moment; an upper bound.
+      at_once: of the likeliest label, without any interaction.
+      random_value: of random interactions until the likeliest label exceeds a threshold.
+      random_bound: an upper bound for random interactions with the best answers at the best moment.
     """
 
     at_once: float
@@ -34,78 +34,78 @@ class Bounds:
 
 
 @dataclasses.dataclass(frozen=True)
-class _Group:
-    """Hypotheses that cannot be told apart after so many interactions.
+class _Belief:
+    """The support of a belief after some of a sequence of interactions.
 
     Attributes:
-      chance: that it is one of them.
-      likeliest: the probability of the likeliest label, given that.
-      parts: what is left of it after one interaction more; none at the last step, or where the label is known.
+      probability: of the support.
+      max_probability: of a label, given the support.
+      parts: its partition by the next interaction; empty at the last step, or when the label is determined.
     """
 
-    chance: float
-    likeliest: float
-    parts: tuple["_Group", ...]
+    probability: float
+    max_probability: float
+    parts: tuple["_Belief", ...]
 
-    def prophet(self, discount: float) -> float:
-        """Returns what is earned at best, times the chance, by one who knows the interactions to come."""
-        answer = self.chance * base.worth_of_answers(self.likeliest)
+    def prophet_return(self, discount: float) -> float:
+        """Returns the best return if the interactions to come are known, times the probability."""
+        answer = self.probability * base.worth_of_answers(self.max_probability)
         if not self.parts:
             return answer
-        return max(answer, discount * sum(part.prophet(discount) for part in self.parts))
+        return max(answer, discount * sum(part.prophet_return(discount) for part in self.parts))
 
-    def cautious(self, discount: float, enough: float) -> float:
-        """Returns what is earned, times the chance, by one who answers when the likeliest label is likely enough."""
-        if self.likeliest >= enough or not self.parts:
-            return self.chance * base.worth_of_answers(self.likeliest)
-        return discount * sum(part.cautious(discount, enough) for part in self.parts)
+    def threshold_return(self, discount: float, threshold: float) -> float:
+        """Returns the return of answering once the likeliest label reaches a threshold, times the probability."""
+        if self.max_probability >= threshold or not self.parts:
+            return self.probability * base.worth_of_answers(self.max_probability)
+        return discount * sum(part.threshold_return(discount, threshold) for part in self.parts)
 
-    def all(self) -> Iterator["_Group"]:
-        """Returns this group and all that may be left of it."""
+    def all(self) -> Iterator["_Belief"]:
+        """Yields this belief and all later ones."""
         yield self
         for part in self.parts:
             yield from part.all()
 
 
-def bounds(situations: situations_lib.Situations, discount: float) -> Bounds:
-    """Returns what is earned without thought.
+def bounds(histories: histories_lib.Histories, discount: float) -> Bounds:
+    """Returns the bounds.
 
     Args:
-      situations: what actions lead to.
+      histories: the tree of sequences of interactions.
       discount: the agent's gamma.
     """
-    task = situations.hypotheses.task
-    length = task.rules.step_limit - 1  # The last action in time is the answer.
+    task = histories.hypotheses.task
+    length = task.rules.step_limit - 1  # The last action before the time limit is the answer.
     drawn = np.random.default_rng(0).integers(task.num_interactions, size=(_NUM_TRIALS + _NUM_SEQUENCES, length))
-    everything = tuple(range(len(situations.hypotheses.prior)))
-    roots = [_grown(situations, situations.start, everything, sequence.tolist()) for sequence in drawn]
+    everything = tuple(range(len(histories.hypotheses.prior)))
+    roots = [_along(histories, histories.start, everything, sequence.tolist()) for sequence in drawn]
     trials, roots = roots[:_NUM_TRIALS], roots[_NUM_TRIALS:]
 
-    def cautious(played: list[_Group], level: float) -> float:
-        return float(np.mean([root.cautious(discount, level - 1e-6) for root in played]))
+    def mean_return(played: list[_Belief], level: float) -> float:
+        return float(np.mean([root.threshold_return(discount, level - 1e-6) for root in played]))
 
-    levels = sorted({round(group.likeliest, 6) for root in trials for group in root.all()})
-    enough = max(levels, key=functools.partial(cautious, trials))
+    levels = sorted({round(belief.max_probability, 6) for root in trials for belief in root.all()})
+    threshold = max(levels, key=functools.partial(mean_return, trials))
     return Bounds(
-        at_once=base.worth_of_answers(roots[0].likeliest),
-        random_value=cautious(roots, enough),
-        random_bound=float(np.mean([root.prophet(discount) for root in roots])),
+        at_once=base.worth_of_answers(roots[0].max_probability),
+        random_value=mean_return(roots, threshold),
+        random_bound=float(np.mean([root.prophet_return(discount) for root in roots])),
     )
 
 
-def _grown(
-    situations: situations_lib.Situations,
-    situation: situations_lib.Situation,
-    members: situations_lib.Group,
+def _along(
+    histories: histories_lib.Histories,
+    history: histories_lib.History,
+    support: histories_lib.Support,
     actions: list[int],
-) -> _Group:
-    """Returns a group, and all that is left of it along a sequence of actions, until every label is known."""
-    parts: tuple[_Group, ...] = ()
-    if actions and not situations.is_known(members):
-        left, following = situations.follow(situation, members, actions[0])
-        parts = tuple(_grown(situations, following, part, actions[1:]) for _, part in left)
-    return _Group(
-        chance=float(situations.hypotheses.prior[list(members)].sum()),
-        likeliest=situations.likeliest(members),
+) -> _Belief:
+    """Returns a belief and its later parts along a sequence of actions, until the label is determined."""
+    parts: tuple[_Belief, ...] = ()
+    if actions and not histories.is_determined(support):
+        partition, following = histories.successor(history, support, actions[0])
+        parts = tuple(_along(histories, following, part, actions[1:]) for _, part in partition)
+    return _Belief(
+        probability=float(histories.hypotheses.prior[list(support)].sum()),
+        max_probability=histories.max_probability(support),
         parts=parts,
     )

@@ -1,4 +1,4 @@
-"""Plays episodes with actors that are not networks, and thus cannot decide for many environments at once."""
+"""Plays episodes with many single actors side by side, such as those of ideal experimenters."""
 
 from collections.abc import Iterator, Mapping, Sequence
 import dataclasses
@@ -13,13 +13,13 @@ from physexp.agents import core
 
 @dataclasses.dataclass(frozen=True)
 class Step:
-    """A step of those of the environments whose episodes are not over.
+    """A step of the M environments whose episodes are not over.
 
     Attributes:
-      rows: which they are, int64 [M].
-      observation: what was observed before, arrays [M, ...].
-      actions: what was done, int64 [M].
-      after: what followed, a TimeStep of arrays [M, ...].
+      rows: their indices, int64 [M].
+      observation: the observations before the actions, arrays [M, ...].
+      actions: the actions, int64 [M].
+      after: the time steps after them, a TimeStep of arrays [M, ...].
     """
 
     rows: np.ndarray
@@ -34,7 +34,7 @@ def play_round(actors: Sequence[core.Actor], batch: core.Batch, episode: int) ->
     Args:
       actors: N of them.
       batch: N environments.
-      episode: index of the episode that each starts.
+      episode: index of the episode in each environment.
     """
     rows, before = np.arange(len(actors)), batch.reset(episode=episode)
     timesteps = _separate(before)
@@ -66,9 +66,9 @@ def play(
 
     Args:
       actors: N of them.
-      domain, task, task_kwargs: what they play, as for `suite.load`, without a seed.
-      num_episodes: of each actor.
-      seed: of the environments.
+      domain, task, task_kwargs: as for `suite.load`, without a seed.
+      num_episodes: number of episodes of each actor.
+      seed: seed of the environments.
 
     Returns:
       Final rewards and numbers of actions, [num_episodes, N] each.

@@ -1,7 +1,7 @@
-"""The ideal experimenter among finitely many hypotheses, when physics is deterministic and known (docs/ideal.md).
+"""The ideal experimenter among finitely many hypotheses, with deterministic and known physics (docs/ideal.md).
 
-Nothing but the hypothesis is hidden, so an experimenter learns which of their trajectories it is on. The best policy is
-found by search over sequences of actions, with a lower and an upper bound: where they meet, nobody can do better.
+Only the hypothesis is hidden, so an experimenter learns which hypotheses' trajectories agree with its observations. The
+best policy is found by search over sequences of interactions, with a lower and an upper bound on its value.
 """
 
 from collections.abc import Sequence
@@ -14,19 +14,19 @@ import numpy as np
 from physexp import checks
 from physexp.agents import core
 from physexp.analysis.ideal import base, branch_and_bound, random_play
+from physexp.analysis.ideal import histories as histories_lib
 from physexp.analysis.ideal import hypotheses as hypotheses_lib
-from physexp.analysis.ideal import situations as situations_lib
 from physexp.suite.engine import rules
 
 OBJECTIVES = ("return", "time")
-_MOST_SITUATIONS = 30_000  # Kept to judge others: about 600 MB for 40 hypotheses.
+_MAX_HISTORIES = 30_000  # Kept for judging: about 600 MB for 40 hypotheses.
 
 
 class Solution:
-    """The best policy found. It is searched for when something is first asked that only a search can tell.
+    """The best policy; the search runs when a result of it is first needed.
 
     Attributes:
-      hypotheses: what may be hidden.
+      hypotheses: the hypotheses about the hidden property.
       discount: the agent's gamma.
       objective: one of `OBJECTIVES`.
     """
@@ -49,76 +49,72 @@ class Solution:
         self._everything = tuple(range(len(hypotheses.prior)))
 
     @functools.cached_property
-    def situations(self) -> situations_lib.Situations:
-        """What actions lead to."""
-        return situations_lib.Situations(self.hypotheses, self._resolution)
+    def histories(self) -> histories_lib.Histories:
+        """The tree of sequences of interactions."""
+        return histories_lib.Histories(self.hypotheses, self._resolution)
 
     @functools.cached_property
     def _search(self) -> branch_and_bound.Search:
-        return branch_and_bound.Search(self._aim, self.situations)
+        return branch_and_bound.Search(self._criterion, self.histories)
 
     @property
-    def _aim(self) -> branch_and_bound.Objective:
-        is_return = self.objective == "return"
-        return branch_and_bound.Objective(
-            discount=self.discount if is_return else 1.0,
-            cost=0.0 if is_return else 1.0,
-            known=1.0 if is_return else 0.0,
-            guesses=is_return,
-        )
+    def _criterion(self) -> branch_and_bound.Criterion:
+        if self.objective == "return":
+            return branch_and_bound.Criterion(self.discount, cost=0.0, known=1.0, guesses=True)
+        return branch_and_bound.Criterion(discount=1.0, cost=1.0, known=0.0, guesses=False)
 
     @functools.cached_property
     def _found(self) -> tuple[float, float, branch_and_bound.Node]:
-        """The value and the bound of the objective, and the first decision."""
-        first = self.situations.start, self._everything, self.hypotheses.task.rules.step_limit
-        low, high = self._search.run(*first, self._max_depth, self._max_steps)
+        """The value and the bound of the objective, and the policy."""
+        root = self.histories.start, self._everything, self.hypotheses.task.rules.step_limit
+        low, high = self._search.run(*root, self._max_depth, self._max_steps)
         sign = 1.0 if self.objective == "return" else -1.0
-        return sign * low, sign * high, self._search.policy(*first)
+        return sign * low, sign * high, self._search.policy(*root)
 
     @property
     def value(self) -> float:
-        """Returns the expected discounted return, or the expected interactions until the right label is known."""
+        """The expected discounted return, or the expected number of interactions until the right label is known."""
         return self._found[0]
 
     @property
     def bound(self) -> float:
-        """Returns an upper bound on the value; equal to it where the search was complete."""
+        """An upper bound on the value; equal to it if the search was complete."""
         return self._found[1]
 
     @property
     def policy(self) -> branch_and_bound.Node:
-        """The first decision."""
+        """The policy: its first decision, with the further ones below it."""
         return self._found[2]
 
     def actor(self) -> core.Actor:
-        """Returns an actor that recognises, from observations alone, the trajectories that it expects."""
+        """Returns an actor that recognises the expected trajectories from observations alone."""
         return _Player(self)
 
     def beliefs(self, episode: base.Episode) -> np.ndarray:
-        """Returns what this observer could believe at the start and after each action, float64 [T + 1, L].
+        """Returns the best possible beliefs at the start and after each action, float64 [T + 1, L].
 
         Raises:
           ValueError: if the hidden property of the episode is none of the hypotheses.
         """
-        groups = self.left(self._true(episode), episode.actions)
-        return np.array([self.situations.chances(group) for group in groups])
+        supports = self.supports(self._true_hypothesis(episode), episode.actions)
+        return np.array([self.histories.probabilities(support) for support in supports])
 
-    def left(self, hypothesis: int, actions: Sequence[int] | np.ndarray) -> list[situations_lib.Group]:
-        """Returns the hypotheses that cannot be told from the true one at the start and after each action, T + 1."""
-        groups, situation = [self._everything], self._watching.start
+    def supports(self, hypothesis: int, actions: Sequence[int] | np.ndarray) -> list[histories_lib.Support]:
+        """Returns the hypotheses consistent with the observations, before the first and after each of T actions."""
+        supports, history = [self._everything], self._complete_histories.start
         for action in map(int, actions):
-            following = groups[-1]
-            if action < self.hypotheses.task.num_interactions:  # An answer tells nothing.
-                parts, situation = self._watching.follow(situation, groups[-1], action)
-                following = _part_with(hypothesis, parts)
-            groups.append(following)
-        return groups
+            following = supports[-1]
+            if action < self.hypotheses.task.num_interactions:  # An answer reveals nothing.
+                partition, history = self._complete_histories.successor(history, supports[-1], action)
+                following = _part_with(hypothesis, partition)
+            supports.append(following)
+        return supports
 
     def judge(self, episode: base.Episode) -> base.Judgement:
-        """Returns the best possible beliefs in an episode, and the worth of its actions.
+        """Returns the best possible beliefs in an episode, and the values of its actions.
 
-        The worth of an interaction that was neither taken nor best is a lower bound. Situations that are alike within
-        the tolerance have the same worth.
+        The value of an interaction is exact if it was taken or is best, and a lower bound otherwise. States closer than
+        the tolerance share one value.
 
         Raises:
           ValueError: if the hidden property of the episode is none of the hypotheses, or the objective is not the
@@ -126,58 +122,57 @@ class Solution:
         """
         if self.objective != "return":
             raise ValueError(f"objective is {self.objective!r}; to judge actions, solve for the return")
-        hypothesis, num_interactions = self._true(episode), self.hypotheses.task.num_interactions
-        if self._judging.situations.count > _MOST_SITUATIONS:
+        hypothesis, num_interactions = self._true_hypothesis(episode), self.hypotheses.task.num_interactions
+        if self._judging.histories.count > _MAX_HISTORIES:
             self._judging = self._new_judging()
-        situation, group = self._judging.situations.start, self._everything
-        beliefs, values, tells = [], [], []
+        history, support = self._judging.histories.start, self._everything
+        beliefs, values, is_informative = [], [], []
         for step, action in enumerate(map(int, episode.actions)):
             left = self.hypotheses.task.rules.step_limit - step
-            beliefs.append(self.situations.chances(group))
-            acting = self._worth_of_interactions(situation, group, left, action)
-            values.append(np.concatenate([acting, base.worth_of_answers(beliefs[-1])]))
-            parts: situations_lib.Parts = [(1.0, group)]
+            beliefs.append(self.histories.probabilities(support))
+            interactions = self._interaction_values(history, support, left, action)
+            values.append(np.concatenate([interactions, base.worth_of_answers(beliefs[-1])]))
+            partition: histories_lib.Partition = [(1.0, support)]
             if action < num_interactions:
-                parts, situation = self._judging.situations.follow(situation, group, action)
-            tells.append(len(parts) > 1)
-            group = _part_with(hypothesis, parts)
-        beliefs.append(self.situations.chances(group))
-        return base.Judgement(np.array(beliefs), np.array(values), np.array(tells))
+                partition, history = self._judging.histories.successor(history, support, action)
+            is_informative.append(len(partition) > 1)
+            support = _part_with(hypothesis, partition)
+        beliefs.append(self.histories.probabilities(support))
+        return base.Judgement(np.array(beliefs), np.array(values), np.array(is_informative))
 
-    def _worth_of_interactions(self, situation, group, left: int, action: int) -> np.ndarray:
-        """Returns the worth of all interactions, float64 [number of them]; exact for the best one and the one taken."""
+    def _interaction_values(self, history, support, left: int, taken: int) -> np.ndarray:
+        """Returns the values of all interactions, float64 [A]; exact for the best one and the one taken."""
         count, search = self.hypotheses.task.num_interactions, self._judging
         if left == 1:
             return np.full(count, float(rules.WRONG))
-        if self.situations.is_known(group):
+        if self.histories.is_determined(support):
             return np.full(count, self.discount * rules.RIGHT)
-        search.run(situation.like, group, left)
-        if action < count:
-            parts, following = search.situations.follow(situation, group, action)
-            for _, part in parts:
-                search.run(following.like, part, left - 1)
-        places = [situation if other == action else situation.like for other in range(count)]
-        return np.array([search.acting(place, group, left, other)[0] for other, place in enumerate(places)])
+        search.run(history.representative, support, left)
+        if taken < count:
+            partition, following = search.histories.successor(history, support, taken)
+            for _, part in partition:
+                search.run(following.representative, part, left - 1)
+        places = [history if action == taken else history.representative for action in range(count)]
+        return np.array([search.bounds_of(place, support, left, action)[0] for action, place in enumerate(places)])
 
     @functools.cached_property
     def _judging(self) -> branch_and_bound.Search:
         return self._search if self._tolerance is None else self._new_judging()
 
     def _new_judging(self) -> branch_and_bound.Search:
-        situations = situations_lib.Situations(self.hypotheses, self._resolution, tolerance=self._tolerance)
-        return branch_and_bound.Search(self._aim, situations)
+        histories = histories_lib.Histories(self.hypotheses, self._resolution, tolerance=self._tolerance)
+        return branch_and_bound.Search(self._criterion, histories)
 
     @functools.cached_property
-    def _watching(self) -> situations_lib.Situations:
-        return situations_lib.Situations(self.hypotheses, self._resolution, wholly=True)
+    def _complete_histories(self) -> histories_lib.Histories:
+        return histories_lib.Histories(self.hypotheses, self._resolution, splits_determined=True)
 
-    def _true(self, episode: base.Episode) -> int:
-        """Returns the hypothesis that is right in an episode."""
+    def _true_hypothesis(self, episode: base.Episode) -> int:
         known = self.hypotheses
-        is_it = (known.hidden == episode.hidden).reshape(len(known.hidden), -1).all(axis=1)
-        if not is_it.any():
+        is_true = (known.hidden == episode.hidden).reshape(len(known.hidden), -1).all(axis=1)
+        if not is_true.any():
             raise ValueError(f"hidden is {checks.shown(episode.hidden)}, which is none of the hypotheses")
-        return int(is_it.argmax())
+        return int(is_true.argmax())
 
     def outcomes(self) -> np.ndarray:
         """Returns for each hypothesis the interactions before the answer and whether it is right, int64 [H, 2]."""
@@ -190,23 +185,23 @@ class Solution:
         return np.array(found, np.int64)
 
     def figures(self) -> dict[str, Any]:
-        """Returns what `base.figures` does, and `mean_seconds`.
+        """Returns the statistics of `base.figures`, and `mean_seconds`.
 
-        The value is None where the right label cannot be known for certain within the depth of the search.
+        The value is None if the search found no certain way to the right label.
         """
         interactions, right = self.outcomes().T
         found = base.figures(self, interactions, right, self.hypotheses.prior)
-        return {**found, "mean_seconds": found["mean_interactions"] * self.hypotheses.task.control_timestep}
+        return {**found, "mean_seconds": found["mean_interactions"] * self.hypotheses.task.options.control_timestep}
 
     def summary(self) -> dict[str, Any]:
-        """Returns what `figures` does, and for the return what others earn, see `random_play.Bounds`."""
+        """Returns the statistics of `figures`, and for the return those of `random_play.Bounds`."""
         if self.objective != "return":
             return self.figures()
-        return {**self.figures(), **dataclasses.asdict(self._others)}
+        return {**self.figures(), **dataclasses.asdict(self._random_bounds)}
 
     @functools.cached_property
-    def _others(self) -> random_play.Bounds:
-        return random_play.bounds(self.situations, self.discount)
+    def _random_bounds(self) -> random_play.Bounds:
+        return random_play.bounds(self.histories, self.discount)
 
 
 def solve(
@@ -222,25 +217,22 @@ def solve(
     """Returns the best policy.
 
     Args:
-      hypotheses: what may be hidden.
-      resolution: by how much two observations must differ to be told apart: in the readings' unit for features, pixels
-        for images. At 0 every bit counts, and the bound holds for every agent.
-      discount: the agent's gamma, above 0 and at most 1.
-      objective: `return`, the expected discounted return; or `time`, as few interactions as possible until the right
-        label is known for certain.
-      max_depth: longest sequences of actions looked at for the policy.
-      max_steps: control steps that may be simulated for the policy.
-      tolerance: to judge what others do, situations of physics are taken for one that differ by no more than this, in m
-        and m/s, as `Situations` has it.
-
-    Raises:
-      ValueError: for a value that makes no sense.
+      hypotheses: the hypotheses about the hidden property.
+      resolution: the difference above which two observations are distinguished: in the readings' unit for features, in
+        pixels for images. At 0 every bit counts, and the bound holds for every agent.
+      discount: the agent's gamma.
+      objective: `return`, the expected discounted return; or `time`, the fewest interactions until the right label is
+        known for certain.
+      max_depth: longest sequences of interactions that the search for the policy tries.
+      max_steps: control steps that it may simulate.
+      tolerance: when actions are judged, states that differ by no more than this, m and m/s, share one value; see
+        `Histories`.
     """
     return Solution(hypotheses, resolution, discount, objective, max_depth, max_steps, tolerance)
 
 
 def curve(hypotheses: hypotheses_lib.Hypotheses, resolutions: Sequence[float], discount: float) -> list[dict[str, Any]]:
-    """Returns figures for both objectives at several resolutions, with `resolution` and `objective` beside them."""
+    """Returns statistics for both objectives at several resolutions, with `resolution` and `objective`."""
     return [
         {
             "resolution": resolution,
@@ -252,16 +244,14 @@ def curve(hypotheses: hypotheses_lib.Hypotheses, resolutions: Sequence[float], d
     ]
 
 
-def _part_with(hypothesis: int, parts: situations_lib.Parts) -> situations_lib.Group:
-    """Returns the group, of those that one splits into, that has a hypothesis."""
-    return next(part for _, part in parts if hypothesis in part)
+def _part_with(hypothesis: int, partition: histories_lib.Partition) -> histories_lib.Support:
+    return next(part for _, part in partition if hypothesis in part)
 
 
 class _Player(core.EpisodicActor):
     """Plays a solution."""
 
     def __init__(self, solution: Solution):
-        """Prepares to play in the environments of the solution's task."""
         self._first, self._hypotheses = solution.policy, solution.hypotheses
 
     def _begin(self, timestep):
@@ -273,6 +263,7 @@ class _Player(core.EpisodicActor):
 
     def _note(self, action, next_timestep):
         node = self._node
-        if node.seen is None or next_timestep.last():
+        if node.expected is None or next_timestep.last():
             return
-        self._node = node.children[node.group[self._hypotheses.nearest(next_timestep.observation, node.seen)]]
+        nearest = self._hypotheses.nearest(next_timestep.observation, node.expected)
+        self._node = node.children[node.support[nearest]]

@@ -1,24 +1,24 @@
-"""The ideal experimenter of bands and a clamp, against a search over sets of graphs, and in the real environment."""
+"""The ideal experimenter of bands and a clamp, against a search over sets of graphs and by hand."""
 
 import functools
 import itertools
 
+import ideals
 import numpy as np
 import pytest
 from seeds import fresh_seed
 
-from physexp.analysis import domains
 from physexp.analysis.ideal import bands, resting
 
 PAIRS = {2: [(0, 1)], 3: [(0, 1), (0, 2), (1, 2)]}
 
 
 def search(num_things, weights, discount, step_limit, choose):
-    """Expected discounted return by a search over sets of graphs and the clamp, which joins things one by one.
+    """Returns the expected return by a search over sets of graphs and positions of the clamp.
 
     Args:
       num_things, weights, discount, step_limit: as for `bands.Clamped` and `resting.solve`.
-      choose: what follows from the values of all interactions: `max`, or their mean where they are drawn at random.
+      choose: combines the values of all interactions: `max`, or `mean` for random ones.
     """
     graphs = [
         frozenset(pair for pair, joined in zip(PAIRS[num_things], reversed(bits), strict=True) if joined)
@@ -69,7 +69,7 @@ def solve(num_things, weights, discount, step_limit):
     return resting.solve(bands.Clamped(num_things, weights), discount, step_limit)
 
 
-@pytest.mark.parametrize("discount", [0.5, 0.95, 1.0])
+@pytest.mark.parametrize("discount", [0.5, 1.0])
 @pytest.mark.parametrize(
     "num_things, weights, step_limit",
     [
@@ -85,7 +85,7 @@ def test_a_search_over_sets_of_graphs_finds_the_same_values(num_things, weights,
     assert solution.random_value == pytest.approx(search(num_things, weights, discount, step_limit, mean), abs=1e-9)
 
 
-def test_at_random_priors_too():
+def test_the_search_agrees_for_random_priors():
     generator = np.random.default_rng(fresh_seed())
     for _ in range(10):
         weights, step_limit = generator.dirichlet(np.full(8, 0.5)), int(generator.integers(1, 9))
@@ -100,14 +100,13 @@ def test_one_pull_tells_whether_two_things_are_joined():
     assert solution.at_once == 0
 
 
-def test_the_ideal_clamps_when_and_only_when_pulls_leave_several_graphs():
-    """By hand: pull 0. Alone: pull 1, which tells. With one other: that is all. With both: four graphs hang together.
+def test_it_clamps_only_if_pulls_leave_several_graphs():
+    """By hand: pull 0. If it moves alone, pull 1. If one other moves, the graph is known. If both move, four are left.
 
-    They differ in which pair is missing, or none. Each of three clamps tells of one pair: clamp 0 and pull 1, then
-    clamp 1 and pull 0, then clamp 2 and pull 0 tell one after the other whether 1-2, 0-2, 0-1 is missing; the first
-    that is missing ends it. If none of the first two is, the third pair may be missing or none.
+    In these, one pair may be missing. Each of three clamps reveals one pair: clamp 0 and pull 1, then clamp 1 and pull
+    0, then clamp 2 and pull 0 reveal whether 1-2, 0-2, 0-1 is missing; the first missing pair ends the search.
     """
-    solution = domains.find("strings").ideal("features", {}, 0.95)
+    solution = ideals.of("strings")
     interactions, right = solution.play(np.arange(8))
     assert right.all()
     # None and 1-2: two pulls. 0-1 and 0-2: one. Rows of three: 3, 5 or 7; the ring, 7.
@@ -121,17 +120,3 @@ def test_the_ideal_clamps_when_and_only_when_pulls_leave_several_graphs():
             reading = solution.apparatus.readings(state[1])[action, graph]
             state = solution.apparatus.after(state, action, reading)
         assert (clamps > 0) == (graph in (3, 5, 6, 7))  # Two bands, or three.
-
-
-def test_there_is_something_to_find_out_in_strings():
-    for difficulty in (1, 2, 3):
-        solution = domains.find("strings").ideal("features", {"difficulty": difficulty}, 0.95)
-        assert solution.summary()["mean_interactions"] >= 2
-        assert solution.at_once <= 0.3 * solution.value
-        assert solution.random_value <= 0.8 * solution.value
-
-
-def test_the_rarer_bands_are_the_easier_it_is():
-    solutions = [domains.find("strings").ideal("features", {"difficulty": d}, 0.95) for d in (1, 1.5, 2, 3, 5)]
-    assert (np.diff([solution.value for solution in solutions]) > 0).all()
-    assert (np.diff([solution.summary()["mean_interactions"] for solution in solutions]) < 0).all()

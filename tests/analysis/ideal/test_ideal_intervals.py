@@ -1,7 +1,6 @@
-"""The ideal experimenter of ordered labels, against hand calculation, a search over sets, and simulated episodes."""
+"""The ideal experimenter of ordered labels, against a search over sets of labels and by hand."""
 
 import functools
-import math
 
 import numpy as np
 import pytest
@@ -11,7 +10,7 @@ from physexp.analysis.ideal import intervals, resting
 
 
 def skewed(size, skew):
-    """Probabilities of `size` labels, the lower the likelier for a skew above 1: Beta(1, skew) in equal parts."""
+    """Returns probabilities of `size` labels, decreasing for a skew above 1: Beta(1, skew) in equal parts."""
     return np.diff(1 - (1 - np.arange(size + 1) / size) ** skew)
 
 
@@ -20,19 +19,17 @@ def solve(prior, discount, step_limit):
 
 
 def between(low, high):
-    """What is known when the labels from one to another are possible."""
+    """Returns the information state in which the labels from one to another are possible."""
     return sum(1 << label for label in range(low, high + 1)), None
 
 
 def search(prior, discount, step_limit, tests, choose):
-    """Expected discounted return by a search over sets of labels, bit masks, that knows nothing of their order.
+    """Returns the expected return by a search over sets of labels, bit masks, without using their order.
 
     Args:
-      prior: probabilities of the labels.
-      discount: the agent's gamma.
-      step_limit: steps in an unanswered episode.
+      prior, discount, step_limit: as for `solve`.
       tests: for each test the set of labels that pass it, a bit mask.
-      choose: what follows from the values of all tests: `max`, or their mean where they are made at random.
+      choose: combines the values of all tests: `max`, or `mean` for random ones.
     """
 
     @functools.cache
@@ -55,7 +52,7 @@ def search(prior, discount, step_limit, tests, choose):
 
 
 def thresholds(size):
-    """Test l is passed by the labels 0 to l."""
+    """Returns the tests: labels 0 to l pass test l."""
     return [(1 << level + 1) - 1 for level in range(size)]
 
 
@@ -64,7 +61,6 @@ def mean(values):
 
 
 PRIORS = {
-    "uniform": skewed(8, 1.0),
     "the default of threshold": skewed(8, 2.0),
     "steep": skewed(8, 5.0),
     "two labels": np.array([0.7, 0.3]),
@@ -74,7 +70,7 @@ PRIORS = {
 }
 
 
-@pytest.mark.parametrize("discount", [0.3, 0.95, 1.0])
+@pytest.mark.parametrize("discount", [0.3, 1.0])
 @pytest.mark.parametrize("prior", PRIORS.values(), ids=PRIORS.keys())
 def test_a_search_over_sets_of_labels_finds_the_same_values(prior, discount):
     solution = solve(prior, discount, 12)
@@ -83,7 +79,7 @@ def test_a_search_over_sets_of_labels_finds_the_same_values(prior, discount):
     assert solution.random_value == pytest.approx(search(prior, discount, 12, tests, mean), abs=1e-9)
 
 
-def test_at_random_priors_too():
+def test_the_search_agrees_for_random_priors():
     generator = np.random.default_rng(fresh_seed())
     for _ in range(20):
         size, step_limit = int(generator.integers(2, 9)), int(generator.integers(1, 8))
@@ -131,24 +127,11 @@ def test_a_skewed_prior_is_split_by_probability_and_not_by_rank():
     assert solution.summary()["mean_interactions"] == pytest.approx(2.766, abs=1e-3)
 
 
-def test_there_is_something_to_find_out_at_the_default_of_threshold():
-    solution = solve(PRIORS["the default of threshold"], 0.95, 30)
-    assert solution.summary()["mean_interactions"] >= 2
-    assert solution.at_once <= 0.3 * solution.value
-    assert solution.random_value <= 0.8 * solution.value
-
-
-def test_with_ever_more_skew_the_question_is_easier():
-    solutions = [solve(skewed(8, skew), 0.95, 30) for skew in (1.0, 1.5, 2.0, 3.0, 5.0)]
-    assert (np.diff([solution.value for solution in solutions]) > 0).all()
-    assert (np.diff([solution.summary()["mean_interactions"] for solution in solutions]) < 0).all()
-
-
-@pytest.mark.parametrize(("skew", "discount"), [(1.0, 0.95), (2.0, 0.95), (3.0, 0.95), (2.0, 0.7)])
-def test_episodes_earn_what_was_promised(skew, discount):
+@pytest.mark.parametrize(("skew", "discount"), [(2.0, 0.95), (2.0, 0.7)])
+def test_played_episodes_earn_the_value(skew, discount):
     prior = skewed(8, skew)
     solution = solve(prior, discount, 30)
-    interactions, right = solution.play(np.arange(8))  # All that can happen, once each.
+    interactions, right = solution.play(np.arange(8))  # Each label once.
     earned = discount**interactions * np.where(right, 1, -1)
     assert prior @ earned == pytest.approx(solution.value, abs=1e-12)
     summary = solution.summary()
@@ -156,33 +139,33 @@ def test_episodes_earn_what_was_promised(skew, discount):
     assert prior @ right == pytest.approx(summary["accuracy"], abs=1e-12)
 
 
-def test_when_information_costs_nothing_all_is_found_out_and_nothing_is_tested_in_vain():
+def test_free_tests_are_not_made_in_vain():
     solution = solve(skewed(8, 2.0), 1.0, 30)
     assert solution.value == pytest.approx(1.0)
-    # The same tree as at any discount below 1: no test more is made although it would be free.
+    # The same tree as for any discount below 1.
     expected = solve(skewed(8, 2.0), 0.999, 30).summary()["mean_interactions"]
     assert solution.summary()["mean_interactions"] == pytest.approx(expected)
 
 
-def test_dear_tests_look_for_one_label_at_a_time():
+def test_expensive_tests_look_for_one_label_at_a_time():
     # n equally likely labels at gamma 0.1, times n: w(1) = 1 and w(n) = 0.1 (1 + w(n - 1)), so w(2) = 0.2, w(3) = 0.12,
     # w(4) = 0.112, ... w(8) = 0.1111112. Halves would be worth 8 * 0.001.
     assert solve(np.full(8, 1 / 8), 0.1, 30).value == pytest.approx(0.1111112 / 8)
 
 
-def test_when_time_is_short_the_best_guess_is_given_at_the_last_step():
+def test_the_best_guess_is_given_in_the_last_step():
     # Three steps leave two tests, and one of two labels to be guessed: its chance is a half, worth 0.
     solution = solve(np.full(8, 1 / 8), 0.95, 3)
     assert solution.value == pytest.approx(0.0, abs=1e-12)
     assert solve(np.full(8, 1 / 8), 0.95, 1).value == pytest.approx(2 / 8 - 1)
 
 
-def test_a_loss_that_is_certain_is_put_off():
+def test_a_certain_loss_is_delayed():
     # In two steps there is time for one test, after which each answer is right once in four: -0.5, but a step later.
     assert solve(np.full(8, 1 / 8), 0.1, 2).value == pytest.approx(-0.05)
 
 
-def test_what_is_known_is_the_prior_within_the_interval():
+def test_the_posterior_is_the_prior_within_the_interval():
     solution = solve([0.5, 0.3, 0.2], 0.9, 10)
     posteriors = {(0, 2): [0.5, 0.3, 0.2], (0, 1): [0.625, 0.375, 0], (1, 2): [0, 0.6, 0.4], (2, 2): [0, 0, 1]}
     for interval, expected in posteriors.items():
@@ -197,27 +180,6 @@ def test_a_test_leaves_the_labels_on_its_side():
     assert tests.after(between(2, 4), 1, 0) == between(2, 4)
 
 
-def test_a_reading_that_cannot_be_is_refused():
+def test_an_impossible_reading_is_refused():
     with pytest.raises(ValueError, match=r"after interaction 6 the reading is 0; expected one of \[1\]"):
         intervals.Thresholds(np.full(8, 1 / 8)).after(between(2, 4), 6, 0)
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"prior": [1.0]}, "two or more probabilities"),
-        ({"prior": [0.5, 0.6]}, "whose sum is 1"),
-        ({"prior": [1.5, -0.5]}, "probabilities"),
-        ({"prior": [[0.5, 0.5]]}, "probabilities"),
-        ({"prior": [math.nan, 1.0]}, "probabilities"),
-        ({"discount": 0}, "discount is 0"),
-        ({"discount": 1.1}, r"from 0 to 1 but not 0"),
-        ({"discount": math.nan}, "discount is nan"),
-        ({"step_limit": 0}, "step_limit is 0"),
-        ({"step_limit": 2.5}, "step_limit is 2.5"),
-    ],
-)
-def test_what_makes_no_sense_is_refused_in_a_line(change, message):
-    good = {"prior": [0.5, 0.5], "discount": 0.9, "step_limit": 10}
-    with pytest.raises(ValueError, match=message):
-        solve(**{**good, **change})

@@ -1,9 +1,10 @@
-"""The ideal experimenter of Towers: its search on made-up worlds solved by hand, and in the real environment."""
+"""The ideal experimenter of Towers: its search in made worlds solved by hand, and in the real environment."""
 
 import json
 import math
 import types
 
+import ideals
 from made_worlds import COUNTS, PATTERNS, MadeWorld
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from physexp import suite
 from physexp.agents import environment_loop
 from physexp.analysis import domains
 from physexp.analysis.domains import glue, towers
-from physexp.analysis.ideal import hypotheses, mistakes, rollouts, search, situations
+from physexp.analysis.ideal import bounds, histories, hypotheses, mistakes, rollouts, search
 from physexp.suite.domains.towers import PRIOR
 from physexp.suite.engine import declarations
 
@@ -22,28 +23,23 @@ def solve(world, objective="return", discount=0.9, resolution=0.5):
     return search.solve(world, resolution, discount, objective)
 
 
-def test_counts_are_uniform_and_patterns_uniform_given_the_count():
-    np.testing.assert_allclose(np.bincount(COUNTS, PRIOR)[1:], 0.2)
-    assert len({round(weight, 12) for weight, count in zip(PRIOR, COUNTS, strict=True) if count == 3}) == 1
-
-
-def test_patterns_are_linked_through_others():
+def test_a_chain_of_equal_looks_keeps_hypotheses_together():
     def parts(*groups):
         members = np.array(sorted(member for group in groups for member in group))
         home = np.array([[member in group for group in groups].index(True) for member in members])
-        linked = (abs(members[:, None] - members) <= 1) & (home[:, None] == home)
-        found = situations.split(groups, linked, PRIOR)
+        indistinguishable = (abs(members[:, None] - members) <= 1) & (home[:, None] == home)
+        found = histories.split(groups, indistinguishable, PRIOR)
         return [[part for _, part in found[group]] for group in groups]
 
     assert parts((0, 1, 2, 5, 6)) == [[(0, 1, 2), (5, 6)]]
-    assert parts((0, 2, 4)) == [[(0,), (2,), (4,)]]  # 1 and 3 are known not to be.
+    assert parts((0, 2, 4)) == [[(0,), (2,), (4,)]]  # 1 and 3 are impossible.
     assert parts((0, 1, 4), (2, 3, 7)) == [[(0, 1), (4,)], [(2, 3), (7,)]]
     everything = tuple(range(PATTERNS))
-    chances = [chance for chance, _ in situations.split([everything], np.eye(PATTERNS, dtype=bool), PRIOR)[everything]]
+    chances = [chance for chance, _ in histories.split([everything], np.eye(PATTERNS, dtype=bool), PRIOR)[everything]]
     np.testing.assert_allclose(chances, PRIOR)
 
 
-def test_an_action_that_tells_the_count_is_taken_once():
+def test_an_action_that_reveals_the_count_is_taken_once():
     # Action 1 shows the count at once, action 0 nothing. Then the answer is right: 0.9 of return, one interaction.
     world = MadeWorld(2, lambda sequence: COUNTS if sequence[-1] == 1 else [0] * PATTERNS)
     for objective, value in (("return", 0.9), ("time", 1.0)):
@@ -53,9 +49,9 @@ def test_an_action_that_tells_the_count_is_taken_once():
         assert solution.summary()["histogram"] == {0: 0.0, 1: 1.0}
 
 
-def test_what_is_seen_decides_what_is_done_next():
-    # Action 0 tells whether there are 1 or 2 bodies, or more. Only after it, action 1 tells 1 from 2, and action 2
-    # tells 3, 4 and 5 apart. So two interactions always do, and no fixed sequence of two would.
+def test_an_observation_decides_the_next_action():
+    # Action 0 separates 1 or 2 bodies from more. After it, action 1 separates 1 from 2, and action 2 separates 3, 4
+    # and 5. So two interactions always suffice, but no fixed pair does.
     def tells(sequence):
         if sequence == (0,):
             return [count > 2 for count in COUNTS]
@@ -74,10 +70,10 @@ def test_what_is_seen_decides_what_is_done_next():
     assert solve(MadeWorld(3, tells)).value == pytest.approx(0.9**2)
 
 
-def test_a_guess_is_made_when_asking_on_costs_more():
-    # Action 0 tells 1, 2 and 3 bodies and leaves 4 and 5 together; after it, action 1 tells those two apart. With 4 and
-    # 5 equally likely a guess is worth 0, asking on the discount: always more. With action 1 useless, guessing is all
-    # there is: right in 3/5 + 2/5 * 1/2 = 0.8, so the value is discount * (0.8 - 0.2) = 0.9 * 0.6.
+def test_it_guesses_if_another_interaction_costs_more():
+    # Action 0 reveals 1, 2 and 3 bodies and leaves 4 and 5 together; after it, action 1 separates those. A guess is
+    # worth 0 then, another interaction the discount, which is more. If action 1 is useless, it must guess: right in
+    # 3/5 + 2/5 * 1/2 = 0.8, so the value is discount * (0.8 - 0.2) = 0.9 * 0.6.
     def useful(sequence):
         return COUNTS if sequence[-1] == 1 and len(sequence) > 1 else [min(count, 4) for count in COUNTS]
 
@@ -89,18 +85,18 @@ def test_a_guess_is_made_when_asking_on_costs_more():
     guessing = search.solve(MadeWorld(2, useless), 0.5, 0.9, max_depth=3)
     assert guessing.value == pytest.approx(0.9 * 0.6)
     assert guessing.summary()["accuracy"] == pytest.approx(0.8)
-    # Nobody has looked further than three actions, so more might be possible, and that is said.
+    # The search ended after three actions, so the bound is larger.
     assert guessing.bound > guessing.value
 
 
-def test_without_any_use_of_acting_the_answer_is_a_guess_at_once():
+def test_a_guess_is_delayed_if_no_action_reveals_anything():
     solution = search.solve(MadeWorld(2, lambda sequence: [0] * PATTERNS), 0.5, 0.9, max_depth=2)
-    # Right in one case of five: 2/5 - 1. Acting only discounts it, which for a loss is better: 0.9^2 * (-0.6) = -0.486.
+    # Right in one case of five: 2/5 - 1. Interactions discount the loss: 0.9^2 * (-0.6) = -0.486.
     assert solution.value == pytest.approx(0.9**2 * -0.6)
 
 
-def test_actions_of_others_are_judged_by_what_is_best_from_there_on():
-    # Action 0 tells 1, 2 and 3 bodies and leaves 4 and 5 together, which action 1 then tells apart.
+def test_actions_are_judged_by_the_best_return_after_them():
+    # Action 0 reveals 1, 2 and 3 bodies and leaves 4 and 5 together; action 1 then separates those.
     def tells(sequence):
         return COUNTS if sequence[-1] == 1 and 0 in sequence else [min(count, 4) * (0 in sequence) for count in COUNTS]
 
@@ -112,37 +108,23 @@ def test_actions_of_others_are_judged_by_what_is_best_from_there_on():
         return solution.judge(types.SimpleNamespace(hidden=four, actions=np.array(actions)))
 
     told = judged(1, 0, 0, 1, right)
-    np.testing.assert_array_equal(told.tells, [False, True, False, True, False])
+    np.testing.assert_array_equal(told.is_informative, [False, True, False, True, False])
     np.testing.assert_allclose(told.values.max(axis=1), [first, first, 0.9, 0.9, 1])
     np.testing.assert_allclose(told.values[range(5), [1, 0, 0, 1, right]], [0.9 * first, first, 0.9 * 0.9, 0.9, 1])
     np.testing.assert_allclose(told.beliefs[[0, 2, 3]], [[0.2] * 5, [0, 0, 0, 0.5, 0.5], [0, 0, 0, 0.5, 0.5]])
-    # Of the guess half is right, of the other label nothing.
+    # The guess is right in half of the cases, the other label never.
     np.testing.assert_allclose(judged(0, guess).values[1, [guess, wrong]], [0, -1])
-    # The last action in time is the answer: whoever interacts then has lost.
+    # An interaction in the last step loses.
     late = judged(1, 1, 1, 1, 0, 0)
     np.testing.assert_allclose(late.values[-1], [-1, -1, -1, -1, -1, 0, 0])
     with pytest.raises(ValueError, match="objective is 'time'; to judge actions, solve for the return"):
         solve(MadeWorld(2, tells), "time").judge(types.SimpleNamespace(hidden=four, actions=np.array([0])))
 
 
-def test_what_is_kept_to_judge_others_is_bounded_and_judgements_stay_the_same(monkeypatch):
-    def judged(solution):
-        drawn = np.random.default_rng(0).integers(2, size=(30, 5))
-        episodes = [types.SimpleNamespace(hidden=7, actions=actions) for actions in drawn]
-        return np.array([solution.judge(episode).values for episode in episodes])
-
-    world = MadeWorld(2, lambda sequence: [min(count, len(sequence)) for count in COUNTS], step_limit=6)
-    everything = judged(solve(world))
-    all_steps, world.steps = world.steps, 0
-    monkeypatch.setattr(search, "_MOST_SITUATIONS", 3)
-    np.testing.assert_array_equal(judged(solve(world)), everything)
-    assert world.steps > all_steps  # It was simulated again.
-
-
-def test_luck_is_zero_on_average_for_a_wandering_fist_that_reads_every_bit():
-    """The fist moves at random, mostly to +x, and the answer is given as soon as a cube has moved."""
-    solution = domains.find("towers").ideal("fist_features", {}, 0.98)
-    generator, size = np.random.default_rng(fresh_seed()), 48
+def test_luck_is_zero_on_average_for_a_wandering_fist():
+    """The fist moves at random, mostly to +x, and answers once a cube has moved."""
+    solution = ideals.of("towers", "fist_features")
+    generator, size = np.random.default_rng(fresh_seed()), 16
     moves = generator.choice(4, (size, 25), p=[0.55, 0.15, 0.15, 0.15])
     actors = [glue.GlueRule(row, 4) for row in moves]
     batch = suite.load_batch("towers", "fist_features", size, {"random": fresh_seed()})
@@ -161,17 +143,17 @@ def test_luck_is_zero_on_average_for_a_wandering_fist_that_reads_every_bit():
     assert abs(luck.mean()) < 4.5 * luck.std() / math.sqrt(size) + 1e-3
 
 
-def test_judged_beliefs_are_exact_wherever_the_fist_has_wandered():
+def test_judged_beliefs_are_exact_after_a_detour():
     wandering = types.SimpleNamespace(hidden=np.array(6), actions=np.array([3, 2, 2, 1, 1, 0, 0, 0, 0]))
-    solution = domains.find("towers").ideal("fist_features", {}, 0.98)
+    solution = ideals.of("towers", "fist_features")
     np.testing.assert_allclose(solution.judge(wandering).beliefs, solution.beliefs(wandering))
 
 
-def test_a_place_that_is_near_to_another_is_worth_about_as_much():
+def test_states_within_the_tolerance_have_nearly_equal_values():
     known = towers.hypotheses("fist_features")
     away = types.SimpleNamespace(hidden=np.array(6), actions=np.array([1]))
     exact, near = (search.solve(known, 0.001, 0.98, tolerance=tolerance).judge(away) for tolerance in (None, 0.05))
-    assert near.values.max() == pytest.approx(exact.values.max(), abs=1e-9)  # At the start it is the same place.
+    assert near.values.max() == pytest.approx(exact.values.max(), abs=1e-9)
     assert near.values[0, 1] == pytest.approx(exact.values[0, 1], abs=0.01)
 
 
@@ -180,7 +162,7 @@ def world(request):
     return request.param, towers.hypotheses(request.param)
 
 
-def test_who_sees_every_bit_knows_the_count_with_the_first_touch(world):
+def test_with_full_resolution_the_first_touch_reveals_the_count(world):
     task, cache = world
     # Pushes touch at once; the fist needs two steps of 0.1 m to cross the 0.17 m to the tower.
     needed = {"direct_features": 1, "fist_features": 2}[task]
@@ -189,7 +171,7 @@ def test_who_sees_every_bit_knows_the_count_with_the_first_touch(world):
         assert solution.value == pytest.approx(value) and solution.bound == pytest.approx(value)
 
 
-def test_a_coarser_eye_never_sees_more(world):
+def test_a_coarser_resolution_is_never_worth_more(world):
     task, cache = world
     values = []
     for resolution in (0.0, 0.001, 0.003):
@@ -199,14 +181,14 @@ def test_a_coarser_eye_never_sees_more(world):
     assert values == sorted(values, reverse=True)
 
 
-def test_in_the_real_environment_it_is_always_right_and_takes_as_long_as_predicted(world):
+def test_it_plays_the_environment_as_predicted(world):
     task, cache = world
     solution = search.solve(cache, 0.003, 0.98)
     seed = fresh_seed()
     environment = suite.load("towers", task, task_kwargs={"random": seed})
     loop = environment_loop.EnvironmentLoop(environment, solution.actor())
     outcomes = solution.outcomes()
-    for _ in range(25):
+    for _ in range(12):
         episode = loop.run_episode()
         interactions, right = outcomes[environment.task.hidden]
         assert right and episode["episode_return"] == 1
@@ -214,16 +196,18 @@ def test_in_the_real_environment_it_is_always_right_and_takes_as_long_as_predict
 
 
 def test_the_towers_look_alike_until_they_are_touched():
-    known = situations.Situations(towers.hypotheses("fist_features"), 0.0)
+    known = histories.Histories(towers.hypotheses("fist_features"), 0.0)
     everything = tuple(range(PATTERNS))
-    _, away = known.follow(known.start, everything, 1)  # Action 1 moves the fist away.
+    _, away = known.successor(known.start, everything, 1)  # Action 1 moves the fist away.
     known.expand(away)
-    assert [parts for parts, _ in away.after.values()] == [{everything: [(pytest.approx(1), everything)]}] * 4
+    assert [partitions for partitions, _ in away.successors.values()] == [
+        {everything: [(pytest.approx(1), everything)]}
+    ] * 4
     # One action at the start, and four after it, for 16 patterns each.
     assert known.hypotheses.steps == (1 + 4) * PATTERNS
 
 
-def test_distances_are_the_largest_of_positions_or_the_number_of_pixels():
+def test_distances_are_the_largest_of_all_readings_or_count_pixels():
     positions = np.zeros((2, 5, 3))
     positions[1, 2] = [0.03, 0.04, 0]
     fist = np.zeros((2, 3))
@@ -248,16 +232,16 @@ def test_distances_are_the_largest_of_positions_or_the_number_of_pixels():
     np.testing.assert_array_equal(apart(pixels=pixels), [[0, 2], [2, 0]])
 
 
-def test_from_pixels_the_first_touch_tells_as_well():
-    solution = domains.find("towers").ideal("direct_pixels", {}, 0.98)
+def test_it_plays_as_well_from_pixels():
+    solution = ideals.of("towers", "direct_pixels")
     assert solution.value == pytest.approx(solution.bound)
     seed = fresh_seed()
     environment = suite.load("towers", "direct_pixels", task_kwargs={"random": seed})
-    episodes = environment_loop.EnvironmentLoop(environment, solution.actor()).run(10)
+    episodes = environment_loop.EnvironmentLoop(environment, solution.actor()).run(4)
     assert all(episode["episode_return"] == 1 for episode in episodes)
 
 
-def test_the_summary_can_be_written_as_json_even_where_the_count_cannot_be_known():
+def test_a_summary_without_a_certain_answer_can_be_written_as_json():
     summary = solve(MadeWorld(1, lambda sequence: COUNTS)).summary()
     assert json.loads(json.dumps(summary))["mean_seconds"] == pytest.approx(0.1)
     blind = search.solve(MadeWorld(1, lambda sequence: [0] * PATTERNS), 0.5, 0.98, "time", max_depth=2)
@@ -265,35 +249,16 @@ def test_the_summary_can_be_written_as_json_even_where_the_count_cannot_be_known
 
 
 def test_an_answer_must_come_within_the_time_limit():
-    # Two actions are allowed and the fist needs two to touch: only one is left for it, then a guess. It is right in one
-    # case of five, -0.6; acting before it discounts the loss.
-    solution = domains.find("towers").ideal("fist_features", {"time_limit": 0.2}, 0.98)
+    # Two actions are allowed, and the fist needs two to touch. So it guesses, right in one case of five, -0.6, after
+    # one interaction, which discounts the loss.
+    solution = ideals.of("towers", "fist_features", time_limit=0.2)
     assert solution.value == pytest.approx(0.98 * -0.6) and solution.bound == pytest.approx(solution.value)
     environment = suite.load("towers", "fist_features", task_kwargs={"random": fresh_seed(), "time_limit": 0.2})
     episodes = environment_loop.EnvironmentLoop(environment, solution.actor()).run(5)
     assert all(episode["episode_length"] == 2 for episode in episodes)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ((-1.0, 0.9), "resolution is -1.0; give a finite number >= 0"),
-        ((math.inf, 0.9), "resolution is inf; give a finite number >= 0"),
-        ((0.0, 0.0), "discount is 0.0; give a number from 0 to 1 but not 0"),
-        ((0.0, 0.9, "fame"), "objective is 'fame'; choose from return, time"),
-    ],
-)
-def test_what_makes_no_sense_is_refused(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        search.solve(MadeWorld(1, lambda sequence: COUNTS), *arguments)
-
-
-def test_a_task_that_there_is_not_is_refused_with_those_that_there_are():
-    with pytest.raises(ValueError, match="task_name is 'features'; tasks of towers: direct_features"):
-        domains.find("towers").ideal("features", {}, 0.98)
-
-
-def test_what_can_be_believed_of_a_recorded_episode_is_what_its_observations_leave_possible(world):
+def test_beliefs_have_the_hypotheses_that_agree_with_observations(world):
     task, cache = world
     touch = {"direct_features": [0], "fist_features": [0, 0]}[task]
     num_interactions = cache.task.num_interactions
@@ -301,21 +266,22 @@ def test_what_can_be_believed_of_a_recorded_episode_is_what_its_observations_lea
     for pattern in range(PATTERNS):
         actions = np.array([*touch, num_interactions + 2])
         found = solution.beliefs(types.SimpleNamespace(hidden=np.array(pattern), actions=actions))
-        before = np.full((len(touch), 5), 0.2)  # Nothing is known before the touch, and all after it.
+        before = np.full((len(touch), 5), 0.2)  # Nothing is known before the touch, all after it.
         known = np.eye(5)[COUNTS[pattern] - 1]
         np.testing.assert_allclose(found, [*before, known, known], atol=1e-12)
-    # An observer to whom nothing looks different never learns.
+    # An observer that distinguishes nothing never learns.
     blind = search.solve(cache, 10.0, 0.98).beliefs(types.SimpleNamespace(hidden=np.array(3), actions=actions))
     np.testing.assert_allclose(blind, 0.2)
 
 
-def test_an_episode_with_something_else_hidden_is_refused():
+def test_an_episode_with_an_unknown_hidden_property_is_refused():
     solution = search.solve(MadeWorld(1, lambda sequence: COUNTS), 0.5, 0.98)
     with pytest.raises(ValueError, match="hidden is 16, which is none of the hypotheses"):
         solution.beliefs(types.SimpleNamespace(hidden=16, actions=np.zeros(0, int)))
 
 
-def test_the_rule_of_noisy_towers_answers_in_the_last_step_in_time():
+def test_the_rule_for_noisy_towers_answers_in_the_last_step(monkeypatch):
+    monkeypatch.setattr(bounds, "NUM_EPISODES", 640)
     only_step = {"noise": 0.001, "time_limit": 0.1}
     solution = domains.find("towers").ideal("direct_features", only_step, discount=0.98)
     summary = solution.summary()

@@ -1,4 +1,4 @@
-"""What random interactions earn: bounds from both sides, against made-up worlds that can be solved exactly."""
+"""Bounds on the return of random interactions, against made worlds that can be solved exactly."""
 
 import functools
 import math
@@ -8,26 +8,25 @@ from made_worlds import COUNTS, PATTERNS, MadeWorld
 import numpy as np
 import pytest
 
-from physexp.analysis.ideal import random_play, search, situations
+from physexp.analysis.ideal import histories, random_play, search
 
 LABELS = np.array(COUNTS) - 1
 
 
 def nothing_or_all(sequence):
-    """Action 0 tells the label, any other tells nothing."""
+    """Action 0 reveals the label, any other nothing."""
     return LABELS if 0 in sequence else [0] * PATTERNS
 
 
-def test_where_every_interaction_tells_all_one_is_enough():
-    found = random_play.bounds(situations.Situations(MadeWorld(1, nothing_or_all), 0.5), 0.9)
+def test_one_interaction_is_enough_if_it_reveals_the_label():
+    found = random_play.bounds(histories.Histories(MadeWorld(1, nothing_or_all), 0.5), 0.9)
     assert found.at_once == pytest.approx(2 / 5 - 1)
     assert found.random_value == pytest.approx(0.9) and found.random_bound == pytest.approx(0.9)
 
 
-def test_where_one_of_two_interactions_tells_all_it_is_drawn_sooner_or_later():
-    # It is drawn first after k interactions with probability 1 / 2^k. To know when does not help: only then is there
-    # something to say.
-    found = random_play.bounds(situations.Situations(MadeWorld(2, nothing_or_all), 0.5), 0.9)
+def test_one_of_two_actions_that_reveals_the_label_is_drawn_in_time():
+    # It is drawn first after k interactions with probability 1 / 2^k. Knowing the sequence does not help.
+    found = random_play.bounds(histories.Histories(MadeWorld(2, nothing_or_all), 0.5), 0.9)
     steps = np.arange(1, 60)
     mean, square = (0.5**steps @ 0.9 ** (power * steps) for power in (1, 2))
     assert found.random_value == pytest.approx(found.random_bound)
@@ -35,7 +34,7 @@ def test_where_one_of_two_interactions_tells_all_it_is_drawn_sooner_or_later():
 
 
 def bits(sequence):
-    """Action 0 tells whether the label is below 2, action 1 whether it is odd, action 2 nothing."""
+    """Action 0 reveals whether the label is below 2, action 1 whether it is odd, action 2 nothing."""
     values = np.zeros(PATTERNS)
     if 0 in sequence:
         values += LABELS < 2
@@ -45,11 +44,11 @@ def bits(sequence):
 
 
 def exact(discount, step_limit):
-    """Expected return of random interactions in the world of bits, with the best answers at the best moment."""
+    """Returns the return of random interactions in the world of bits, with the best answers at the best moment."""
     prior = MadeWorld(3, bits).prior
 
     def chances(group):
-        return situations.label_chances(group, prior, LABELS, 5)
+        return histories.label_probabilities(group, prior, LABELS, 5)
 
     @functools.cache
     def value(told, group, steps):
@@ -68,22 +67,21 @@ def exact(discount, step_limit):
     return value((), tuple(range(PATTERNS)), step_limit)
 
 
-@pytest.mark.parametrize("discount, step_limit", [(0.9, 26), (0.9, 4), (0.5, 10)])
+@pytest.mark.parametrize("discount, step_limit", [(0.9, 12), (0.9, 4), (0.5, 10)])
 def test_the_exact_value_lies_between_the_bounds(discount, step_limit):
-    found = random_play.bounds(situations.Situations(MadeWorld(3, bits, step_limit), 0.5), discount)
+    found = random_play.bounds(histories.Histories(MadeWorld(3, bits, step_limit), 0.5), discount)
     error = 5 * 0.25 / math.sqrt(64)  # Five standard errors: sequences differ by less than a quarter from their mean.
     expected = exact(discount, step_limit)
     assert found.random_value <= found.random_bound + 1e-12
     assert found.random_value - error < expected < found.random_bound + error
 
 
-@pytest.mark.parametrize("domain, task", [("towers", "direct_features"), ("sealed_box", "features")])
-def test_nobody_who_draws_interactions_earns_more_than_the_ideal(domain, task):
-    found = ideals.of(domain, task).summary()
+def test_random_interactions_earn_less_than_the_ideal():
+    found = ideals.of("towers", "direct_features").summary()
     assert found["at_once"] < found["random_value"] <= found["random_bound"] <= found["value"] + 1e-9
 
 
-def test_it_is_part_of_what_is_printed_of_the_return_and_not_of_the_time():
+def test_they_are_in_the_summary_of_the_return_alone():
     world = MadeWorld(1, nothing_or_all)
     assert "random_value" in search.solve(world, 0.5, 0.9).summary()
     assert "random_value" not in search.solve(world, 0.5, 0.9, "time").summary()
