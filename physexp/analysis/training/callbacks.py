@@ -1,4 +1,4 @@
-"""Callbacks of long work, which show its progress: `tell` takes a line of text, `report` a row of metrics."""
+"""Callbacks that show the progress of long work: `tell` takes a line of text, `report` a row of metrics."""
 
 from collections.abc import Callable
 import contextlib
@@ -13,12 +13,12 @@ def ignore(_: Any) -> None:
 
 
 def expendable(watch: Callable[..., Any], tell: Tell, name: str) -> Callable[..., None]:
-    """Returns a watcher that work does not depend on: when it fails, a line tells so, and it is called no more.
+    """Returns a watcher that is left out after its first failure, with a line that says so.
 
     Args:
       watch: the watcher.
       tell: called with the line.
-      name: the watcher's, for the line.
+      name: the watcher's name in the line.
     """
     has_failed = False
 
@@ -30,8 +30,8 @@ def expendable(watch: Callable[..., Any], tell: Tell, name: str) -> Callable[...
             watch(*arguments)
         except Exception as error:
             has_failed = True
-            with contextlib.suppress(Exception):  # The line, too, may have nowhere to go.
-                said = " ".join(str(error).split()) or type(error).__name__
-                tell(f"{name} failed and is left out from now on: {said}")
+            with contextlib.suppress(Exception):  # Printing may fail, too.
+                reason = " ".join(str(error).split()) or type(error).__name__
+                tell(f"{name} failed and is left out from now on: {reason}")
 
     return call

@@ -109,6 +109,12 @@ class TrainConfig:
         discount = f"-discount{self.agent.discount:g}"
         return f"{self.domain}-{self.task}{options}{algorithm}{discount}-seed{self.agent.seed}"
 
+    def load_task(self) -> Any:
+        """Returns the task with its options; see `suite.load_task`."""
+        from physexp import suite  # Imports MuJoCo.
+
+        return suite.load_task(self.domain, self.task, self.task_kwargs)
+
     def to_json(self) -> dict:
         """Returns the fields as JSON has them; `from_json` makes an equal configuration of them."""
         fields = dataclasses.asdict(self)

@@ -1,15 +1,14 @@
-"""Learning curves, drawn from a run's records."""
+"""Learning curves of a run."""
 
 from pathlib import Path
 
-from physexp import suite
 from physexp.agents import files
 from physexp.analysis.data import plots
 from physexp.analysis.training import run as run_lib
 
 
 def draw(run: run_lib.Run, path: Path) -> Path:
-    """Draws success and interactions of a run against frames; returns the path of the PNG.
+    """Draws a run's success rate and interactions against frames; returns the path of the PNG.
 
     Raises:
       ValueError: if the run has no metrics yet.
@@ -18,12 +17,11 @@ def draw(run: run_lib.Run, path: Path) -> Path:
     if not rows:
         raise ValueError(f"{run.path} has no metrics yet")
     config = run.config
-    num_labels = suite.load_task(config.domain, config.task, config.task_kwargs).num_labels
     frames = [row["frames"] / 1e6 for row in rows]
     with plots.style():
         drawn, (top, bottom) = plots.new(rows=2, width=4.5, height=1.8, sharex=True)
         top.plot(frames, [row["success_rate"] for row in rows], color=plots.COLORS[1])
-        plots.reference(top, 1 / num_labels, "chance")
+        plots.reference(top, 1 / config.load_task().num_labels, "chance")
         top.set(ylabel="share of right answers", ylim=(0, 1.02), title=config.name)
         bottom.plot(frames, [row["interactions"] for row in rows], color=plots.COLORS[2])
         bottom.set(xlabel="environment steps, millions", ylabel="interactions in an episode", ylim=(0, None))

@@ -1,12 +1,9 @@
-"""The metrics of a run: rows that say how training goes, in a table that survives crashes."""
+"""The metrics of a run, `metrics.csv`: a row every few seconds of training."""
 
-from collections.abc import Mapping, Sequence
-import itertools
-import math
+from collections.abc import Mapping
 from pathlib import Path
 
 from physexp.agents import files
-from physexp.analysis.training import config
 
 METRICS = {
     "frames": "environment steps trained on",
@@ -19,89 +16,45 @@ METRICS = {
     "interactions": "mean interaction actions in an episode",
     "timeouts": "share of episodes that ran out of time",
 }
-"""The columns of `metrics.csv` that every run has.
+"""The first columns of `metrics.csv`, those of every run.
 
 Those of its learner follow, `AgentConfig.metrics`: means over the updates since the row before.
 """
 
-_KNOWN = {*METRICS, *itertools.chain.from_iterable(agent.metrics for agent in config.ALGORITHMS.values())}
-_LARGEST = 2**28  # Bytes: rows of a hundred days.
+
+def append(path: Path, row: Mapping[str, float]) -> None:
+    """Adds a row; the first one makes the file and its header."""
+    cells = [f"{value:.6g}" if isinstance(value, float) else str(value) for value in row.values()]
+    with path.open("a", encoding="utf-8") as file:
+        lines = [cells] if file.tell() else [list(row), cells]
+        file.write("".join(f"{','.join(line)}\n" for line in lines))
 
 
-class MetricsFile:
-    """A run's `metrics.csv`."""
+def read(path: Path) -> list[dict[str, float]]:
+    """Returns the rows, without the last one if a crash has torn it; raises ValueError if the file is damaged."""
+    return [row for _, row in _lines(path)[1]]
 
-    def __init__(self, path: Path):
-        """Names a file, which the first row makes."""
-        self.path = path
 
-    def append(self, row: Mapping[str, float]) -> None:
-        """Adds a row, under the columns that the first row has made.
+def rewind(path: Path, frames: int) -> None:
+    """Removes the rows after a number of frames, and one that a crash has torn."""
+    header, lines = _lines(path)
+    kept = [line for line, row in lines if row["frames"] <= frames]
+    if path.exists():
+        files.write_atomically(path, "".join(f"{line}\n" for line in [header, *kept] if line).encode())
 
-        A run that an earlier version has begun may have more columns than rows have now: those get `nan`.
 
-        Raises:
-          OSError, ValueError: as `files.open_plain`.
-        """
-        with files.open_plain(self.path, "a+b") as file:
-            file.seek(0)
-            header = file.readline().decode(errors="replace")
-            names = header.strip().split(",") if header else list(row)
-            values = [row.get(name, math.nan) for name in names]
-            cells = [f"{value:.6g}" if isinstance(value, float) else str(value) for value in values]
-            lines = [cells] if header else [names, cells]
-            file.write("".join(f"{','.join(line)}\n" for line in lines).encode())
-
-    def rows(self) -> list[dict[str, float]]:
-        """Returns the rows, without one that a crash has torn.
-
-        Raises:
-          ValueError: if there is something else in the file.
-        """
-        return self._parse(*self._lines())
-
-    def split(self, frames: int) -> tuple[list[str], list[str], list[str]]:
-        """Returns the names of the columns, the lines up to a number of frames, and those after it.
-
-        Raises:
-          ValueError: as `rows`.
-        """
-        names, lines = self._lines()
-        is_kept = [row["frames"] <= frames for row in self._parse(names, lines)]
-        later = [line for line, keep in zip(lines, is_kept, strict=True) if not keep]
-        return names, list(itertools.compress(lines, is_kept)), later
-
-    def write(self, names: Sequence[str], lines: Sequence[str]) -> None:
-        """Replaces the file by one with these columns and lines, as `split` returns them.
-
-        Raises:
-          OSError: if it cannot be written.
-        """
-        lines = [",".join(names), *lines] if names else []
-        files.write_atomically(self.path, "".join(f"{line}\n" for line in lines).encode())
-
-    def _parse(self, header: list[str], lines: list[str]) -> list[dict[str, float]]:
-        rows = []
-        for number, line in enumerate(lines, 2):
-            try:
-                rows.append(dict(zip(header, map(float, line.split(",")), strict=True)))
-            except ValueError:
-                raise ValueError(
-                    f"{self.path} is damaged: line {number} is no row of {len(header)} numbers; mend it, or move it "
-                    "away"
-                ) from None
-        return rows
-
-    def _lines(self) -> tuple[list[str], list[str]]:
-        """Returns the names of the columns, none if there are none yet, and the whole lines below them."""
+def _lines(path: Path) -> tuple[str, list[tuple[str, dict[str, float]]]]:
+    """Returns the header, and each whole line below it with the row that it holds."""
+    content = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
+    header, *lines = content[: content.rfind("\n") + 1].splitlines() or [""]
+    names, found = header.split(","), []
+    if header and names[0] != "frames":
+        raise ValueError(f"{path} is damaged: its first line names no metrics; mend it, or move it away")
+    for number, line in enumerate(lines, 2):
         try:
-            content = files.read_plain(self.path, _LARGEST).decode(errors="replace")
-        except (FileNotFoundError, NotADirectoryError):
-            content = ""
-        if "\n" not in content:
-            return [], []
-        header, *lines = content[: content.rfind("\n") + 1].splitlines()
-        names = header.split(",")
-        if names[0] != "frames" or not set(names) <= _KNOWN:  # Earlier versions had fewer columns.
-            raise ValueError(f"{self.path} is damaged: its first line names no metrics; mend it, or move it away")
-        return names, lines
+            found.append((line, dict(zip(names, map(float, line.split(",")), strict=True))))
+        except ValueError:
+            raise ValueError(
+                f"{path} is damaged: line {number} is no row of {len(names)} numbers; mend it, or move it away"
+            ) from None
+    return header, found

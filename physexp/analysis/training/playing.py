@@ -17,7 +17,7 @@ _BATCH = 256
 
 
 def evaluate(run: run_lib.Run, num_episodes: int, interaction: str = "learned", seed: int = SEED) -> Episodes:
-    """Plays episodes with the agent of a run that has a checkpoint; otherwise as `play`."""
+    """Plays episodes with the agent of a run; otherwise as `play`."""
     network = finding.load_network(run)
     return play(network, run.config, num_episodes, interaction, seed=seed)
 
@@ -35,20 +35,20 @@ def play(
     num_steps: int = 0,
     show: Callable[[int], None] | None = None,
 ) -> Episodes:
-    """Plays episodes with a network; returns them.
+    """Returns episodes that a network has played.
 
     Args:
       network: the agent's network.
-      config: says what it plays.
-      num_episodes: how many, at least.
+      config: its run's configuration, which says what it plays.
+      num_episodes: number of episodes.
       interaction: `learned`, or `random` for the paper's randomized interaction (Section 5.3): labeling actions pass,
         an interaction action is replaced by one drawn uniformly.
       greedy: take the likeliest action instead of drawing one.
       seed: of the environments and the actions.
       num_threads: threads that simulate.
-      device: where convolutions are computed, as in `AgentConfig`.
-      num_steps: go on, in rounds of whole episodes, until there are so many environment steps.
-      show: called after each round with how many of the episodes are played.
+      device: device of convolutions, as in `AgentConfig`.
+      num_steps: least number of environment steps; with it, whole rounds are returned.
+      show: called after each round with the number of episodes played.
 
     Raises:
       ValueError: for an unknown interaction or a number of episodes below one.
@@ -81,16 +81,16 @@ def play(
 
 
 def ideal_return(config: config_lib.TrainConfig) -> float | None:
-    """Returns the return that the ideal experimenter expects in an agent's task; None where it is not known."""
+    """Returns the expected return of the ideal experimenter in an agent's task; None where it is not known."""
     find = domains.find(config.domain).ideal_with(config.task_kwargs)
     try:
         return None if find is None else find(config.task, config.task_kwargs, config.agent.discount).value
-    except ValueError:  # These options are outside of its own.
+    except ValueError:  # It is not defined for these options.
         return None
 
 
 def randomized(choose: acting.Choose, num_interactions: int, generator: np.random.Generator) -> acting.Choose:
-    """Returns a choice whose interaction actions are drawn uniformly; labeling actions pass (paper, Section 5.3)."""
+    """Returns a choice that draws interaction actions uniformly; labeling actions pass (paper, Section 5.3)."""
 
     def choose_anew(output: networks.Output, environments: np.ndarray, step: int) -> np.ndarray:
         actions = choose(output, environments, step)

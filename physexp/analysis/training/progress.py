@@ -1,4 +1,4 @@
-"""Shows how training goes: a live table on a terminal, plain lines elsewhere."""
+"""Progress of training: a live table on a terminal, plain lines elsewhere."""
 
 from collections.abc import Callable, Iterator
 import contextlib
@@ -20,10 +20,10 @@ _LINE_SECONDS = 10.0
 
 
 class Progress:
-    """Reports rows of metrics while training runs; use it as a context manager."""
+    """Shows rows of metrics while training runs; use it as a context manager."""
 
     def __init__(self, config: config_lib.TrainConfig, file=None):
-        """Prepares a display of a run on `file`, by default standard error."""
+        """Prepares the display of a run on `file`, by default standard error."""
         self._config, self._file = config, file or sys.stderr
         self._live: Any = None
         self._printed = 0.0
@@ -66,9 +66,9 @@ class Progress:
 
 @contextlib.contextmanager
 def bar(name: str, total: int, file=None) -> Iterator[Callable[[int], None]]:
-    """Returns a context with a function to be called with how many of `total` are done: it moves a bar on a terminal.
+    """Context with a progress bar on a terminal; yields a function that takes the number of steps done.
 
-    Elsewhere than on a terminal nothing is shown. By default `file` is standard error.
+    Nothing is shown if `file`, by default standard error, is no terminal.
     """
     from rich import console, progress
 
@@ -85,7 +85,7 @@ def bar(name: str, total: int, file=None) -> Iterator[Callable[[int], None]]:
 
 
 def duration(seconds: float) -> str:
-    """Returns hours, minutes and seconds, as in 1:02:03."""
+    """Returns a duration in hours, minutes and seconds, as 1:02:03."""
     minutes, seconds = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}:{minutes:02d}:{seconds:02d}"

@@ -1,4 +1,4 @@
-"""Recording: writes the metrics, episodes and checkpoints of a run as it trains."""
+"""Recording: writes the metrics, episodes and checkpoints of a run while it trains."""
 
 from collections.abc import Callable, Mapping, Sequence
 import functools
@@ -10,7 +10,7 @@ import numpy as np
 import pyarrow
 import torch
 
-from physexp import checks, suite
+from physexp import suite
 from physexp.agents import core, files, learning
 from physexp.analysis.data import episodes as episodes_lib
 from physexp.analysis.data import provenance
@@ -27,9 +27,8 @@ OnCheckpoint = Callable[[int, Mapping[str, torch.Tensor]], None]
 class Recorder:
     """Writes a run's rows, episodes and checkpoints.
 
-    A checkpoint is written when all updates in it, and none after it, have been recorded: so the records of a run that
-    was killed and resumed have no gap, and nothing twice. Watchers are called after it is written; one that fails is
-    told of and left out.
+    A checkpoint is written once all updates in it, and none after it, have been recorded. So the records of a run that
+    was killed and resumed have no gap and nothing twice.
     """
 
     def __init__(
@@ -43,52 +42,47 @@ class Recorder:
         """Records nothing yet.
 
         Args:
-          run: whose folder is written to; it is locked meanwhile.
-          config: what is trained.
+          run: the run, whose folder is locked.
+          config: its configuration.
           report: called with each row of metrics.
-          tell: called with a line for each checkpoint that is damaged.
-          on_checkpoint: watches the network as it becomes.
+          tell: called with a line for each checkpoint that is damaged, and when a watcher fails.
+          on_checkpoint: watches the network as it is trained.
         """
         self._run, self._config, self._tell = run, config, tell
         self._report = callbacks.expendable(report, tell, "the report of training")
-        self._on_checkpoint = on_checkpoint and callbacks.expendable(
-            on_checkpoint, tell, "the watcher of checkpoints (replays)"
-        )
-        self._num_interactions = suite.load_task(config.domain, config.task, config.task_kwargs).num_interactions
-        self._start_over()
-
-    def _start_over(self) -> None:
-        """Forgets all that has been recorded."""
-        self._frames = self._updates = self._num_episodes = 0
+        watch = on_checkpoint or (lambda frames, variables: None)
+        self._on_checkpoint = callbacks.expendable(watch, tell, "the watcher of checkpoints (replays)")
+        self._num_interactions = config.load_task().num_interactions
+        self._frames = self._updates = self._num_episodes = self._frames_at_row = 0
         self._seconds = 0.0
         self._started = self._checkpointed = self._row_started = time.monotonic()
-        self._frames_at_row = 0
         self._window: list[core.Update] = []  # Updates since the last row.
-        self._snapshot: dict | None = None  # The variables of a checkpoint that waits for updates before it.
+        self._snapshot: dict[str, torch.Tensor] | None = None  # Of a checkpoint that waits for updates before it.
         self._later: list[core.Update] = []  # Updates after that checkpoint.
         self._rows: list[pyarrow.Table] = []  # Episodes since the last checkpoint.
 
     def resume(self, agent: core.Agent) -> None:
-        """Puts the agent and the records back to the last checkpoint that is whole, or to the start.
+        """Restores the agent and the records from the last checkpoint that is whole, or to the start.
 
         Raises:
           ValueError: if none is whole, or it is of another task or does not fit; it names the file.
         """
-        self._start_over()
 
-        def accept(tensors, facts):
-            self._check_facts(facts)
+        def accept(tensors: Mapping[str, torch.Tensor], facts: Mapping[str, object]) -> None:
+            if facts.get("task") != self._config.task_name:
+                raise ValueError(
+                    f"the checkpoint is of {facts.get('task')}, the run of {self._config.task_name}; put back the "
+                    "run's own"
+                )
             agent.restore(tensors)
 
         found = self._run.checkpointer.latest(self._tell, accept)
-        if found is None:
-            self._run.rewind(-1)
-            return
-        tensors, facts = found
-        self._frames, self._updates = int(tensors["frames"]), int(tensors["updates"])
-        self._num_episodes, self._seconds = facts["episodes"], facts["seconds"]
-        self._frames_at_row = self._frames
-        self._run.rewind(self._frames)
+        if found is not None:
+            tensors, facts = found
+            self._frames = self._frames_at_row = int(tensors["frames"])
+            self._updates = int(tensors["updates"])
+            self._num_episodes, self._seconds = facts["episodes"], facts["seconds"]
+        self._run.rewind(-1 if found is None else self._frames)
 
     def add(self, update: core.Update) -> None:
         """Records an update, or keeps it until the checkpoint before it has been written."""
@@ -108,15 +102,14 @@ class Recorder:
         waited = time.monotonic() - self._checkpointed
         return self._snapshot is None and waited > self._config.agent.checkpoint_seconds
 
-    def snapshot(self, tensors: dict) -> None:
-        """Writes a checkpoint of these variables, as soon as the updates in it have been recorded, if there are any."""
-        if int(tensors["updates"]) == 0:
-            return
-        self._snapshot = tensors
-        self._write_checkpoint_when_complete()
+    def snapshot(self, tensors: dict[str, torch.Tensor]) -> None:
+        """Writes a checkpoint of the variables as soon as all updates in it are recorded; none before the first one."""
+        if int(tensors["updates"]) > 0:
+            self._snapshot = tensors
+            self._write_checkpoint_when_complete()
 
     def save_failure(self, error: core.AgentError) -> str:
-        """Saves the episodes that made the loss diverge; returns a phrase that says where."""
+        """Saves the episodes of a loss that was not finite; returns a phrase that names the file."""
         if error.batch is None:
             return ""
         path, content = self._run.path / "failed_batch.npz", io.BytesIO()
@@ -126,19 +119,6 @@ class Recorder:
         except OSError as obstacle:
             return f" (the batch could not be written to {path}: {obstacle.strerror})"
         return f" (the batch is in {path})"
-
-    def _check_facts(self, facts: dict) -> None:
-        """Refuses the facts beside a checkpoint that is of another task, or no run's."""
-        task, episodes, seconds = (facts.get(name) for name in ("task", "episodes", "seconds"))
-        if task != self._config.task_name:
-            task = ascii(task)[:80] if not isinstance(task, str) else task[:80]
-            raise ValueError(
-                f"the checkpoint is of {task}, the run of {self._config.task_name}; put back the run's own"
-            )
-        if not checks.is_integer(episodes) or not 0 <= episodes < 2**63:
-            raise ValueError("the checkpoint's `episodes` is no count; put back the run's own")
-        if not checks.is_number(seconds) or not 0 <= seconds < 2**63:
-            raise ValueError("the checkpoint's `seconds` is no duration; put back the run's own")
 
     def _write_checkpoint_when_complete(self) -> None:
         if self._snapshot is None or self._updates < int(self._snapshot["updates"]):
@@ -158,8 +138,7 @@ class Recorder:
         self._run.checkpointer.save(tensors, facts)
         if row is not None:
             self._report(row)
-        if self._on_checkpoint is not None:
-            self._on_checkpoint(self._frames, learning.network_variables(tensors))
+        self._on_checkpoint(self._frames, learning.network_variables(tensors))
         self._checkpointed = time.monotonic()
         later, self._later = self._later, []
         for update in later:
@@ -168,30 +147,25 @@ class Recorder:
     def _write_row(self) -> dict[str, float]:
         """Writes and returns the metrics of the updates since the row before; keeps the episodes of the last one."""
         self._run.check_lock()
-        now = time.monotonic()
+        now, discount = time.monotonic(), self._config.agent.discount
         parts = [self._episodes_of(update) for update in self._window]
+        episodes = episodes_lib.Episodes.joined(parts)
         row = {
             "frames": self._frames,
             "updates": self._updates,
             "episodes": self._num_episodes,
             "seconds": self._seconds + now - self._started,
             "frames_per_second": (self._frames - self._frames_at_row) / max(1e-3, now - self._row_started),
-            **self._summary(episodes_lib.Episodes.joined(parts)),
+            "success_rate": float((episodes.reward > 0).mean()),
+            "episode_return": float(episodes.returns(discount).mean()),
+            "interactions": float(episodes.interactions.mean()),
+            "timeouts": float(episodes.is_timeout.mean()),
+            **{name: _mean([update.metrics[name] for update in self._window]) for name in self._config.agent.metrics},
         }
         self._run.append_metrics(row)
         self._rows.append(parts[-1].table(run_lib.EPISODES, frames=self._frames))
         self._window, self._row_started, self._frames_at_row = [], now, self._frames
         return row
-
-    def _summary(self, episodes: episodes_lib.Episodes) -> dict[str, float]:
-        """Returns means over the episodes and the updates since the row before."""
-        return {
-            "success_rate": float((episodes.reward > 0).mean()),
-            "episode_return": float(episodes.returns(self._config.agent.discount).mean()),
-            "interactions": float(episodes.interactions.mean()),
-            "timeouts": float(episodes.is_timeout.mean()),
-            **{name: _mean([update.metrics[name] for update in self._window]) for name in self._config.agent.metrics},
-        }
 
     def _episodes_of(self, update: core.Update) -> episodes_lib.Episodes:
         played = update.episodes
@@ -200,12 +174,11 @@ class Recorder:
 
 
 def _mean(values: Sequence[float]) -> float:
-    """Returns the mean of those that are numbers: an update without a step of Adam has no losses."""
+    """Returns the mean of the values that are not NaN: an update without a step of Adam has no losses."""
     numbers = [value for value in values if not math.isnan(value)]
     return float(np.mean(numbers)) if numbers else math.nan
 
 
 @functools.lru_cache(maxsize=256)  # A worker's batch of environments has one seed for all of its updates.
 def _environment_seeds(seed: int, size: int) -> np.ndarray:
-    """Returns the seeds of the environments of a batch, int64 [size]."""
     return np.array([suite.environment_seed(seed, index) for index in range(size)])

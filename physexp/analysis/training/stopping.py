@@ -1,18 +1,17 @@
-"""Requests to end: Ctrl-C, SIGTERM from a scheduler or a container, SIGHUP from a terminal that is gone."""
+"""Requests to end: Ctrl-C, SIGTERM from a scheduler or a container, SIGHUP from a closed terminal."""
 
 from collections.abc import Callable, Iterator
 import contextlib
 import math
 import os
 import signal
-import stat
 import threading
 import time
 
 from physexp.agents import processes
 
 TOGETHER_SECONDS = 1.0
-"""Requests that come this close are one, since many a sender writes to a process and then to its whole group."""
+"""Signals that arrive this close count as one: many senders signal a process and then its whole group."""
 
 _signals: tuple[signal.Signals, ...] = processes.STOP_SIGNALS  # Those that are requests, in this process.
 
@@ -36,46 +35,46 @@ def exit_status(error: KeyboardInterrupt) -> int:
 
 @contextlib.contextmanager
 def raised() -> Iterator[None]:
-    """A context in which a request to end raises Interrupted, in the main thread.
+    """Context in which a request to end raises Interrupted, in the main thread.
 
-    Code that it comes upon, such as the import of a library, may turn it into an error of its own: an error that
-    leaves the context after a request is raised as Interrupted, too.
+    A library may turn the exception into an error of its own, as imports of MuJoCo do. So an error that leaves the
+    context after a request is raised as Interrupted, too.
     """
-    heard: list[int] = []
+    received: list[int] = []
 
-    def hear(number: int) -> None:
-        heard.append(number)
+    def receive(number: int) -> None:
+        received.append(number)
         _raise(number)
 
-    with _heard(hear, TOGETHER_SECONDS):
+    with _handled(receive):
         try:
             yield
-        except (Exception, KeyboardInterrupt) as error:  # Of the kind, too, but without its number.
-            if heard:
-                raise Interrupted(heard[0]) from error
+        except (Exception, KeyboardInterrupt) as error:
+            if received:
+                raise Interrupted(received[0]) from error
             raise
 
 
-class Interruption:
-    """A context that turns the first request to end into a call; the second raises Interrupted.
+class Interruption(contextlib.AbstractContextManager):
+    """Context in which the first request to end calls a function, and the second raises Interrupted.
 
     Attributes:
-      happened: what to raise when all is in order; None when nobody has asked.
+      happened: the exception to raise once everything is saved; None if there was no request.
     """
 
-    def __init__(self, stop: Callable[[], None], together_seconds: float = TOGETHER_SECONDS):
-        self._stop = stop
-        self._handling = _heard(self._hear, together_seconds)
+    def __init__(self, stop: Callable[[], None]):
+        """Calls `stop` at the first request."""
+        self._stop, self._handling = stop, _handled(self._receive)
         self.happened: Interrupted | None = None
 
     def __enter__(self):
         self._handling.__enter__()
         return self
 
-    def __exit__(self, *raised_now):
-        self._handling.__exit__(*raised_now)
+    def __exit__(self, *error):
+        self._handling.__exit__(*error)
 
-    def _hear(self, number: int) -> None:
+    def _receive(self, number: int) -> None:
         if self.happened is not None:
             _raise(number)
         self.happened = Interrupted(number)
@@ -83,7 +82,7 @@ class Interruption:
 
 
 def obey(wait: Callable[[], object]) -> None:
-    """Lets a child's process be asked by its parent, and by nobody else.
+    """Has a child's process ended by its parent alone.
 
     Args:
       wait: returns when the parent asks; called in a thread of its own.
@@ -93,7 +92,7 @@ def obey(wait: Callable[[], object]) -> None:
     signal.signal(signal.SIGUSR1, lambda number, frame: _raise(number))
 
     def pass_on() -> None:
-        with contextlib.suppress(EOFError, OSError):  # The parent is gone, without having asked.
+        with contextlib.suppress(EOFError, OSError):  # The parent has ended without asking.
             wait()
             os.kill(os.getpid(), signal.SIGUSR1)
 
@@ -105,17 +104,16 @@ def _raise(number: int) -> None:
 
 
 @contextlib.contextmanager
-def _heard(hear: Callable[[int], None], together_seconds: float) -> Iterator[None]:
-    """A context in which requests to end are heard; those that were ignored, by `nohup` for one, stay ignored."""
+def _handled(receive: Callable[[int], None]) -> Iterator[None]:
+    """Context in which requests call a function; signals that were ignored, as by `nohup`, stay ignored."""
     last = -math.inf
 
     def handle(number, frame):
         nonlocal last
         now = time.monotonic()
-        if now - last >= together_seconds:
+        if now - last >= TOGETHER_SECONDS:
             last = now
-            _let_go_of_a_terminal_that_is_gone()
-            hear(number)
+            receive(number)
 
     previous = {}
     if threading.current_thread() is threading.main_thread():
@@ -127,13 +125,3 @@ def _heard(hear: Callable[[int], None], together_seconds: float) -> Iterator[Non
     finally:
         for number, handler in previous.items():
             signal.signal(number, handler)
-
-
-def _let_go_of_a_terminal_that_is_gone() -> None:
-    """Lets what is still to be said go nowhere, where saying it would fail: a checkpoint is yet to be written."""
-    for descriptor in (1, 2):
-        with contextlib.suppress(OSError):  # It may be closed.
-            if stat.S_ISCHR(os.fstat(descriptor).st_mode) and not os.isatty(descriptor):
-                null = os.open(os.devnull, os.O_WRONLY)
-                os.dup2(null, descriptor)
-                os.close(null)

@@ -6,10 +6,7 @@ from physexp.analysis.training import run as run_lib
 
 
 class TensorBoard:
-    """Writes rows of metrics into `tensorboard/` in a run's folder.
-
-    The first row makes the log: a start that fails leaves none.
-    """
+    """Writes rows of metrics into `tensorboard/` in a run's folder; the first row makes the log."""
 
     def __init__(self, run: run_lib.Run):
         self._run = run
@@ -25,12 +22,12 @@ class TensorBoard:
         self._writer.flush()
 
     def close(self) -> None:
-        """Closes the log, in which all rows are already."""
+        """Closes the log."""
         if self._writer is not None:
             self._writer.close()
 
     def _open(self):
-        """Opens the log; of a run that is resumed, it hides what was logged after the checkpoint it goes on from."""
+        """Opens the log; in a run that is resumed, entries after the checkpoint are hidden."""
         from torch.utils import tensorboard
 
         earlier = self._run.metrics()[:-1]

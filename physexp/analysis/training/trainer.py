@@ -34,7 +34,7 @@ def check(config: config_lib.TrainConfig) -> None:
       ValueError: for an unknown task, for a GPU or an OpenGL library that is needed and missing, or for more workers
         than this machine can bear.
     """
-    needs_gl = suite.load_task(config.domain, config.task, config.task_kwargs).sense.needs_gl
+    needs_gl = config.load_task().sense.needs_gl
     try:
         if needs_gl:
             gl.check()

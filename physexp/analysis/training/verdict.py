@@ -1,24 +1,23 @@
-"""The verdict on a run: whether its agent has learned anything, since training ends alike where it has not."""
+"""The verdict on a run: whether its agent has learned anything."""
 
 from collections.abc import Sequence
 
-from physexp import suite
 from physexp.analysis.data import estimates
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 
-_EPISODES = 1000  # At least so many of the last, where there are: their share of right answers is then known to 3 %.
+_EPISODES = 1000  # The verdict is on at least that many of the last ones: their share of right answers is known to 3 %.
 
 
 def verdict(rows: Sequence[dict[str, float]], num_labels: int) -> str | None:
-    """Returns what is wrong with an agent at the end of its training, in plain words; None if nothing is.
+    """Returns a sentence on an agent that has learned nothing; None for any other.
 
-    Something is if more than half of its last episodes ended without an answer, or if its share of right answers is not
-    above chance: chance lies in or above the share's 95 % interval.
+    An agent has learned nothing if more than half of its last episodes ended without an answer, or if chance lies in or
+    above the 95 % interval of its share of right answers.
 
     Args:
-      rows: of `metrics.csv`, of the whole run.
-      num_labels: how many answers the question has; chance is one in so many.
+      rows: `metrics.csv` of the whole run.
+      num_labels: number of possible answers; the chance level is its inverse.
     """
     episodes, right, unanswered = 0.0, 0.0, 0.0
     before = [0.0, *(row["episodes"] for row in rows)]
@@ -45,17 +44,16 @@ def verdict(rows: Sequence[dict[str, float]], num_labels: int) -> str | None:
 
 def of_run(run: run_lib.Run) -> str | None:
     """Returns the verdict on a run's agent."""
-    config = run.config
-    return verdict(run.metrics(), suite.load_task(config.domain, config.task, config.task_kwargs).num_labels)
+    return verdict(run.metrics(), run.config.load_task().num_labels)
 
 
 def advice(config: config_lib.TrainConfig) -> str:
-    """Returns what may help an agent that has learned nothing."""
+    """Returns a sentence on what may help an agent that has learned nothing."""
     agent = config.agent
     best = config_lib.DEFAULT_ALGORITHM
     other = "" if agent.algorithm == best else f"--agent {best}, "
     usual = config_lib.preset(config.domain, config.task, algorithm=agent.algorithm).frames
     return (
         f"train anew, in another --run-dir, with --frames {max(2 * agent.frames, usual)} or more "
-        f"(what decays does so over them, so --resume adds none), {other}or {agent.advice}"
+        f"(rates decay over all frames, so --resume adds none), {other}or {agent.advice}"
     )
