@@ -29,7 +29,7 @@ LONGEST = {
     "test_docs",
     "test_faults",
     "test_kills",
-    "test_learning_beats_chance",
+    "test_learning",
     "test_readme",
     "test_replay",
     "test_reproduce",

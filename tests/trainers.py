@@ -1,4 +1,4 @@
-"""Real training processes for tests: starting them, finding their workers, waiting, and ending them for certain."""
+"""Real training processes for tests: starting them, finding their workers, waiting for checkpoints."""
 
 import contextlib
 import json
@@ -21,20 +21,20 @@ from physexp.analysis.training import trainer as trainer_lib
 
 PHYSEXP = Path(sys.executable).with_name("physexp")
 
-
+NUM_ENVIRONMENTS = belief.NUM_ENVIRONMENTS  # And episodes of an update, for all of them.
 SMALL = {
-    "a3c": a3c.A3CConfig(num_workers=1, envs_per_worker=32, checkpoint_seconds=0.2),
+    "a3c": a3c.A3CConfig(num_workers=1, envs_per_worker=NUM_ENVIRONMENTS, checkpoint_seconds=0.2),
     "belief": belief.BeliefConfig(frames_per_update=64, checkpoint_seconds=0.2),
-    "ppo": ppo.PPOConfig(num_threads=1, num_environments=32, num_minibatches=2, checkpoint_seconds=0.2),
+    "ppo": ppo.PPOConfig(num_threads=1, num_environments=NUM_ENVIRONMENTS, num_minibatches=1, checkpoint_seconds=0.2),
 }
 """An agent of each algorithm that makes small updates, in one process."""
 
 
-def create(path, algorithm="a3c", task="features", **agent):
-    """A new run of Which is Heavier, small unless told otherwise."""
+def create(path, algorithm="a3c", **agent):
+    """A new run of Which is Heavier with a small agent."""
     config = config_lib.TrainConfig(
         domain="which_is_heavier",
-        task=task,
+        task="features",
         task_kwargs={"difficulty": 10.0},
         agent=SMALL[algorithm].replace(**agent),
     )
@@ -44,7 +44,7 @@ def create(path, algorithm="a3c", task="features", **agent):
 
 
 def save_first_checkpoint(run, poison=False) -> Path:
-    """Writes the checkpoint of an untrained agent, with a weight too large to learn with if asked for."""
+    """Writes the checkpoint of an untrained agent, on request with a weight too large to learn with."""
     tensors = trainer_lib.make_agent(run.config).save()
     if poison:
         tensors["network/value.bias"][0] = 3e38  # Finite, but not its square.
@@ -59,7 +59,7 @@ def copy_of(run, path):
 
 
 def set_frames(run, frames):
-    """Has a run end after so many frames, whatever its configuration said."""
+    """Changes the frames that a run is trained for."""
     path = run.path / "config.json"
     facts = json.loads(path.read_text())
     facts["train"]["agent"]["frames"] = frames
@@ -67,7 +67,7 @@ def set_frames(run, frames):
 
 
 def resumed(run):
-    """The arguments of `physexp` that go on with a run."""
+    """The arguments of `physexp` that resume a run."""
     return ["train", "which_is_heavier", "features", "--run-dir", run.path, "--resume"]
 
 
@@ -86,46 +86,44 @@ class Member:
         with contextlib.suppress(ProcessLookupError):
             os.kill(self.pid, number)
 
+    def ignores(self, number):
+        """Whether it ignores a signal; False once it has ended."""
+        try:
+            status = Path(f"/proc/{self.pid}/status").read_text()
+        except (FileNotFoundError, ProcessLookupError):
+            return False
+        (line,) = (line for line in status.splitlines() if line.startswith("SigIgn"))
+        return bool(int(line.split()[1], 16) >> (number - 1) & 1)
+
 
 def group(leader, words=""):
-    """The living processes of a group, those whose command line contains `words`."""
+    """The living processes of a group whose command line contains `words`."""
     found = []
     for entry in Path("/proc").iterdir():
         if not entry.name.isdigit():
             continue
         try:
-            state, _, members_of = (entry / "stat").read_text().rpartition(")")[2].split()[:3]
+            state, _, group_of = (entry / "stat").read_text().rpartition(")")[2].split()[:3]
             command = (entry / "cmdline").read_bytes().decode()
         except (FileNotFoundError, ProcessLookupError):
             continue
-        if int(members_of) == leader and state != "Z" and words in command:
+        if int(group_of) == leader and state != "Z" and words in command:
             found.append(Member(int(entry.name)))
     return found
-
-
-def ignored(pid):
-    """The signals that a process ignores; none once it has ended."""
-    try:
-        status = Path(f"/proc/{pid}/status").read_text()
-    except (FileNotFoundError, ProcessLookupError):
-        return set()
-    (line,) = (line for line in status.splitlines() if line.startswith("SigIgn"))
-    mask = int(line.split()[1], 16)
-    return {number for number in range(1, 65) if mask >> (number - 1) & 1}
 
 
 def workers(process):
     """The worker processes of a trainer: unlike programs that it is about to run, they ignore SIGTERM."""
     spawned = group(process.pid, "spawn_main") or group(process.pid, "forkserver")
-    return [member for member in spawned if member.pid != process.pid and signal.SIGTERM in ignored(member.pid)]
+    return [member for member in spawned if member.pid != process.pid and member.ignores(signal.SIGTERM)]
 
 
 def wait_for_checkpoint(process, run, beyond=-1):
     """Waits until a trainer has written a checkpoint of more than some frames."""
 
-    def there():
+    def is_there():
         assert process.poll() is None, process.communicate()[1]
         paths = run.checkpointer.paths()
         return bool(paths) and int(paths[-1].stem) > beyond
 
-    wait_until(there, "a checkpoint")
+    wait_until(is_there, "a checkpoint")

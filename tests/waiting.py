@@ -1,4 +1,4 @@
-"""Waiting for states, in tests, for as long as there is progress, however slow the machine; imports little."""
+"""Waits for states in tests, for as long as processes make progress, on a slow machine too; imports little."""
 
 import os
 import signal
@@ -9,14 +9,14 @@ import time
 import psutil
 
 IDLE_SECONDS = 60.0
-"""How long processes may do nothing at all before what is waited for does not come any more."""
+"""The longest time without any progress, s."""
 
 BUSY_SECONDS = 600.0
-"""How much processor time they may use: a limit that no other process on the machine brings nearer."""
+"""The most processor time that the processes may use, s; it does not depend on the load of the machine."""
 
 
 class Patience:
-    """Watches a process and its descendants; over when they have done nothing for long, or very much in vain."""
+    """Watches a process and its descendants; over when they have idled for long, or used much time in vain."""
 
     def __init__(self, pid: int | None = None, idle_seconds: float = IDLE_SECONDS, busy_seconds: float = BUSY_SECONDS):
         """Watches `pid` and its descendants; by default all descendants of this process."""
@@ -27,13 +27,13 @@ class Patience:
         self._next_look = self._last_progress + 1.0
 
     def is_over(self) -> bool:
-        """Whether there is no hope left; looks at the processes once a second."""
+        """Whether to give up; looks at the processes once a second."""
         now = time.monotonic()
         if now < self._next_look:
             return False
         before = self._total()
         self._look()
-        if self._total() > before + 0.03 * (now - self._next_look + 1.0):  # Less is but waking up to look around.
+        if self._total() > before + 0.03 * (now - self._next_look + 1.0):  # Less is only polling.
             self._last_progress = now
         self._next_look = now + 1.0
         return now - self._last_progress > self._idle_seconds or self._total() - self._first > self._busy_seconds
@@ -60,7 +60,7 @@ class Patience:
 
 
 def wait_until(condition, what, **limits):
-    """Waits for something to come true, and returns it; fails when what this process has started does not get on.
+    """Waits until a condition is true, and returns its value; fails if the watched processes make no progress.
 
     See `Patience`.
     """
@@ -72,7 +72,7 @@ def wait_until(condition, what, **limits):
 
 
 def run(command, **kwargs) -> str:
-    """Runs a program to its end and returns what it wrote; one that fails or does not get on is an error.
+    """Runs a program to its end and returns its output; fails if the program does, or makes no progress.
 
     Args:
       command: the program and its arguments.

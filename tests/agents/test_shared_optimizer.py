@@ -30,7 +30,7 @@ def context():
 def make_network():
     torch.manual_seed(0)
     spec = {"heights": specs.Array((4,), np.float32)}
-    return networks.RecurrentActorCritic(spec, 8, lstm_units=16, observation_scale=10.0)
+    return networks.RecurrentActorCritic(spec, 8, observation_scale=10.0)
 
 
 def make_learner(shared, lock, worker, record=lambda *_: None):

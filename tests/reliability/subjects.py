@@ -1,6 +1,5 @@
-"""What is attacked: small runs, agents and records, of which one can tell at a glance whether they are whole."""
+"""Small runs, agents and records to attack, which are easily compared with whole ones."""
 
-import numpy as np
 import pyarrow
 from pyarrow import parquet
 import torch
@@ -8,12 +7,10 @@ import torch
 from physexp.agents import networks, pretrained, registry
 from physexp.agents.ppo import config as ppo
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import recorder, records, trainer
+from physexp.analysis.training import finding, recorder, records, trainer
 from physexp.analysis.training import run as run_lib
 
-SMALL = ppo.PPOConfig(
-    num_threads=1, num_environments=4, num_minibatches=2, frames=60, checkpoint_seconds=1e-9
-)
+SMALL = ppo.PPOConfig(num_threads=1, num_environments=4, num_minibatches=2, frames=60, checkpoint_seconds=1e-9)
 """One process, and a checkpoint after each of its few updates."""
 
 
@@ -29,22 +26,9 @@ def words(run: run_lib.Run) -> list:
 
 
 OPTIONS = [
-    "--agent",
-    "ppo",
-    "--difficulty",
-    10,
-    "--replay-every",
-    0,
-    "--num-threads",
-    1,
-    "--num-environments",
-    4,
-    "--num-minibatches",
-    2,
-    "--frames",
-    SMALL.frames,
-    "--checkpoint-seconds",
-    SMALL.checkpoint_seconds,
+    *["--agent", "ppo", "--difficulty", 10, "--replay-every", 0, "--num-threads", 1],
+    *["--num-environments", 4, "--num-minibatches", 2, "--frames", SMALL.frames],
+    *["--checkpoint-seconds", SMALL.checkpoint_seconds],
 ]
 """`config` as the command line has it, except for the task's preset."""
 
@@ -57,7 +41,7 @@ def train(path) -> None:
 
 
 def contents(run: run_lib.Run):
-    """What training has made, apart from what depends on time: rows, episodes and the last checkpoint's tensors."""
+    """The rows, episodes and last tensors of a run, without times."""
     timed = {"seconds", "frames_per_second"}
     rows = [{name: value for name, value in row.items() if name not in timed} for row in run.metrics()]
     episodes = parquet.read_table(run.path / "episodes.parquet").to_pylist()
@@ -76,24 +60,13 @@ def network(number: float) -> networks.RecurrentActorCritic:
 
 def card(number: int) -> dict:
     """A card of such a network."""
-    environment = trainer.make_environment(config(), 0, 1, 1)
-    observations = {
-        name: [list(spec.shape), np.dtype(spec.dtype).name] for name, spec in environment.observation_spec().items()
-    }
-    num_actions = environment.action_spec().num_values
-    environment.close()
     return {
         "domain": "which_is_heavier",
         "task": "features",
         "task_kwargs": {"difficulty": 10.0},
         "frames": number,
         "agent": config().to_json()["agent"],
-        "network": {
-            "kind": "RecurrentActorCritic",
-            "observations": observations,
-            "num_actions": num_actions,
-            "hyperparameters": networks.RecurrentActorCritic.hyperparameters(None, SMALL),
-        },
+        "network": finding.network_facts(config()),
     }
 
 

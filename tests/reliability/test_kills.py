@@ -1,10 +1,9 @@
-"""A process that is killed while it writes leaves what was there before or what it wrote, and the next one goes on."""
+"""A process that is killed while it writes leaves the old file or the new one, and the next process goes on."""
 
 import functools
 import subprocess
 
 import attacks
-import commands
 import pyarrow
 import pytest
 import reading
@@ -12,16 +11,14 @@ import subjects
 import torch
 
 from physexp.agents import checkpointing
+from physexp.analysis.data import tables
 from physexp.analysis.experiments import base, sweep
 from physexp.analysis.replay import recording, writing
 from physexp.analysis.score import log, playing, protocol, scoring, targets
 from physexp.analysis.training import finding, recorder, records
-from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 
 pytestmark = pytest.mark.long
-
-# Each kind of write: a function that writes a number, and one that reads it back or says why it cannot be.
 
 
 def write_checkpoint(folder, number):
@@ -37,66 +34,21 @@ def read_checkpoint(folder):
     return facts["number"]
 
 
-def write_episodes(folder, number):
-    run = run_lib.Run(folder)
-    run.rewind(number - 1)
-    size = 50
-    columns = {name: [0] * size for name in run_lib.EPISODES.names}
-    columns |= {"frames": [number] * size, "actions": [[number % 100] * 20] * size}
-    run.append_episodes(number, pyarrow.table(columns, run_lib.EPISODES))
+def write_table(folder, number):
+    columns = {name: [0] * (number + 1) for name in run_lib.EPISODES.names} | {"actions": [[0, 1]] * (number + 1)}
+    tables.write(folder / "episodes.parquet", pyarrow.table(columns, run_lib.EPISODES))
 
 
-def read_episodes(folder):
-    rows = subjects.parquet.read_table(folder / "episodes.parquet").to_pylist()
-    numbers = sorted({row["frames"] for row in rows})
-    assert numbers == list(range(len(numbers))) and len(rows) == 50 * len(numbers)
-    assert all(row["actions"] == [row["frames"] % 100] * 20 for row in rows)
-    return numbers[-1]
-
-
-def write_metrics(folder, number):
-    run = run_lib.Run(folder)
-    run.rewind(number - 1)  # As a trainer does that goes on.
-    run.append_metrics({name: number if name == "frames" else number + 0.25 for name in metrics_lib.METRICS})
-
-
-def read_metrics(folder):
-    rows = run_lib.Run(folder).metrics()
-    assert [row["frames"] for row in rows] == list(range(len(rows)))
-    assert all(set(row) == set(metrics_lib.METRICS) and row["timeouts"] == row["frames"] + 0.25 for row in rows)
-    return len(rows) - 1
-
-
-def write_config(folder, number):
-    run_lib.Run(folder / str(number)).create(subjects.config(seed=number))
-
-
-def read_config(folder):
-    """The last run whose configuration is there."""
-    there = sorted(int(path.parent.name) for path in folder.glob("*/config.json"))
-    assert [run_lib.Run(folder / str(number)).config.agent.seed for number in there] == there
-    assert there == list(range(len(there)))
-    return there[-1]
-
-
-def write_records(folder, number):
-    records.write(folder / "records.parquet", subjects.rows(number))
-
-
-def read_records(folder):
-    frame = records.read([folder / "records.parquet"])
-    assert list(frame.episode) == list(range(len(frame)))
-    return len(frame) - 1
+def read_table(folder):
+    return len(tables.read(folder / "episodes.parquet", run_lib.EPISODES)) - 1
 
 
 WRITES = {
     "checkpoint": (write_checkpoint, read_checkpoint),
-    "episodes.parquet": (write_episodes, read_episodes),
-    "metrics.csv": (write_metrics, read_metrics),
-    "config.json": (write_config, read_config),
-    "records": (write_records, read_records),
+    "table": (write_table, read_table),
     "published agent": (subjects.publish, subjects.published),
 }
+"""Kinds of writes: a function that writes a number, and one that reads it back."""
 
 
 def write_on_and_on(folder):
@@ -104,13 +56,13 @@ def write_on_and_on(folder):
         write_checkpoint(folder, number)
 
 
-@pytest.mark.parametrize("death", [attacks.AtCall(100), attacks.AtByte(100), attacks.AtMoment(0.05)])
-def test_each_way_to_die_is_deadly(death, tmp_path):
-    assert attacks.run(write_on_and_on, tmp_path, first=death).was_killed
+def test_each_way_to_die_is_deadly(tmp_path):
+    for death in (attacks.AtCall(100), attacks.AtByte(100), attacks.AtMoment(0.05)):
+        assert attacks.run(write_on_and_on, tmp_path, first=death).was_killed, death
 
 
 @pytest.mark.parametrize("kind", WRITES)
-def test_a_killed_writer_leaves_the_old_or_the_new_and_the_next_one_cleans_up(kind, tmp_path):
+def test_a_killed_writer_leaves_the_old_file_or_the_new_one(kind, tmp_path):
     write, read = WRITES[kind]
     write(tmp_path, 0)
     extent = attacks.measure(write, tmp_path, 1)
@@ -145,7 +97,7 @@ def write_replay(folder, number):
     )
 
 
-def test_a_killed_replay_leaves_a_whole_file_and_the_next_one_cleans_up(tmp_path):
+def test_a_killed_replay_leaves_a_whole_file(tmp_path):
     write_replay(tmp_path, 2)
     reading.verify(tmp_path / "replay.rrd")
     extent = attacks.measure(write_replay, tmp_path, 2)
@@ -172,7 +124,7 @@ def uninterrupted(tmp_path_factory):
     return run, attacks.measure(subjects.train, run.path)
 
 
-def test_training_that_was_killed_goes_on_to_the_same_variables_bit_for_bit(uninterrupted, tmp_path):
+def test_killed_training_goes_on_to_the_same_variables(uninterrupted, tmp_path):
     whole, extent = uninterrupted
     expected = subjects.contents(whole)
     generator = attacks.generator()
@@ -198,7 +150,7 @@ def score(folder):
     scoring.score(targets.find("random"), protocol.named(["threshold/features", "strings/features"]), 6, folder)
 
 
-def test_a_score_that_was_killed_goes_on_to_the_same_log(tmp_path):
+def test_a_killed_score_goes_on_to_the_same_log(tmp_path):
     extent = attacks.measure(score, tmp_path / "whole")
     expected = log.read(tmp_path / "whole")
     generator = attacks.generator()
@@ -231,16 +183,15 @@ def sweep_one(folder):
 
 
 def swept(folder):
-    """What a sweep leaves of an agent, without what depends on time."""
+    """The files, rows and tables that a sweep leaves of an agent, without times."""
     run = base.Results(folder).run(JOB.config)
-    names = [str(path.relative_to(folder)) for path in folder.rglob("*") if path.name != ".lock"]
-    kept = sorted(name for name in names if "superseded" not in name)  # What was recorded after a checkpoint.
+    kept = sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.name != ".lock")
     rows = [{name: row[name] for name in ("frames", "success_rate", "entropy")} for row in run.metrics()]
     tables = [records.read([path]).to_json() for path in sorted(folder.glob("episodes/*/*.parquet"))]
     return kept, rows, variables(run), tables
 
 
-def test_a_sweep_that_was_killed_goes_on_to_the_same_agent_and_the_same_episodes(tmp_path):
+def test_a_killed_sweep_goes_on_to_the_same_agent_and_episodes(tmp_path):
     (tmp_path / "whole").mkdir()
     extent = attacks.measure(sweep_one, tmp_path / "whole")
     expected = swept(tmp_path / "whole")
@@ -258,40 +209,7 @@ def test_a_sweep_that_was_killed_goes_on_to_the_same_agent_and_the_same_episodes
             tally["as if nothing had happened" if end.was_killed else "not killed"] += 1
 
 
-def test_reproducing_that_was_killed_goes_on_to_the_same_figure_of_the_same_agents(tmp_path):
-    """The whole command, with its processes; those that it has started are killed with it."""
-    count = attacks.repetitions(0, share=0.02)
-    if not count:
-        pytest.skip("takes two minutes: set PHYSEXP_ATTACKS")
-    generator = attacks.generator()
-
-    def reproduce(folder, **kwargs):
-        words = ["reproduce", "learners", "--observations", "features", "--seeds", 1, "--frames", 60, "--jobs", 2]
-        return attacks.run(commands.physexp, *words, "--results-dir", folder, **kwargs)
-
-    attacks.run(print)  # The server has its imports behind it.
-    whole = reproduce(tmp_path / "whole")
-    assert whole.code == 0, whole.said
-    with attacks.Tally("kill, reproduce") as tally:
-        for attack in range(count):
-            folder = tmp_path / str(attack)
-            death = attacks.AtMoment(generator.uniform(0, 0.7 * whole.seconds))
-            end = reproduce(folder, first=death)
-            assert end.was_killed or end.code == 0, (death, end.said)
-            resumed = reproduce(folder)
-            assert resumed.code == 0, (death, resumed.said)
-            assert reproduced(folder) == reproduced(tmp_path / "whole"), death
-            assert attacks.litter(folder) == [], death
-            tally["as if nothing had happened" if end.was_killed else "not killed"] += 1
-
-
-def reproduced(folder):
-    """What `reproduce` leaves, without what depends on time: names, and the agents' weights."""
-    names = sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if "superseded" not in str(path))
-    return names, [path.read_bytes() for path in sorted(folder.glob("runs/*/agent.safetensors"))]
-
-
-def test_a_network_that_is_kept_alone_is_there_at_every_moment(uninterrupted, tmp_path):
+def test_a_network_that_is_kept_alone_is_never_missing(uninterrupted, tmp_path):
     """Between a checkpoint and `agent.safetensors` there is always one of them."""
     whole, _ = uninterrupted
     expected = variables(whole)
@@ -316,7 +234,7 @@ def test_a_network_that_is_kept_alone_is_there_at_every_moment(uninterrupted, tm
 
 
 def variables(run):
-    """Those of a run's network, to half precision."""
+    """The variables of a run's network, in half precision."""
     return {name: value.half().numpy().tobytes() for name, value in finding.load_network(run).state_dict().items()}
 
 

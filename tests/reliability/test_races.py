@@ -33,7 +33,7 @@ def new(path, seed):
 
 @pytest.fixture(scope="module")
 def undisturbed(tmp_path_factory):
-    """What each of the two leaves where nobody disturbs it."""
+    """The contents of each of the two runs without a race."""
     found = []
     for seed in (1, 2):
         path = tmp_path_factory.mktemp("undisturbed") / "run"
@@ -44,14 +44,14 @@ def undisturbed(tmp_path_factory):
 
 
 def learned(contents):
-    """What does not depend on when rows are written: the tensors, and how many episodes they have seen."""
+    """The contents that do not depend on the times of rows: the tensors, and the number of episodes."""
     return contents[2:]
 
 
-def test_of_two_new_runs_in_one_folder_one_wins_and_all_there_is_is_its_own(undisturbed, tmp_path):
+def test_of_two_new_runs_in_one_folder_one_trains_undisturbed(undisturbed, tmp_path):
     generator = attacks.generator()
     with attacks.Tally("race, train") as tally:
-        for attack in range(attacks.repetitions(4, share=0.25)):
+        for attack in range(attacks.repetitions(2, share=0.25)):
             run = run_lib.Run(tmp_path / str(attack))
             ends = race(generator, new(run.path, 1), new(run.path, 2))
             assert sorted(end.code for end in ends) == [0, 2], ends
@@ -65,10 +65,10 @@ def test_of_two_new_runs_in_one_folder_one_wins_and_all_there_is_is_its_own(undi
             tally[f"the {'first' if winner == 0 else 'second'} won"] += 1
 
 
-def test_of_two_that_resume_one_run_one_trains_and_the_other_is_refused_or_finds_it_done(undisturbed, tmp_path):
+def test_of_two_that_resume_one_run_one_is_refused_or_finds_it_done(undisturbed, tmp_path):
     generator = attacks.generator()
     with attacks.Tally("race, resume") as tally:
-        for attack in range(attacks.repetitions(4, share=0.25)):
+        for attack in range(attacks.repetitions(2, share=0.25)):
             run = run_lib.Run(tmp_path / str(attack))
             run.create(subjects.config())
             expected = tmp_path / "expected"

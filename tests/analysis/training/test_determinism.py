@@ -1,4 +1,4 @@
-"""One worker, or process, is deterministic, and a killed and resumed run ends as if nothing had happened."""
+"""An agent of one process is deterministic, and a killed and resumed run ends as an undisturbed one."""
 
 import signal
 
@@ -37,7 +37,7 @@ def assert_same_weights(run, other):
 
 
 def assert_whole_records(run):
-    """The records have every frame once, in order, up to the last checkpoint, and each episode can be rebuilt."""
+    """The records have every frame once and in order up to the last checkpoint, and episodes can be rebuilt."""
     metrics = pd.read_csv(run.path / "metrics.csv")
     assert list(metrics.columns) == [*metrics_lib.METRICS, *run.config.agent.metrics]
     frames = metrics["frames"].to_numpy()
@@ -45,8 +45,8 @@ def assert_whole_records(run):
     assert (np.diff(frames) > 0).all()
     assert frames[-1] == int(tensors["frames"])
     assert metrics["updates"].iloc[-1] == int(tensors["updates"]) == int(tensors["rounds"].sum())
-    # Every update is one round of 32 episodes.
-    assert metrics["episodes"].iloc[-1] == facts["episodes"] == 32 * int(tensors["updates"])
+    # Every update is one round of episodes.
+    assert metrics["episodes"].iloc[-1] == facts["episodes"] == trainers.NUM_ENVIRONMENTS * int(tensors["updates"])
     assert (np.diff(metrics["seconds"]) > 0).all()
 
     episodes = pd.read_parquet(run.path / "episodes.parquet")
@@ -89,19 +89,19 @@ def test_the_same_seed_gives_the_same_weights_to_the_last_bit(uninterrupted, tmp
 
 
 def train_until_killed(path, beyond, seconds):
-    """Trains on, and is killed some time after the first row beyond some frames, wherever it is then."""
+    """Trains on, and is killed some time after the first row beyond some frames."""
     run = run_lib.Run(path)
 
     def report(row):
         if row["frames"] > beyond and run.checkpointer.paths() and not signal.getitimer(signal.ITIMER_REAL)[0]:
             signal.setitimer(signal.ITIMER_REAL, seconds)
 
-    signal.signal(signal.SIGALRM, signal.SIG_DFL)  # As good as SIGKILL: nobody in the process hears of it.
+    signal.signal(signal.SIGALRM, signal.SIG_DFL)  # Ends the process as SIGKILL does.
     trainer.train(run, report)
 
 
 def killed(agent, folder):
-    """A run that was killed on its way: one that has come to its end before is left, and another is begun."""
+    """A run that was killed before its end."""
     generator = np.random.default_rng(seeds.fresh_seed())
     for attempt in range(1, 21):
         run = trainers.create(
@@ -119,7 +119,7 @@ def killed(agent, folder):
         assert process.returncode in (0, -signal.SIGALRM), errors
         if 0 < int(run.checkpointer.latest()[0]["frames"]) < FRAMES:
             return run
-    raise AssertionError("all have come to their end")
+    raise AssertionError("all runs ended before they were killed")
 
 
 def test_a_run_killed_at_any_moment_resumes_to_the_same_weights(uninterrupted, tmp_path):

@@ -1,4 +1,4 @@
-"""Whatever stops a run, it says so clearly, and nothing before the last checkpoint is lost."""
+"""A signal, a dead worker, a full disk: training ends clearly, and nothing before the last checkpoint is lost."""
 
 import dataclasses
 import functools
@@ -7,6 +7,7 @@ import re
 import resource
 import shlex
 import signal
+import subprocess
 
 import commands
 import numpy as np
@@ -16,62 +17,146 @@ import trainers
 from waiting import wait_until
 
 from physexp.analysis.data import provenance
-from physexp.analysis.training import trainer
+from physexp.analysis.training import stopping, trainer
 
 ENDLESS = 10**9  # Frames that no test waits for.
 
 
 def assert_last_checkpoint_fits(run):
-    """The last checkpoint is whole, finite, and one that the agent takes up."""
+    """The last checkpoint is whole and finite, and the agent takes it up."""
     tensors, facts = run.checkpointer.latest()
     assert facts["versions"] == provenance.versions()
     assert all(value.isfinite().all() for value in tensors.values())
-    config = run.config
-    agent = trainer.make_agent(config)
+    agent = trainer.make_agent(run.config)
     agent.restore(tensors)
     assert agent.frames == int(tensors["frames"])
 
 
-def test_a_loss_that_is_not_a_number_stops_training_and_leaves_the_batch(tmp_path):
-    run = trainers.create(tmp_path / "run", frames=ENDLESS)
-    checkpoint = trainers.save_first_checkpoint(run, poison=True)
-    content = checkpoint.read_bytes()
-    with pytest.raises(RuntimeError, match="worker 0.*loss -?(inf|nan).*failed_batch.npz.*last checkpoint") as caught:
-        trainer.train(run)
-    path = re.search(r"\S+failed_batch\.npz", str(caught.value)).group()
-    assert path == str(run.path / "failed_batch.npz")
-    with np.load(path) as batch:
-        # One round of 32 episodes: everything needed to compute the loss again.
-        assert {"inputs", "actions", "rewards", "lengths", "answers"} == set(batch.files)
-        steps = len(batch["actions"])
-        assert batch["lengths"].shape == batch["answers"].shape == (32,) and batch["lengths"].max() == steps
-        assert batch["actions"].shape == batch["rewards"].shape == (steps, 32)
-        assert len(batch["inputs"]) == batch["lengths"].sum()
-    assert run.checkpointer.paths() == [checkpoint]
-    assert checkpoint.read_bytes() == content
+# Signals.
 
 
-def test_a_killed_worker_stops_training_at_once_and_is_named(tmp_path):
-    run = trainers.create(tmp_path / "run", frames=ENDLESS, num_workers=2)
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_the_first_request_is_a_call_and_the_second_is_raised(number, monkeypatch):
+    monkeypatch.setattr(stopping, "TOGETHER_SECONDS", 0.0)
+    stopped = []
+    interruption = stopping.Interruption(lambda: stopped.append(1))
+    with pytest.raises(stopping.Interrupted) as caught, interruption:
+        os.kill(os.getpid(), number)
+        assert stopped == [1] and interruption.happened.number == number
+        os.kill(os.getpid(), number)
+    assert stopped == [1] and stopping.exit_status(caught.value) == 128 + number
+
+
+def test_requests_that_come_together_are_one(monkeypatch):
+    monkeypatch.setattr(stopping, "TOGETHER_SECONDS", 3600.0)
+    stopped = []
+    with stopping.Interruption(lambda: stopped.append(1)):
+        for number in (signal.SIGTERM, signal.SIGTERM, signal.SIGHUP):
+            os.kill(os.getpid(), number)
+    assert stopped == [1]
+
+
+@pytest.mark.parametrize("kind", [ImportError, stopping.Interrupted])  # As MuJoCo and dm_control do.
+def test_a_request_that_a_library_turns_into_its_own_error_is_a_request(kind):
+    with pytest.raises(stopping.Interrupted) as caught, stopping.raised():
+        try:
+            os.kill(os.getpid(), signal.SIGTERM)
+        except KeyboardInterrupt:
+            raise kind("initialization failed") from None
+    assert stopping.exit_status(caught.value) == 128 + signal.SIGTERM
+    with pytest.raises(ImportError), stopping.raised():
+        raise ImportError("nothing was asked for")
+
+
+def test_ignored_signals_stay_ignored_and_handlers_are_put_back():
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with stopping.raised(), stopping.Interruption(pytest.fail) as interruption:
+            os.kill(os.getpid(), signal.SIGHUP)
+        assert interruption.happened is None and signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGHUP, before)
+    assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
+
+
+def test_sigterm_to_all_processes_writes_a_checkpoint(tmp_path):
+    run = trainers.create(tmp_path / "run", frames=ENDLESS, checkpoint_seconds=3600.0)
     with trainers.trainer(run) as process:
-        # Both have to be at it: a worker that still imports would be the easier case.
-        wait_until(lambda: both_have_played(run), "rounds of both workers")
-        victims = trainers.workers(process)
-        assert len(victims) == 2
-        victims[0].kill()
+        # No checkpoint is due: the one in the end was written because of the signal.
+        wait_until(run.metrics, "a row of metrics, and so something to keep")
+        os.killpg(process.pid, signal.SIGTERM)
         _, errors = process.communicate()
-    assert process.returncode == 1
-    assert re.search(r"worker [01]\b.*(died|killed)", errors), errors
-    assert "Traceback" not in errors
+    assert process.returncode == 128 + signal.SIGTERM, errors
+    assert errors.splitlines()[-1] == "physexp: interrupted" and "Traceback" not in errors
     assert_last_checkpoint_fits(run)
 
 
-def both_have_played(run):
+def test_a_closed_terminal_ends_training_with_a_checkpoint(tmp_path):
+    run = trainers.create(tmp_path / "run", frames=ENDLESS, checkpoint_seconds=3600.0)
+    terminal, inside = os.openpty()
+    with (
+        subprocess.Popen(
+            [trainers.PHYSEXP, *map(str, trainers.resumed(run))], preexec_fn=lambda: os.login_tty(inside)
+        ) as process,
+        subprocess.Popen(["cat"], stdin=terminal, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as reader,
+    ):
+        os.close(inside)
+        os.close(terminal)
+        try:
+            wait_until(run.metrics, "a row of metrics, and so something on the terminal")
+            reader.kill()  # The last one that has the terminal open.
+            wait_until(lambda: process.poll() is not None, "the end of the trainer")
+        finally:
+            for member in trainers.group(process.pid):
+                member.kill()
+    assert process.returncode != 0
+    assert int(run.checkpointer.latest()[0]["frames"]) == run.metrics()[-1]["frames"] > 0
+
+
+def test_ctrl_c_writes_a_checkpoint_and_the_printed_command_goes_on(tmp_path):
+    run = trainers.create(tmp_path / "its run", frames=ENDLESS, num_workers=2)
+    with trainers.trainer(run) as process:
+        trainers.wait_for_checkpoint(process, run, beyond=0)
+        before = int(run.checkpointer.paths()[-1].stem)
+        os.killpg(process.pid, signal.SIGINT)  # The terminal sends it to the whole group.
+        _, errors = process.communicate()
+    assert process.returncode == 130, errors
+    assert "Traceback" not in errors and "interrupted" in errors
+    reached = int(run.checkpointer.latest()[0]["frames"])
+    assert before <= reached == run.metrics()[-1]["frames"]
+    assert f"the checkpoint after {reached:,} frames: {run.checkpointer.paths()[-1]}\n" in errors
+    trainers.set_frames(run, reached + 1_000)
+    command = re.search("^to go on: physexp (.*)$", errors, re.MULTILINE)[1]
+    done = commands.run(*shlex.split(command))
+    assert done.returncode == 0 and done.stdout.splitlines()[-1] == str(run.path), done.stderr
+    frames = [row["frames"] for row in run.metrics()]
+    assert frames == sorted(set(frames)) and frames[-1] == int(run.checkpointer.latest()[0]["frames"])
+    assert reached in frames and frames[-1] >= reached + 1_000
+
+
+# Workers.
+
+
+def have_both_played(run):
     try:
         found = run.checkpointer.latest()
     except OSError:  # Replaced while it was read.
         return False
     return found is not None and bool((found[0]["rounds"] > 0).all())
+
+
+def test_a_killed_worker_ends_training_in_one_line_that_names_it(tmp_path):
+    run = trainers.create(tmp_path / "run", frames=ENDLESS, num_workers=2)
+    with trainers.trainer(run) as process:
+        wait_until(lambda: have_both_played(run), "rounds of both workers")
+        victims = trainers.workers(process)
+        assert len(victims) == 2
+        victims[0].kill()
+        _, errors = process.communicate()
+    assert process.returncode == 1 and "Traceback" not in errors
+    line = errors.splitlines()[-1]
+    assert re.search(r"worker [01] died \(exit code -9\)", line) and "is whole, --resume it" in line
+    assert_last_checkpoint_fits(run)
 
 
 def test_workers_do_not_outlive_a_killed_trainer(tmp_path):
@@ -84,7 +169,28 @@ def test_workers_do_not_outlive_a_killed_trainer(tmp_path):
         wait_until(lambda: not trainers.workers(process), "the end of the workers of a killed trainer")
 
 
-def test_a_full_disk_stops_training_with_a_message_and_keeps_the_last_checkpoint(tmp_path):
+def test_a_loss_that_is_not_finite_ends_training_and_leaves_the_batch(tmp_path):
+    run = trainers.create(tmp_path / "run", frames=ENDLESS)
+    checkpoint = trainers.save_first_checkpoint(run, poison=True)
+    content = checkpoint.read_bytes()
+    with pytest.raises(RuntimeError, match=r"worker 0.*loss -?(inf|nan).*last checkpoint") as caught:
+        trainer.train(run)
+    assert f"(the batch is in {run.path / 'failed_batch.npz'})" in str(caught.value)
+    with np.load(run.path / "failed_batch.npz") as batch:
+        # One round of episodes: all arrays from which the loss is computed.
+        assert {"inputs", "actions", "rewards", "lengths", "answers"} == set(batch.files)
+        steps = len(batch["actions"])
+        assert batch["actions"].shape == batch["rewards"].shape == (steps, trainers.NUM_ENVIRONMENTS)
+        assert batch["lengths"].shape == batch["answers"].shape == (trainers.NUM_ENVIRONMENTS,)
+        assert batch["lengths"].max() == steps
+        assert len(batch["inputs"]) == batch["lengths"].sum()
+    assert run.checkpointer.paths() == [checkpoint] and checkpoint.read_bytes() == content
+
+
+# Files.
+
+
+def test_a_full_disk_ends_training_in_one_line_and_keeps_the_last_checkpoint(tmp_path):
     run = trainers.create(tmp_path / "run", frames=ENDLESS)
     checkpoint = trainers.save_first_checkpoint(run)
     content = checkpoint.read_bytes()
@@ -94,52 +200,20 @@ def test_a_full_disk_stops_training_with_a_message_and_keeps_the_last_checkpoint
     with trainers.trainer(run, first=small_files) as process:
         _, errors = process.communicate()
     assert process.returncode in (1, 2)
-    assert "Traceback" not in errors
-    assert str(run.path) in errors.splitlines()[-1], errors
-    assert run.checkpointer.paths() == [checkpoint]
-    assert checkpoint.read_bytes() == content
+    assert "Traceback" not in errors and str(run.path) in errors.splitlines()[-1], errors
+    assert run.checkpointer.paths() == [checkpoint] and checkpoint.read_bytes() == content
     assert_last_checkpoint_fits(run)
-    names = sorted(path.name for path in (run.path / "checkpoints").iterdir())
-    assert [name for name in names if name.endswith(".tmp")] == [], "a failed write leaves no litter"
-
-
-def test_ctrl_c_writes_a_checkpoint_and_resuming_finishes(tmp_path):
-    run = trainers.create(tmp_path / "its run", frames=ENDLESS, num_workers=2)
-    with trainers.trainer(run) as process:
-        trainers.wait_for_checkpoint(process, run, beyond=0)
-        before = int(run.checkpointer.paths()[-1].stem)
-        os.killpg(process.pid, signal.SIGINT)  # The terminal sends it to the whole group.
-        _, errors = process.communicate()
-    assert process.returncode == 130, errors
-    assert "Traceback" not in errors and "interrupted" in errors
-    tensors, _ = run.checkpointer.latest()
-    reached = int(tensors["frames"])
-    assert before < reached, "Ctrl-C writes what was learned since the last checkpoint"
-    assert run.metrics()[-1]["frames"] == reached
-    (last,) = [path for path in run.checkpointer.paths() if int(path.stem) == reached]
-    assert f"the checkpoint after {reached:,} frames: {last}\n" in errors
-    trainers.set_frames(run, reached + 1_000)
-    command = re.search("^to go on: physexp (.*)$", errors, re.MULTILINE)[1]
-    done = commands.run(*shlex.split(command))
-    assert done.returncode == 0, done.stderr
-    assert done.stdout.splitlines()[-1] == str(run.path)
-    tensors, _ = run.checkpointer.latest()
-    assert int(tensors["frames"]) >= reached + 1_000
-    frames = [row["frames"] for row in run.metrics()]
-    assert frames == sorted(set(frames)) and frames[-1] == int(tensors["frames"])
-    assert reached in frames
+    assert not list((run.path / "checkpoints").glob("*.tmp")), "a failed write leaves no litter"
 
 
 def test_a_checkpoint_of_another_network_is_refused(tmp_path):
-    run = trainers.create(tmp_path / "run")
-    trainers.save_first_checkpoint(run)
-    config = run.config
-    other = trainer.make_agent(dataclasses.replace(config, agent=config.agent.replace(num_workers=2)))
-    with pytest.raises(ValueError, match="does not fit the configuration: rounds"):
-        other.restore(run.checkpointer.latest()[0])
-    fewer = {name: value for name, value in run.checkpointer.latest()[0].items() if name != "rounds"}
-    same = trainer.make_agent(config)
+    run = trainers.create(tmp_path / "run", "belief")
+    tensors = trainer.make_agent(run.config).save()
+    other = trainer.make_agent(dataclasses.replace(run.config, agent=run.config.agent.replace(memory="lstm")))
+    with pytest.raises(ValueError, match="does not fit the configuration"):
+        other.restore(tensors)
+    same = trainer.make_agent(run.config)
     with pytest.raises(ValueError, match="rounds"):
-        same.restore(fewer)
-    same.restore(run.checkpointer.latest()[0])
+        same.restore({name: value for name, value in tensors.items() if name != "rounds"})
+    same.restore(tensors)
     assert torch.equal(same.save()["rounds"], torch.tensor([0]))

@@ -1,22 +1,30 @@
-"""Watchers of training, which print, log and write replays, cost it nothing when they fail."""
+"""Watchers of training, which print, log and write replays, see every row and cost nothing when they fail."""
 
 import os
 import subprocess
 
 import commands
 import pytest
+from tensorboard.backend.event_processing import event_accumulator
 import trainers
 
+from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import trainer
+from physexp.analysis.training import tensorboard, trainer
 
-FRAMES = 2000
+FRAMES = 1000
 COMMAND = ["train", "which_is_heavier", "features", "--agent", "ppo", "--num-threads", 1, "--num-environments", 32]
 COMMAND += ["--replay-every", 100]
 
 
 def fail(*_):
     raise RuntimeError("no more room\nfor this")
+
+
+def logged(run):
+    accumulator = event_accumulator.EventAccumulator(str(run.path / "tensorboard"))
+    accumulator.Reload()
+    return {name: accumulator.Scalars(name) for name in accumulator.Tags()["scalars"]}
 
 
 @pytest.mark.parametrize("kind", ["report", "on_checkpoint"])
@@ -42,7 +50,8 @@ def test_a_checkpoint_is_written_before_its_watchers_are_called(kind, tmp_path):
 
 def test_replays_and_tensorboard_that_cannot_be_written_are_a_line_each(tmp_path):
     run = run_lib.Run(tmp_path / "run")
-    commands.run(*COMMAND, "--frames", 500, "--run-dir", run.path, check=True)
+    commands.run(*COMMAND, "--frames", 300, "--run-dir", run.path, check=True)
+    assert not (run.path / "tensorboard").exists()
     trainers.set_frames(run, FRAMES)
     (run.path / "tensorboard").touch()
     before = set(run.path.rglob("*.rrd"))
@@ -56,6 +65,35 @@ def test_replays_and_tensorboard_that_cannot_be_written_are_a_line_each(tmp_path
     failures = [line for line in done.stderr.splitlines() if "failed and is left out from now on" in line]
     assert len(failures) == 2 and any("RERUN in the environment" in line for line in failures)
     assert run.is_finished and set(run.path.rglob("*.rrd")) == before
-    trainers.set_frames(run, 2 * FRAMES)
-    commands.run(*trainers.resumed(run), check=True)
-    assert run.is_finished and set(run.path.rglob("*.rrd")) > before
+
+
+def test_tensorboard_has_every_metric_at_its_steps(tmp_path):
+    run = trainers.create(tmp_path / "run", "ppo", frames=FRAMES, checkpoint_seconds=0.01)
+    board = tensorboard.TensorBoard(run)
+    trainer.train(run, board)
+    board.close()
+    scalars, rows = logged(run), run.metrics()
+    assert set(scalars) == {*metrics_lib.METRICS, *run.config.agent.metrics} - {"frames"}
+    for name, points in scalars.items():
+        assert [point.step for point in points] == [row["frames"] for row in rows]
+        for point, row in zip(points, rows, strict=True):
+            assert abs(point.value - row[name]) <= 1e-4 * abs(row[name]) + 1e-6  # The CSV has six digits.
+
+
+def test_tensorboard_hides_entries_after_the_checkpoint_of_a_resumed_run(tmp_path):
+    run = run_lib.Run(tmp_path)
+
+    def train(*frames):
+        log = tensorboard.TensorBoard(run)
+        for number in frames:
+            row = {**dict.fromkeys(metrics_lib.METRICS, 0.5), "frames": number}
+            run.append_metrics(row)
+            log(row)
+        log.close()
+
+    train()
+    assert not (tmp_path / "tensorboard").exists(), "a start that fails leaves no log"
+    train(10, 20, 30)
+    run.rewind(20)  # The checkpoint after 30 steps is damaged, say.
+    train(25, 35)
+    assert [point.step for point in logged(run)["success_rate"]] == [10, 20, 25, 35]
