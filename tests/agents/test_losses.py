@@ -13,7 +13,7 @@ from physexp.agents import losses, networks, rounds
 from physexp.agents.a3c import learning
 
 
-def test_returns_are_the_discounted_sums_of_what_follows():
+def test_returns_are_discounted_sums_of_the_rewards_that_follow():
     # gamma = 0.5, one episode of three actions with rewards 1, 2, 4 and nothing after:
     # G2 = 4, G1 = 2 + 0.5 * 4 = 4, G0 = 1 + 0.5 * 4 = 3.
     returns = losses.discounted_returns(torch.tensor([[1.0], [2.0], [4.0]]), torch.tensor([[0.5], [0.5], [0.0]]))
@@ -22,7 +22,7 @@ def test_returns_are_the_discounted_sums_of_what_follows():
 
 def test_nothing_is_bootstrapped_past_an_episodes_end():
     # gamma = 0.5. Episode a lasts 3 actions: rewards 0, 0, 1: G = 0.25, 0.5, 1.
-    # Episode b lasts 1 action with reward -1: G0 = -1. What is written behind its end (here 100 on purpose) has no
+    # Episode b lasts 1 action with reward -1: G0 = -1. Numbers behind its end (here 100 on purpose) have no
     # way into G0, since the discount after its last action is 0.
     rewards = torch.tensor([[0.0, -1.0], [0.0, 100.0], [1.0, 100.0]])
     discounts = torch.tensor([[0.5, 0.0], [0.5, 0.0], [0.0, 0.0]])
@@ -31,7 +31,7 @@ def test_nothing_is_bootstrapped_past_an_episodes_end():
     assert returns[0, 1].item() == -1.0
 
 
-def test_advantages_with_a_trace_of_one_are_returns_minus_values():
+def test_advantages_with_a_lambda_of_one_are_returns_minus_values():
     generator = torch.Generator().manual_seed(fresh_seed())
     rewards, values = (torch.randn(6, 4, generator=generator) for _ in range(2))
     lengths = torch.tensor([1, 3, 5, 6])
@@ -42,13 +42,13 @@ def test_advantages_with_a_trace_of_one_are_returns_minus_values():
     torch.testing.assert_close(advantages[played], expected[played])
 
 
-def test_advantages_look_as_far_as_their_trace():
+def test_advantages_look_as_far_as_their_lambda():
     # Two steps, rewards 0 and 1, values 0.5 and 0.2, discount 0.5, then the end. The errors of one step are
-    # 0 + 0.5 * 0.2 - 0.5 = -0.4 and 1 - 0.2 = 0.8; with a trace of 0.25 the first adds 0.5 * 0.25 * 0.8 = 0.1.
+    # 0 + 0.5 * 0.2 - 0.5 = -0.4 and 1 - 0.2 = 0.8; with a lambda of 0.25 the first adds 0.5 * 0.25 * 0.8 = 0.1.
     rewards, values = torch.tensor([[0.0], [1.0]]), torch.tensor([[0.5], [0.2]])
     discounts = torch.tensor([[0.5], [0.0]])
-    for trace, first in ((0.0, -0.4), (0.25, -0.3)):
-        advantages = losses.generalized_advantages(rewards, discounts, values, trace)
+    for lambda_, first in ((0.0, -0.4), (0.25, -0.3)):
+        advantages = losses.generalized_advantages(rewards, discounts, values, lambda_)
         torch.testing.assert_close(advantages, torch.tensor([[first], [0.8]]))
 
 
@@ -70,9 +70,9 @@ def test_the_losses_of_two_steps_are_those_computed_by_hand():
     assert entropy.item() == pytest.approx((math.log(2) + math.log(4) - 0.75 * math.log(3)) / 2, abs=1e-6)
 
 
-def test_the_entropy_relative_to_a_prior_is_what_pulls_the_policy_towards_it():
+def test_entropy_relative_to_a_prior_pulls_the_policy_towards_it():
     # Policy 3/4, 1/4, prior logits 2 and 0: the entropy ln 4 - 3/4 ln 3 and the mean logit 3/4 * 2.
-    # Policy gradients vanish where advantages are 0, so the step that is left is the bonus's.
+    # Policy gradients vanish where advantages are 0, so the step is the bonus's alone.
     logits, prior = torch.tensor([[math.log(3), 0.0]], requires_grad=True), (2.0, 0.0)
     nothing, action = torch.zeros(1), torch.tensor([0])
     clipped = functools.partial(losses.clipped_losses, logits, nothing, action, nothing, nothing, nothing, 0.2)
@@ -87,19 +87,7 @@ def test_the_entropy_relative_to_a_prior_is_what_pulls_the_policy_towards_it():
         assert at_prior.item() == pytest.approx(math.log(math.exp(2) + 1), abs=1e-6) and at_prior > entropy
 
 
-def test_the_losses_do_not_care_how_the_leading_axes_are_laid_out():
-    generator = torch.Generator().manual_seed(fresh_seed())
-    shapes = ((3, 2, 5), (3, 2), (3, 2), (3, 2))
-    logits, values, returns, advantages = (torch.randn(shape, generator=generator) for shape in shapes)
-    actions = torch.randint(5, (3, 2), generator=generator)
-    apart = losses.actor_critic_losses(logits, values, actions, returns, advantages)
-    flat = losses.actor_critic_losses(
-        logits.flatten(0, 1), values.flatten(), actions.flatten(), returns.flatten(), advantages.flatten()
-    )
-    torch.testing.assert_close(apart, flat)
-
-
-def test_gradients_of_each_loss_reach_what_they_should_and_nothing_else():
+def test_gradients_of_each_loss_reach_their_own_inputs_alone():
     logits = torch.tensor([[0.0, 1.0]], requires_grad=True)
     values = torch.tensor([0.5], requires_grad=True)
     policy_loss, baseline_loss, entropy = losses.actor_critic_losses(
@@ -114,13 +102,13 @@ def test_gradients_of_each_loss_reach_what_they_should_and_nothing_else():
         assert torch.autograd.grad(loss, stranger, retain_graph=True, allow_unused=True)[0] is None
 
 
-def test_a_rounds_losses_are_means_over_the_steps_that_were_played_and_no_padding():
+def test_losses_of_a_round_are_means_over_the_steps_played():
     # Two episodes of 1 and 3 actions with a network whose heads are zero: uniform over 8 actions, values 0, so
     # entropy = ln 8, and with gamma = 0.5 the returns are: a: 1; b: -0.25, -0.5, -1 (rewards 0, 0, -1).
     # Policy loss: ln 8 * mean(1, -0.25, -0.5, -1) = ln 8 * -0.75 / 4.
     # Baseline loss: 0.5 * (1 + 0.0625 + 0.25 + 1) / 4.
     batch = suite.load_batch("which_is_heavier", "features", 2)
-    network = networks.RecurrentActorCritic(batch.observation_spec(), 8, lstm_units=4, observation_scale=10.0)
+    network = networks.RecurrentActorCritic(batch.observation_spec(), 8, observation_scale=10.0)
     with torch.no_grad():
         for head in (network.policy, network.value):
             head.weight.zero_()
@@ -135,10 +123,10 @@ def test_a_rounds_losses_are_means_over_the_steps_that_were_played_and_no_paddin
     assert entropy.item() == pytest.approx(math.log(8), abs=1e-6)
 
 
-def test_the_clipped_losses_of_two_actions_are_the_ones_computed_by_hand():
+def test_clipped_losses_of_two_actions_are_those_computed_by_hand():
     # Logits 0, 0: both actions have probability 1/2, entropy ln 2. Action 0 was taken with probability 1/4, twice.
     # The ratio is 2; clip 0.2 leaves 1.2. Where the advantage is 1 the gain is min(2, 1.2) = 1.2; where it is -1 the
-    # gain is min(-2, -1.2) = -2: what made a bad action likelier is not forgiven. Policy loss: -(1.2 - 2) / 2 = 0.4.
+    # gain is min(-2, -1.2) = -2: a bad action that became likelier costs in full. Policy loss: -(1.2 - 2) / 2 = 0.4.
     # Values 0.5 and 0 with returns 1 and -1: 0.5 * (0.25 + 1) / 2 = 0.3125.
     policy_loss, baseline_loss, entropy = losses.clipped_losses(
         torch.zeros(2, 2),

@@ -1,4 +1,4 @@
-"""The paper's convolutions, and where and how precisely they are computed."""
+"""The paper's convolutions, their device and their precision."""
 
 from dm_env import specs
 import numpy as np
@@ -10,7 +10,7 @@ from physexp import suite
 from physexp.agents import acting, devices, networks
 
 SCALE = 3.0
-# What bf16, with 8 bits of precision, leaves of three convolutions and a product: a hundredth of the largest output.
+# The error of three convolutions and a product in bf16, with 8 bits of precision: a hundredth of the largest output.
 BF16_TOLERANCE = 1e-2
 
 
@@ -28,7 +28,7 @@ def make_torso():
 
 def make_network():
     batch = suite.load_batch("towers", "fist_pixels", 1)
-    network = networks.RecurrentActorCritic(batch.observation_spec(), 9, lstm_units=100, observation_scale=SCALE)
+    network = networks.RecurrentActorCritic(batch.observation_spec(), 9, observation_scale=SCALE)
     batch.close()
     return network
 
@@ -45,7 +45,7 @@ def test_the_layers_are_the_papers():
     assert torso.num_outputs == 64 * 7 * 7
 
 
-def test_pixels_are_taken_relative_to_the_first_image_and_scaled():
+def test_pixels_are_relative_to_the_first_image_and_scaled():
     images = fresh_images(3)
     torso = make_torso()
     torso.calibrate({"pixels": images[1:]})
@@ -55,14 +55,14 @@ def test_pixels_are_taken_relative_to_the_first_image_and_scaled():
     torch.testing.assert_close(nothing, torso.convolutions(torch.zeros(1, 3, 84, 84)).flatten(1))
 
 
-def test_without_a_reference_pixels_are_the_papers_between_zero_and_the_scale():
+def test_without_a_reference_pixels_are_those_of_the_paper():
     images = fresh_images(2)
     torso = make_torso()
     expected = torso.convolutions((SCALE / 255 * images.float()).permute(0, 3, 1, 2)).flatten(1)
     torch.testing.assert_close(torso({"pixels": images}), expected, rtol=1e-4, atol=1e-5)
 
 
-def test_images_that_are_the_same_pass_the_convolutions_once_and_count_each_time():
+def test_equal_images_pass_the_convolutions_once_and_count_each_time():
     images = fresh_images(3)
     torso = make_torso()
     repeated = images[[0, 1, 0, 2, 2, 0]]
@@ -70,7 +70,7 @@ def test_images_that_are_the_same_pass_the_convolutions_once_and_count_each_time
     torso.convolutions.register_forward_hook(lambda module, inputs, outputs: passed.append(len(inputs[0])))
     outputs = torso({"pixels": repeated})
     assert passed == [3]
-    # The sums of a convolution are rounded as the images with it let them: a unit at zero may be on, or off.
+    # Sums are rounded differently beside other images, so that a unit at zero may be on or off.
     weights = torch.randn_like(outputs) * (outputs > 1e-5)
     once = torch.autograd.grad((outputs * weights).sum(), list(torso.parameters()))
     one_by_one = torch.cat([torso({"pixels": image[None]}) for image in repeated])
@@ -80,15 +80,15 @@ def test_images_that_are_the_same_pass_the_convolutions_once_and_count_each_time
         torch.testing.assert_close(ours, theirs, rtol=1e-3, atol=1e-3)
 
 
-def test_the_policy_starts_from_the_logits_it_is_told():
+def test_the_policy_starts_from_its_initial_logits():
     images = fresh_images(4)
     network = make_network()
-    before, _, _ = network.step(network.encode({"pixels": images}), network.initial_state(4))
+    before, _ = network.step(network.encode({"pixels": images}), network.initial_state(4))
     prior = torch.arange(9.0)
     network.initialize_policy(prior.tolist())
-    after, _, _ = network.step(network.encode({"pixels": images}), network.initial_state(4))
-    torch.testing.assert_close(after - before, prior.expand(4, 9))
-    with pytest.raises(ValueError, match="action_prior has 2 logits; give 9, or none"):
+    after, _ = network.step(network.encode({"pixels": images}), network.initial_state(4))
+    torch.testing.assert_close(after.logits - before.logits, prior.expand(4, 9))
+    with pytest.raises(ValueError, match="initial_logits has 2 logits; give 9, or none"):
         network.initialize_policy([1.0, 2.0])
 
 
@@ -98,14 +98,14 @@ def test_features_are_computed_on_the_processor_unless_told_otherwise():
 
 
 @pytest.mark.skipif(torch.cuda.is_available(), reason="needs a machine without a GPU")
-def test_a_gpu_that_is_not_there_is_refused_when_asked_for_and_done_without_otherwise():
+def test_a_missing_gpu_is_refused_only_on_request():
     assert devices.choose("auto", sees_images=True).type == "cpu"
     with pytest.raises(ValueError, match="device is cuda, but torch finds no GPU here; choose cpu or auto"):
         devices.choose("cuda", sees_images=True)
 
 
 def difference(outputs, expected):
-    """The root mean square of what outputs differ by, over theirs."""
+    """The root mean square of the differences over that of the expected outputs."""
     return (torch.linalg.vector_norm(outputs - expected) / torch.linalg.vector_norm(expected)).item()
 
 
@@ -124,7 +124,7 @@ def test_bf16_agrees_with_float32_within_its_precision(monkeypatch):
 def test_features_keep_their_precision(monkeypatch):
     torch.manual_seed(0)
     spec = {"heights": specs.Array((4,), np.float32)}
-    network = networks.RecurrentActorCritic(spec, num_actions=8, lstm_units=16, observation_scale=40.0)
+    network = networks.RecurrentActorCritic(spec, num_actions=8, observation_scale=40.0)
     heights = torch.tensor([[0.4, 0, 0, 0], [0.401, 0, 0, 0]])
     found = []
     for is_fast in (False, True):
@@ -153,10 +153,10 @@ def test_a_gpu_agrees_with_the_processor_within_bf16():
 
 
 @pytest.mark.parametrize("names", [[], ["heights", "pixels"], ["left", "right"]])
-def test_anything_but_features_or_one_image_is_refused_in_one_line(names):
+def test_anything_but_features_or_one_image_is_refused(names):
     image, features = specs.Array((84, 84, 3), np.uint8), specs.Array((4,), np.float32)
     observed = {name: features if name == "heights" else image for name in names}
     with pytest.raises(
         ValueError, match=f"takes features .*, and what is observed is {', '.join(names) or 'nothing'};"
     ):
-        networks.RecurrentActorCritic(observed, 9, lstm_units=1, observation_scale=1.0)
+        networks.RecurrentActorCritic(observed, 9, observation_scale=1.0)
