@@ -1,6 +1,6 @@
 """The commands by name, in the order in which help lists them."""
 
-from physexp.cli import experiments, export, ideal, playing, score, tasks, train
+from physexp.cli import experiments, export, ideal, playing, score, sweep, tasks, train
 
 COMMANDS = {
     "tasks": tasks.Tasks,
@@ -14,6 +14,7 @@ COMMANDS = {
     "verify": score.Verify,
     "leaderboard": score.Leaderboard,
     "export": export.Export,
+    "sweep": sweep.Sweep,
     "reproduce": experiments.Reproduce,
     "report": experiments.Report,
     "bench": experiments.Bench,

@@ -8,12 +8,13 @@ from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from concurrent import futures
 import dataclasses
+import itertools
 import json
 from pathlib import Path
 import sys
 import tempfile
 import time
-from typing import Protocol
+from typing import Any, Protocol
 
 import filelock
 from pyarrow import parquet
@@ -80,6 +81,65 @@ def jobs(
     return [Job(config, tuple(trials[config])) for config in sorted(trials, key=lambda config: config.agent.seed)]
 
 
+def grid(
+    tasks: Sequence[str], learners: Sequence[str], seeds: Sequence[int], frames: int | None, num_episodes: int
+) -> list[Job]:
+    """Returns a run for each task, learner and seed, the first seed of all before the second of any.
+
+    Args:
+      tasks: the tasks, as `domain/task`.
+      learners: the learners, as `a3c`, `belief` and `ppo`; each has the preset of the task.
+      seeds: training seeds.
+      frames: environment steps of training; None for those of the presets.
+      num_episodes: the number of episodes of the evaluation.
+
+    Raises:
+      ValueError: for an unknown task.
+    """
+    is_usual = num_episodes == base.EVALUATION.num_episodes
+    name = base.EVALUATION.name if is_usual else f"{base.EVALUATION.name}{num_episodes}"
+    trial = base.Trial(name=name, num_episodes=num_episodes)
+    found = []
+    for seed, chosen, learner in itertools.product(seeds, tasks, learners):
+        domain, _, task = chosen.partition("/")
+        suite.load_task(domain, task)  # Refuses an unknown name.
+        agent = config_lib.preset(domain, task, algorithm=learner)
+        agent = agent.replace(seed=seed, frames=frames or agent.frames)
+        found.append(Job(config_lib.TrainConfig(domain=domain, task=task, agent=agent), (trial,)))
+    return found
+
+
+def table(jobs: Sequence[Job], results: base.Results) -> list[dict[str, Any]]:
+    """Returns a row for each job that is done, with the share of the ideal's return where the ideal is known."""
+    runs = results.load("runs", ["run", "frames", "seconds"]).set_index("run")
+    keys = ["condition", "trial", "training_seed"]
+    metrics = ["success_rate", "mean_return", "mean_interactions", "timeouts"]
+    evaluations = results.load("evaluations", [*keys, *metrics]).set_index(keys)
+    ideals: dict[str, float | None] = {}
+    rows = []
+    for job in jobs:
+        config, (trial,) = job.config, job.trials
+        key = (records.condition_id(config), trial.name, config.agent.seed)
+        if key not in evaluations.index:
+            continue
+        found = evaluations.loc[key]
+        if config.task_name not in ideals:
+            ideals[config.task_name] = playing.ideal_return(config)
+        ideal = ideals[config.task_name]
+        rows.append(
+            {
+                "task": config.task_name,
+                "learner": config.agent.title,
+                "seed": config.agent.seed,
+                "frames": int(runs.frames[config.name]),
+                "minutes": round(float(runs.seconds[config.name]) / 60, 2),
+                **{name: round(float(found[name]), 4) for name in metrics},
+                "share_of_ideal": None if ideal is None else round(float(found.mean_return) / ideal, 4),
+            }
+        )
+    return sorted(rows, key=lambda row: (row["task"], row["learner"], row["seed"]))
+
+
 def run(jobs: Sequence[Job], results: base.Results, pool: Pool, num_processes: int, tell: callbacks.Tell) -> None:
     """Does the jobs that are not done yet.
 
@@ -96,8 +156,7 @@ def run(jobs: Sequence[Job], results: base.Results, pool: Pool, num_processes: i
       ValueError: if the results hold a run of the same name with another configuration, or one that has to play more
         and whose weights are not there.
     """
-    done = _done(jobs, results)
-    todo = [job for job in jobs if job not in done]
+    todo = to_do(jobs, results)
     tell(f"{len(jobs) - len(todo)} of {len(jobs)} agents are done")
     if not todo:
         return
@@ -126,33 +185,37 @@ def run(jobs: Sequence[Job], results: base.Results, pool: Pool, num_processes: i
         raise RuntimeError(f"{len(failures)} of {len(todo)} agents could not be trained: {'; '.join(failures)}")
 
 
-def _done(jobs: Sequence[Job], results: base.Results) -> list[Job]:
-    """Returns the jobs whose rows are stored, after storing those of runs that have ended without it."""
+def to_do(jobs: Sequence[Job], results: base.Results) -> list[Job]:
+    """Returns the jobs that are not done, after storing the rows of runs that have ended without it.
+
+    Raises:
+      ValueError: as `run`.
+    """
     rows = results.load("runs", ["run", "config"])
     stored, played = dict(zip(rows.run, rows.config, strict=True)), results.played()
-    done = []
+    left = []
     for job in jobs:
         run, missing = results.run(job.config), _missing(job, played)
+        is_stored, has_agent = job.config.name in stored, run.agent_path.exists()
         if (run.path / "config.json").exists():
             is_same = run.config == job.config
         else:
-            is_same = json.loads(stored.get(job.config.name, "null")) in (None, _as_json(job.config))
+            is_same = not is_stored or json.loads(stored[job.config.name]) == _as_json(job.config)
         if not is_same:
             raise ValueError(
                 f"{job.config.name} in {results.path} has another configuration; move its run away or choose another "
                 "--results-dir"
             )
-        if job.config.name in stored and missing and not run.agent_path.exists():
+        if is_stored and missing and not has_agent:
             raise ValueError(
                 f"{job.config.name} is stored in {results.path} without its weights, so it cannot play "
                 f"{', '.join(missing)}; choose another --results-dir"
             )
-        if missing and run.agent_path.exists() and all(_trial_path(run, name).exists() for name in missing):
+        if has_agent and all(_trial_path(run, name).exists() for name in missing) and (missing or not is_stored):
             _store(job, results)
-            missing = {}
-        if not missing and (job.trials or job.config.name in stored):
-            done.append(job)
-    return done
+        elif missing or not is_stored:
+            left.append(job)
+    return left
 
 
 def _missing(job: Job, played: set[tuple[str, str, int]]) -> dict[str, base.Trial]:
