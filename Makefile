@@ -1,15 +1,14 @@
-# Installs physexp into .venv, and runs what the project is for, and its tests, from there. Each target installs what it
-# needs, and no more.
+# Installs physexp into .venv and runs it and its tests from there. Each target installs its own requirements alone.
 
 # The first of these that is 3.11 or 3.12 and can make a virtual environment makes .venv.
 PYTHON ?= python3.11 python3.12 python3
 
 BIN = .venv/bin
-# What is compiled once is kept: the tests start hundreds of processes.
+# Compiled modules are kept: the tests start hundreds of processes.
 PYTEST = OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest
 HOW_TO_RUN = @echo 'To run physexp: $(BIN)/physexp --help; or without the folder, after: . $(BIN)/activate'
 
-.PHONY: help install demo test test-long soak lint docs bench clean
+.PHONY: help install demo test test-all soak lint docs bench clean
 .NOTPARALLEL: # Two installations at once would write into one environment.
 .DEFAULT_GOAL = help
 
@@ -27,8 +26,8 @@ test: lint ## Run lint and the tests.
 	$(PYTEST) -n 3 --dist worksteal -m 'not long'
 	$(HOW_TO_RUN)
 
-test-long: .venv/installed-test ## Run the tests that take more than a person waits for.
-	$(PYTEST) -n 2 --dist worksteal -m long
+test-all: .venv/installed-test ## Run all tests, also those that take minutes.
+	$(PYTEST) -n 3 --dist worksteal
 
 soak: .venv/installed-test ## Play every task for millions of steps (about an hour): nothing may diverge, grow or slow down.
 	PHYSEXP_SOAK=1 $(PYTEST) -s tests/analysis/test_soak.py

@@ -1,4 +1,4 @@
-"""Libraries that only some commands and modules need, and the extra that brings each. Imports nothing heavy."""
+"""The libraries that only some commands need, and their extras. Imports nothing heavy."""
 
 from collections.abc import Iterable
 import importlib.util
@@ -13,11 +13,11 @@ EXTRAS = {
     "stable_baselines3": "sb3",
     "tensorboard": "tensorboard",
 }
-"""Extras by the module that they bring."""
+"""Extras by the module that they install."""
 
 
 class MissingExtraError(ModuleNotFoundError):
-    """A library that an extra brings is not installed; the message says what to install."""
+    """A library of an extra is not installed; the message has the command that installs it."""
 
 
 def require(*modules: str) -> None:
@@ -27,7 +27,7 @@ def require(*modules: str) -> None:
       modules: keys of `EXTRAS`.
 
     Raises:
-      MissingExtraError: if some are not; the message is one line that names them and the command that installs them.
+      MissingExtraError: if some are missing; one line names them and the command that installs them.
     """
     if missing := find_missing(modules):
         wanted = ",".join(dict.fromkeys(EXTRAS[module] for module in missing))
@@ -37,5 +37,5 @@ def require(*modules: str) -> None:
 
 
 def find_missing(modules: Iterable[str]) -> list[str]:
-    """Those of some modules that cannot be imported, for want of being installed."""
+    """Returns the modules that are not installed."""
     return [module for module in modules if importlib.util.find_spec(module) is None]

@@ -11,31 +11,15 @@ from physexp.agents.a3c import config as a3c
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 
-# Who starts the tests in the background may have them ignore what ends a process, and processes that they start ignore
-# it too, as after `nohup`; but those are to be ended.
+# Tests that run in the background, after `nohup` for example, ignore the signals that end a process, and so would the
+# processes that they start; but tests end those by signals.
 for _number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
     if signal.getsignal(_number) is signal.SIG_IGN:
         signal.signal(_number, signal.default_int_handler if _number == signal.SIGINT else signal.SIG_DFL)
 
 
-# Imports of torch and MuJoCo take seconds of each process that is spawned. What a real `physexp` spawns imports them
-# as ever, in the tests that start one.
+# Imports of torch and MuJoCo take seconds of each spawned process. Tests that start a real `physexp` pay for them.
 commands.spawn_quickly()
-
-
-LONGEST = {
-    "test_cluster",
-    "test_determinism",
-    "test_docs",
-    "test_faults",
-    "test_kills",
-    "test_learning",
-    "test_readme",
-    "test_replay",
-    "test_reproduce",
-    "test_soak",
-}
-"""Files with tests that take long."""
 
 
 @pytest.hookimpl(wrapper=True)
@@ -48,8 +32,8 @@ def pytest_runtest_makereport(item, call):
 
 
 def pytest_collection_modifyitems(items):
-    """Has these begin first: what two processes take from each other in the end is short."""
-    items.sort(key=lambda item: item.path.stem not in LONGEST)
+    """Puts long tests first, so that at the end no process waits for another."""
+    items.sort(key=lambda item: item.get_closest_marker("long") is None)
 
 
 @pytest.fixture

@@ -54,11 +54,11 @@ class _Belief:
             return answer
         return max(answer, discount * sum(part.prophet_return(discount) for part in self.parts))
 
-    def threshold_return(self, discount: float, threshold: float) -> float:
-        """Returns the return of answering once the likeliest label reaches a threshold, times the probability."""
-        if self.max_probability >= threshold or not self.parts:
+    def return_at(self, discount: float, confidence: float) -> float:
+        """Returns the return of answering once the likeliest label reaches a confidence, times the probability."""
+        if self.max_probability >= confidence or not self.parts:
             return self.probability * base.worth_of_answers(self.max_probability)
-        return discount * sum(part.threshold_return(discount, threshold) for part in self.parts)
+        return discount * sum(part.return_at(discount, confidence) for part in self.parts)
 
     def all(self) -> Iterator["_Belief"]:
         """Yields this belief and all later ones."""
@@ -82,13 +82,13 @@ def bounds(histories: histories_lib.Histories, discount: float) -> Bounds:
     trials, roots = roots[:_NUM_TRIALS], roots[_NUM_TRIALS:]
 
     def mean_return(played: list[_Belief], level: float) -> float:
-        return float(np.mean([root.threshold_return(discount, level - 1e-6) for root in played]))
+        return float(np.mean([root.return_at(discount, level - 1e-6) for root in played]))
 
     levels = sorted({round(belief.max_probability, 6) for root in trials for belief in root.all()})
-    threshold = max(levels, key=functools.partial(mean_return, trials))
+    confidence = max(levels, key=functools.partial(mean_return, trials))
     return Bounds(
         at_once=base.worth_of_answers(roots[0].max_probability),
-        random_value=mean_return(roots, threshold),
+        random_value=mean_return(roots, confidence),
         random_bound=float(np.mean([root.prophet_return(discount) for root in roots])),
     )
 
