@@ -4,7 +4,7 @@ import json
 import os
 from pathlib import Path
 import secrets
-from typing import IO, Any
+from typing import Any
 
 
 def write_atomically(path: Path, content: bytes) -> None:
@@ -49,17 +49,3 @@ def read_json(path: Path) -> Any:
 def reason(error: Exception) -> str:
     """Returns an error's message as one line of at most 200 ASCII characters."""
     return ascii(" ".join(str(error).split()))[1:-1][:200]
-
-
-def open_plain(path: Path, mode: str = "rb", **options: Any) -> IO[Any]:
-    """Opens a file."""
-    return Path(path).open(mode, **options)
-
-
-def read_plain(path: Path, most: int) -> bytes:
-    """Returns a file's content."""
-    return Path(path).read_bytes()
-
-
-def refuse_link(folder: Path) -> None:
-    """Does nothing."""

@@ -1,6 +1,7 @@
 """Tensors in safetensors files, with facts (JSON) and a checksum of both in the header's metadata."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+import contextlib
 import hashlib
 import json
 from pathlib import Path
@@ -44,25 +45,29 @@ def read(path: Path) -> tuple[dict[str, torch.Tensor], dict[str, Any]]:
       OSError: if it cannot be read.
       DamagedError: if it is no such file, or differs from what was written.
     """
-    try:
-        with safetensors.safe_open(path, "pt") as file:
-            metadata = file.metadata() or {}
-            tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
-        text = metadata.get("facts", "{}")
-        if "facts" in metadata and digest(tensors, text) != metadata.get("sha256"):
+    with _opened(path) as file:
+        metadata = file.metadata() or {}
+        text, sha256 = metadata["facts"], metadata["sha256"]
+        tensors = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
+        if digest(tensors, text) != sha256:
             raise ValueError("its checksum differs")
         return tensors, dict(json.loads(text))
-    except (safetensors.SafetensorError, KeyError, TypeError, ValueError, RecursionError) as error:
-        raise core.DamagedError(f"{path} is damaged: {files.reason(error)}; put back what was written") from None
 
 
 def read_facts(path: Path) -> dict[str, Any]:
     """Returns the facts of a file without reading its tensors or verifying the checksum; raises as `read`."""
+    with _opened(path) as file:
+        return dict(json.loads((file.metadata() or {})["facts"]))
+
+
+@contextlib.contextmanager
+def _opened(path: Path) -> Iterator[Any]:
     try:
         with safetensors.safe_open(path, "pt") as file:
-            return dict(json.loads((file.metadata() or {}).get("facts", "{}")))
-    except (safetensors.SafetensorError, TypeError, ValueError, RecursionError) as error:
-        raise core.DamagedError(f"{path} is damaged: {files.reason(error)}; put back what was written") from None
+            yield file
+    except (safetensors.SafetensorError, KeyError, TypeError, ValueError, RecursionError) as error:
+        what = f"its header lacks {error}" if isinstance(error, KeyError) else files.reason(error)
+        raise core.DamagedError(f"{path} is damaged: {what}; put back what was written") from None
 
 
 def check(tensors: Mapping[str, torch.Tensor], like: Mapping[str, torch.Tensor]) -> None:

@@ -10,8 +10,6 @@ from pyarrow import parquet
 
 from physexp.agents import files
 
-MOST_BYTES = 2**28
-
 
 def write(path: Path, table: pyarrow.Table, **options: Any) -> None:
     """Writes a table, whole or not at all.

@@ -218,7 +218,10 @@ class Run:
 
         if self.agent_path.exists():
             variables, _ = tensors_lib.read(self.agent_path)
-            accept(variables)
+            try:
+                accept(variables)
+            except ValueError as error:
+                raise ValueError(f"{self.agent_path}: {error}") from None
             return variables
         found = self.checkpointer.latest(accept=lambda tensors, _: accept(learning.network_variables(tensors)))
         if found is None:
