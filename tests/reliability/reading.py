@@ -1,5 +1,6 @@
-"""What is read of a run, of a published agent and of records, by the functions that everybody reads them with."""
+"""Files of every kind, and the functions that everybody reads them with."""
 
+from collections.abc import Callable
 import dataclasses
 import json
 from pathlib import Path
@@ -8,22 +9,22 @@ import subprocess
 
 import subjects
 
-from physexp.agents import pretrained
 from physexp.analysis.data import tables
 from physexp.analysis.replay import viewing
-from physexp.analysis.training import finding, records
+from physexp.analysis.score import log, protocol, scoring, targets
+from physexp.analysis.training import finding
 from physexp.analysis.training import run as run_lib
 
 
 def make(folder: Path) -> None:
-    """Makes one of each: `run`, `kept` (the agent alone), `published`, `records`."""
+    """Makes one of each: `run`, `kept` (the agent alone), `published`, `score`."""
     run = run_lib.Run(folder / "run")
     run.create(subjects.config())
     subjects.train(run.path)
     shutil.copytree(run.path, folder / "kept")
     run_lib.Run(folder / "kept").keep_agent_only()
     subjects.publish(folder / "published", 3)
-    records.write(folder / "records" / "records.parquet", subjects.rows(50))
+    scoring.score(targets.find("random"), protocol.named(["threshold/features"]), 2, folder / "score")
 
 
 # Each returns something that can be compared, or raises.
@@ -38,27 +39,23 @@ def read_metrics(folder):
 
 
 def read_checkpoint(folder):
-    """What training resumes from, and the network that is evaluated."""
+    """Reads the newest checkpoint; raises ValueError where the one before it would be used."""
     told: list[str] = []
-    run = run_lib.Run(folder / "run")
-    tensors, facts = run.checkpointer.latest(told.append)
+    tensors, facts = run_lib.Run(folder / "run").checkpointer.latest(told.append)
     if told:
-        assert "\n" not in told[0] and "is damaged" in told[0]
-        raise ValueError(told[0])  # The one before it is used.
-    return {name: value.numpy().tobytes() for name, value in tensors.items()}, facts, _network(folder / "run")
+        raise ValueError(told[0])
+    return _bytes(tensors), facts
 
 
 def read_kept(folder):
-    return _network(folder / "kept")
+    network, config, _ = finding.find_agent(str(folder / "kept"))
+    return _bytes(network.state_dict()), config
 
 
 def read_published(folder):
-    agent = pretrained.load("which_is_heavier", "features", 10.0, folder=folder / "published")
-    return agent.card, _bytes(agent.network), finding.config_of(agent.card)
-
-
-def read_records(folder):
-    return records.read([folder / "records" / "records.parquet"]).to_json()
+    (path,) = (folder / "published").iterdir()
+    network, config, provenance = finding.find_agent(str(path))
+    return _bytes(network.state_dict()), config, provenance()
 
 
 def read_episodes(folder):
@@ -66,21 +63,24 @@ def read_episodes(folder):
     return [tables.read(part, run_lib.EPISODES).to_pylist() for part in parts]
 
 
+def read_log(folder):
+    return log.read(folder / "score").to_pylist()
+
+
+def read_score(folder):
+    return scoring.read(folder / "score")
+
+
 def verify(path):
-    """Has the viewer's own program read a recording; raises ValueError where it finds a fault."""
+    """Has the viewer's own program read a recording; raises ValueError if it finds a fault."""
     command = [viewing.PROGRAM, "rrd", "verify", path]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         raise ValueError(f"{path}: {done.stderr.strip().splitlines()[0]}")
 
 
-def _network(path):
-    network, config, _ = finding.find_agent(str(path))
-    return _bytes(network), config
-
-
-def _bytes(network):
-    return {name: value.numpy().tobytes() for name, value in network.state_dict().items()}
+def _bytes(tensors):
+    return {name: value.numpy().tobytes() for name, value in tensors.items()}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -88,42 +88,41 @@ class File:
     """A file that is read.
 
     Attributes:
-      path: within what `make` makes; a pattern of which the last one is meant.
+      pattern: of its path within the folder of `make`; the last match is meant.
       read: reads it.
       has_checksum: whether another value in it is noticed.
     """
 
-    path: str
-    read: object
+    pattern: str
+    read: Callable
     has_checksum: bool = True
 
     def find(self, folder: Path) -> Path:
-        return sorted(folder.glob(self.path))[-1]
+        return sorted(folder.glob(self.pattern))[-1]
+
+    def outcome(self, folder: Path, expected) -> str:
+        """Returns `the same`, `refused` or `another value`; an error must be one line that names the file."""
+        path = self.find(folder)
+        try:
+            found = self.read(folder)
+        except (ValueError, RuntimeError, OSError) as error:
+            assert str(error).strip() and "\n" not in str(error), repr(error)
+            assert path.stem in str(error), f"does not name {path.name}: {error!r}"
+            return "refused"
+        return "the same" if _comparable(found) == _comparable(expected) else "another value"
+
+
+def _comparable(value) -> str:
+    return json.dumps(value, default=repr, sort_keys=True)
 
 
 FILES = {
     "config.json": File("run/config.json", read_config, has_checksum=False),
     "metrics.csv": File("run/metrics.csv", read_metrics, has_checksum=False),
-    "checkpoint, tensors": File("run/checkpoints/*.safetensors", read_checkpoint),
-    "checkpoint, JSON": File("run/checkpoints/*.json", read_checkpoint),
-    "agent.safetensors": File("kept/agent.safetensors", read_kept),
-    "published weights": File("published/*.safetensors", read_published),
-    "published card": File("published/*.json", read_published),
-    "records": File("records/records.parquet", read_records),
-    "episodes.parquet": File("run/episodes.parquet/*.parquet", read_episodes),
+    "checkpoint": File("run/checkpoints/*.safetensors", read_checkpoint),
+    "kept agent": File("kept/agent.safetensors", read_kept),
+    "published agent": File("published/*.safetensors", read_published),
+    "episodes.parquet": File("run/episodes.parquet/*.parquet", read_episodes, has_checksum=False),
+    "log of a score": File("score/actions.parquet", read_log, has_checksum=False),
+    "score": File("score/score.json", read_score, has_checksum=False),
 }
-
-
-def outcome(file: File, path: Path, folder: Path, expected) -> str:
-    """`the same`, `refused` or `another value`; anything else than one line that names `path` is an error."""
-    try:
-        found = file.read(folder)
-    except (ValueError, RuntimeError, OSError) as error:
-        assert str(error).strip() and "\n" not in str(error), repr(error)
-        assert path.stem in str(error), f"does not name {path.name}: {error!r}"
-        return "refused"
-    return "the same" if _comparable(found) == _comparable(expected) else "another value"
-
-
-def _comparable(value) -> str:
-    return json.dumps(value, default=repr, sort_keys=True)

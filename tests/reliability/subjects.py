@@ -1,13 +1,12 @@
 """Small runs, agents and records to attack, which are easily compared with whole ones."""
 
-import pyarrow
 from pyarrow import parquet
 import torch
 
 from physexp.agents import networks, pretrained, registry
 from physexp.agents.ppo import config as ppo
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import finding, recorder, records, trainer
+from physexp.analysis.training import finding, recorder, trainer
 from physexp.analysis.training import run as run_lib
 
 SMALL = ppo.PPOConfig(num_threads=1, num_environments=4, num_minibatches=2, frames=60, checkpoint_seconds=1e-9)
@@ -64,6 +63,7 @@ def card(number: int) -> dict:
         "domain": "which_is_heavier",
         "task": "features",
         "task_kwargs": {"difficulty": 10.0},
+        "seed": 0,
         "frames": number,
         "agent": config().to_json()["agent"],
         "network": finding.network_facts(config()),
@@ -76,15 +76,7 @@ def publish(folder, number: int) -> None:
 
 def published(folder) -> int:
     """The number of the agent in a folder, weights and card alike."""
-    agent = pretrained.load("which_is_heavier", "features", 10.0, folder=folder)
+    agent = pretrained.load("which_is_heavier", "features", difficulty=10.0, folder=folder)
     numbers = {float(value) for tensor in agent.network.state_dict().values() for value in tensor.flatten()}
     assert numbers == {float(agent.card["frames"])}
     return agent.card["frames"]
-
-
-def rows(number: int) -> pyarrow.Table:
-    """Records of one episode more than the number."""
-    made = {name: [None] * (number + 1) for name in records.SCHEMA.names}
-    made["seed"] = made["episode"] = list(range(number + 1))
-    made["actions"] = [[0, 1, 2]] * (number + 1)
-    return pyarrow.table(made, records.SCHEMA)
