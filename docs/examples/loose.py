@@ -2,14 +2,11 @@
 
 import dataclasses
 
-from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
-from physexp.suite.engine import apparatus, contract, declarations, options, rendering, seeding, senses
+from physexp.suite.engine import apparatus, contract, declarations, options, rendering, seeding
 from physexp.suite.parts import arena, block, flag, material
-
-SUITE = containers.TaggedTasks()
 
 PHYSICS_TIMESTEP = 0.01  # s
 NUM_BLOCKS = 4
@@ -97,13 +94,4 @@ class WhichIsLoose(contract.Task):
         return declarations.Revealed(marks={f"block_{int(hidden)}": "loose"})
 
 
-@SUITE.add("features")
-def features(options):
-    """Observes `away`, float32 (4,): 0 or 1."""
-    return WhichIsLoose(options, senses.Features())
-
-
-@SUITE.add("pixels")
-def pixels(options):
-    """Observes `pixels`, uint8 (84, 84, 3): a cover, and a flag for each block."""
-    return WhichIsLoose(options, senses.Pixels())
+SUITE = contract.features_and_pixels(WhichIsLoose)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 import inspect
+from typing import Any
 import warnings
 
 from physexp.suite.engine import gl
@@ -13,8 +14,7 @@ with warnings.catch_warnings():  # dm_control shows all deprecations in its call
 
 from physexp import checks
 from physexp.suite import domains as _domains
-from physexp.suite.engine import batch as _batch
-from physexp.suite.engine import environment as _environment
+from physexp.suite.engine import contract
 from physexp.suite.engine.batch import BatchEnvironment
 from physexp.suite.engine.environment import Environment
 from physexp.suite.engine.options import Options
@@ -45,7 +45,7 @@ ALL_TASKS = tuple((domain, task) for domain, tasks in TASKS_BY_DOMAIN.items() fo
 """All (domain name, task name) pairs."""
 
 
-def tags(domain_name, task_name) -> frozenset[str]:
+def tags(domain_name: str, task_name: str) -> frozenset[str]:
     """Returns a task's tags: `features` or `pixels`, and those of its domain, such as `fist`.
 
     Raises:
@@ -69,16 +69,23 @@ def tagged(*wanted: str) -> tuple[tuple[str, str], ...]:
     return tuple(pair for pair, its_tags in tags_of.items() if its_tags.issuperset(wanted))
 
 
-def options(domain_name) -> type[Options]:
+def options(domain_name: str) -> type[Options]:
     """Returns the class of a domain's options: the fields and defaults of its `task_kwargs`.
 
     Raises:
       ValueError: for an unknown name.
     """
-    return _find_domain(domain_name).Options
+    kind: type[Options] = _find_domain(domain_name).Options
+    return kind
 
 
-def load(domain_name, task_name, task_kwargs=None, environment_kwargs=None, visualize_reward=False) -> Environment:
+def load(
+    domain_name: str,
+    task_name: str,
+    task_kwargs: Mapping[str, Any] | None = None,
+    environment_kwargs: Mapping[str, Any] | None = None,
+    visualize_reward: bool = False,
+) -> Environment:
     """Returns an environment, as `dm_control.suite.load` does.
 
     Args:
@@ -94,10 +101,17 @@ def load(domain_name, task_name, task_kwargs=None, environment_kwargs=None, visu
     """
     chosen = {"visualize_reward": visualize_reward, **_checked("task_kwargs", task_kwargs)}
     task = load_task(domain_name, task_name, chosen)
-    return _call(_environment.Environment, "environment_kwargs", environment_kwargs, task)
+    environment: Environment = _call(Environment, "environment_kwargs", environment_kwargs, task)
+    return environment
 
 
-def load_batch(domain_name, task_name, num_environments, task_kwargs=None, num_threads=1) -> BatchEnvironment:
+def load_batch(
+    domain_name: str,
+    task_name: str,
+    num_environments: int,
+    task_kwargs: Mapping[str, Any] | None = None,
+    num_threads: int = 1,
+) -> BatchEnvironment:
     """Returns many environments of one task that step together.
 
     Environment `i` is, bit for bit, the one that `load` returns for `random=environment_seed(seed, i)`.
@@ -113,27 +127,28 @@ def load_batch(domain_name, task_name, num_environments, task_kwargs=None, num_t
     task = load_task(domain_name, task_name, task_kwargs)
     if task.options.visualize_reward:
         raise ValueError("visualize_reward is True; give False to a batch, or load one environment")
-    return _batch.BatchEnvironment(task, num_environments, num_threads)
+    return BatchEnvironment(task, num_environments, num_threads)
 
 
-def load_task(domain_name, task_name, task_kwargs=None):
-    """Returns the composer task that an environment or a batch plays.
+def load_task(domain_name: str, task_name: str, task_kwargs: Mapping[str, Any] | None = None) -> contract.Task:
+    """Returns the task that an environment or a batch plays.
 
     Raises:
       ValueError: for an unknown name or a bad keyword argument.
     """
     factory = _find_suite(domain_name, task_name)[task_name]
-    return factory(_call(_find_domain(domain_name).Options, "task_kwargs", task_kwargs))
+    task: contract.Task = factory(_call(_find_domain(domain_name).Options, "task_kwargs", task_kwargs))
+    return task
 
 
-def _find_domain(domain_name):
+def _find_domain(domain_name: Any) -> Any:
     """Returns the module of a domain."""
     if not isinstance(domain_name, str) or domain_name not in _DOMAINS:
         raise ValueError(f"domain_name is {checks.shown(domain_name)}; known domains: {', '.join(_DOMAINS)}")
     return _DOMAINS[domain_name]
 
 
-def _find_suite(domain_name, task_name):
+def _find_suite(domain_name: Any, task_name: Any) -> Any:
     """Returns the tasks of a domain that has one of this name."""
     suite = _find_domain(domain_name).SUITE
     if not isinstance(task_name, str) or task_name not in suite:
@@ -141,7 +156,7 @@ def _find_suite(domain_name, task_name):
     return suite
 
 
-def _call(function, name, kwargs, *args):
+def _call(function: Any, name: str, kwargs: Any, *args: Any) -> Any:
     """Calls `function` with keyword arguments whose names are checked first."""
     kwargs = _checked(name, kwargs)
     allowed = [parameter.name for parameter in list(inspect.signature(function).parameters.values())[len(args) :]]
@@ -151,12 +166,12 @@ def _call(function, name, kwargs, *args):
     return function(*args, **kwargs)
 
 
-def _spelled(key) -> str:
+def _spelled(key: Any) -> str:
     """Returns a name as a message shows it: in quotes unless it is a plain word."""
     return key if isinstance(key, str) and key.isidentifier() else checks.shown(key)
 
 
-def _checked(name, kwargs) -> dict:
+def _checked(name: str, kwargs: Any) -> dict[str, Any]:
     """Keyword arguments as a dictionary; raises ValueError for anything else."""
     if kwargs is not None and not isinstance(kwargs, Mapping):
         raise ValueError(f"{name} is {checks.shown(kwargs)}; give a dictionary")

@@ -1,4 +1,4 @@
-"""Spaces, infos, checks and images, which the adapters for Gymnasium and Stable-Baselines3 share."""
+"""Spaces, infos, checks and images that the adapters for Gymnasium and Stable-Baselines3 share."""
 
 from collections.abc import Mapping, Sequence
 import dataclasses
@@ -12,19 +12,14 @@ import numpy as np
 
 from physexp import checks, suite
 from physexp.suite.engine import batch as batch_lib
-from physexp.suite.engine import rendering, seeding
+from physexp.suite.engine import contract, rendering, seeding
 
 _LARGEST_GRID = 1920  # Pixels, of the images of many environments side by side.
 
 
-def observation_space(spec, is_flat: bool = False) -> spaces.Space:
-    """Returns the space of observations: images are bounded by their type, features as their specs say.
-
-    Args:
-      spec: the specs by name.
-      is_flat: whether observations are `flattened`.
-    """
-    boxes: dict[str, spaces.Space] = {}
+def observation_space(spec: Mapping[str, dm_env.specs.Array], is_flat: bool = False) -> spaces.Space[Any]:
+    """Returns the space of observations, of flattened ones if `is_flat`; features have the bounds of their specs."""
+    boxes: dict[str, spaces.Space[Any]] = {}
     for name, array in spec.items():
         low: Any
         high: Any
@@ -36,21 +31,19 @@ def observation_space(spec, is_flat: bool = False) -> spaces.Space:
     return spaces.flatten_space(spaces.Dict(boxes)) if is_flat else spaces.Dict(boxes)
 
 
+def action_space(environment: suite.Environment | suite.BatchEnvironment) -> spaces.Discrete:
+    """Returns the space of the actions of one environment."""
+    return spaces.Discrete(environment.action_spec().num_values)
+
+
 def flattened(observation: Mapping[str, np.ndarray], num_axes: int = 0) -> np.ndarray:
-    """Returns the arrays of an observation as one vector, sorted by name; as many leading axes stay."""
+    """Returns the arrays of an observation as one vector, sorted by name, after `num_axes` leading axes."""
     arrays = (observation[name] for name in sorted(observation))
     return np.concatenate([array.reshape(*array.shape[:num_axes], -1) for array in arrays], axis=-1)
 
 
-def outcomes(task, steps: np.ndarray, rewards: np.ndarray, answers: np.ndarray) -> dict[str, np.ndarray]:
-    """Returns the infos of N episodes that have ended, arrays [N].
-
-    Args:
-      task: the task.
-      steps: control steps of each episode, int64 [N].
-      rewards: the rewards at the end, float64 [N].
-      answers: indices of the right labels, int64 [N].
-    """
+def outcomes(task: contract.Task, steps: np.ndarray, rewards: np.ndarray, answers: np.ndarray) -> dict[str, np.ndarray]:
+    """Returns the infos of N episodes that have ended, arrays [N], from their steps, last rewards and right labels."""
     return {
         "correct_answer": answers,
         "discounted_return": rewards * task.discount ** (steps - 1.0),
@@ -64,7 +57,7 @@ def beginnings(batch: suite.BatchEnvironment) -> dict[str, np.ndarray]:
 
 
 def refuse_unknown(kind: type, domain: str, task_kwargs: Mapping[str, Any]) -> None:
-    """Raises TypeError, as Python does, for a keyword that is none of a class's and no option of the domain."""
+    """Raises TypeError, as Python does, for a keyword that neither a class nor the domain's options have."""
     own = list(inspect.signature(kind).parameters)[2:-1]  # Between the names of the task and its options.
     allowed = [*own, *(field.name for field in dataclasses.fields(suite.options(domain)))]
     for name in task_kwargs:
@@ -74,7 +67,7 @@ def refuse_unknown(kind: type, domain: str, task_kwargs: Mapping[str, Any]) -> N
             )
 
 
-def check_options(options: Mapping[str, Any] | None, *allowed: str) -> dict[str, Any]:
+def check_options(options: Any, *allowed: str) -> dict[str, Any]:
     """Returns the options of a reset; raises ValueError for an unknown one, or an index that no episode has."""
     if not isinstance(options, Mapping | None):
         raise ValueError(f"options is {checks.shown(options)}; give a dictionary with {', '.join(allowed)}, or None")
@@ -87,14 +80,14 @@ def check_options(options: Mapping[str, Any] | None, *allowed: str) -> dict[str,
     return found
 
 
-def check_render_mode(render_mode: str | None, known: tuple[str, ...] = ("rgb_array",)) -> None:
+def check_render_mode(render_mode: str | None, *known: str) -> None:
     """Raises ValueError unless the render mode is None or one of `known`."""
     if render_mode is not None and render_mode not in known:
         choices = " or ".join(map(repr, (None, *known)))
         raise ValueError(f"render_mode is {checks.shown(render_mode)}; choose {choices}")
 
 
-def check_num_envs(num_envs: int) -> int:
+def check_num_envs(num_envs: Any) -> int:
     """Returns the number of environments as an int; raises ValueError if it is out of range."""
     return checks.integer("num_envs", num_envs, 1, batch_lib.MOST_ENVIRONMENTS)
 
@@ -104,30 +97,27 @@ def check_seed(seed: Any) -> int | None:
     return None if seed is None else checks.integer("seed", seed, 0, seeding.LARGEST_SEED)
 
 
-def images(batch: suite.BatchEnvironment) -> tuple[np.ndarray, ...]:
-    """Returns one image for each environment, uint8 [size, size, 3]; the more environments, the smaller the images.
-
-    Side by side they fit into a square of 1920 pixels: up to 16 environments are drawn with 480 pixels, 64 with 240.
-    """
-    a_side = math.ceil(math.sqrt(batch.num_environments))
-    return tuple(batch.render(min(rendering.SIZE_FOR_PEOPLE, _LARGEST_GRID // a_side)))
-
-
-def grid(drawn: Sequence[np.ndarray]) -> np.ndarray:
-    """Returns images [size, size, 3] as one, row by row in a square; places that are left over are black."""
-    a_side, size = math.ceil(math.sqrt(len(drawn))), len(drawn[0])
-    rows = math.ceil(len(drawn) / a_side)
-    tiles = np.zeros((rows * a_side, *drawn[0].shape), np.uint8)
-    tiles[: len(drawn)] = drawn
-    return tiles.reshape(rows, a_side, size, size, 3).swapaxes(1, 2).reshape(rows * size, a_side * size, 3)
-
-
-def frames_per_second(task) -> int:
-    """Returns how many images a second of an episode has."""
-    return max(1, round(1 / task.options.control_timestep))
-
-
 def check_started(started: bool) -> None:
     """Raises `gymnasium.error.ResetNeeded` if no episode has begun."""
     if not started:
         raise error.ResetNeeded("there is no episode to step in; call reset() first")
+
+
+def images(batch: suite.BatchEnvironment) -> tuple[np.ndarray, ...]:
+    """Returns one image for each environment, uint8 [size, size, 3], at most 480 pixels and 1920 side by side."""
+    per_side = math.ceil(math.sqrt(batch.num_environments))
+    return tuple(batch.render(min(rendering.SIZE_FOR_PEOPLE, _LARGEST_GRID // per_side)))
+
+
+def grid(drawn: Sequence[np.ndarray]) -> np.ndarray:
+    """Returns images [size, size, 3] as one, row by row in a square; places that are left over are black."""
+    per_side, size = math.ceil(math.sqrt(len(drawn))), len(drawn[0])
+    rows = math.ceil(len(drawn) / per_side)
+    tiles = np.zeros((rows * per_side, *drawn[0].shape), np.uint8)
+    tiles[: len(drawn)] = drawn
+    return tiles.reshape(rows, per_side, size, size, 3).swapaxes(1, 2).reshape(rows * size, per_side * size, 3)
+
+
+def frames_per_second(task: contract.Task) -> int:
+    """Returns how many images a second of an episode has."""
+    return max(1, round(1 / task.options.control_timestep))

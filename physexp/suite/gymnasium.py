@@ -8,22 +8,25 @@ Importing this module registers every task, so that Gymnasium finds them by name
 """
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NoReturn
 
 from physexp import checks, extras, suite
 
 extras.require("gymnasium")
 
 import gymnasium  # noqa: E402
-from gymnasium import error, spaces  # noqa: E402
+from gymnasium import error  # noqa: E402
 from gymnasium.vector import utils as vector_utils  # noqa: E402
 from gymnasium.vector import vector_env  # noqa: E402
 import numpy as np  # noqa: E402
 
 from physexp.suite import adapters  # noqa: E402
 
+Observation = dict[str, np.ndarray] | np.ndarray
+Infos = dict[str, Any]
 
-class Environment(gymnasium.Env):
+
+class Environment(gymnasium.Env[Any, Any]):
     """One environment. Running out of time is a wrong answer, so every episode terminates and none is truncated.
 
     An episode whose simulation diverges is truncated: it has no outcome.
@@ -50,7 +53,7 @@ class Environment(gymnasium.Env):
           TypeError: for an unknown keyword argument.
           ValueError: for an unknown name, a bad value or an unknown render mode.
         """
-        adapters.check_render_mode(render_mode)
+        adapters.check_render_mode(render_mode, "rgb_array")
         self._is_flat = checks.flag("flat_observation", flat_observation)
         adapters.refuse_unknown(Environment, domain, task_kwargs)
         self._environment = suite.load(domain, task, task_kwargs=task_kwargs)
@@ -58,24 +61,23 @@ class Environment(gymnasium.Env):
         self.render_mode = render_mode
         self.metadata = {**self.metadata, "render_fps": adapters.frames_per_second(self._environment.task)}
         self.observation_space = adapters.observation_space(self._environment.observation_spec(), self._is_flat)
-        self.action_space = spaces.Discrete(self._environment.action_spec().num_values)
+        self.action_space = adapters.action_space(self._environment)
         super().reset(seed=self._environment.task.options.random)  # `np_random_seed` is the seed that is played.
 
     @property
     def dm_env(self) -> suite.Environment:
-        """The dm_env environment that this one wraps."""
+        """The dm_env environment behind this one."""
         return self._environment
 
     @property
     def discount(self) -> float:
         """Gamma of the returns that are scored; rewards are not discounted by the environment."""
-        return self._environment.task.discount
+        return float(self._environment.task.discount)
 
-    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None):
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Observation, Infos]:
         """Starts the next episode, or with a seed the first one of that seed.
 
-        `info["seed"]` and `info["episode_index"]` say which episode it is: `reset` with this seed, and with the index
-        as the option `episode`, starts it again.
+        A reset with `info["seed"]` as the seed and `info["episode_index"]` as the option `episode` starts it again.
 
         Args:
           seed: an integer in [0, 2**63).
@@ -94,7 +96,7 @@ class Environment(gymnasium.Env):
         self._playing = True
         return self._shown(timestep.observation), {"seed": task.options.random, "episode_index": task.episode}
 
-    def step(self, action):
+    def step(self, action: Any) -> tuple[Observation, float, bool, bool, Infos]:
         """Takes an action.
 
         After the last one of an episode, `info` has `correct_answer`, the index of the right label; `discounted_return`
@@ -116,21 +118,21 @@ class Environment(gymnasium.Env):
             info = {name: values.item() for name, values in adapters.outcomes(task, *of_one).items()}
         return self._shown(timestep.observation), float(timestep.reward), ended and not lost, lost, info
 
-    def render(self):
+    def render(self) -> Any:
         """Returns an image of the scene for people, uint8 [480, 480, 3]; None without a render mode."""
         return None if self.render_mode is None else self._environment.render()
 
     def close(self) -> None:
         self._environment.close()
 
-    def __reduce__(self):  # Of copies and of pickles.
-        return self._environment.__reduce__()
+    def __reduce__(self) -> NoReturn:  # Of copies and of pickles.
+        self._environment.__reduce__()
 
-    def _shown(self, observation):
+    def _shown(self, observation: Mapping[str, np.ndarray]) -> Observation:
         return adapters.flattened(observation) if self._is_flat else dict(observation)
 
 
-class VectorEnvironment(vector_env.VectorEnv):
+class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
     """Many environments that step together; `autoreset_mode` says when the next episode starts after an end.
 
     - `next_step`: the environment's next step ignores its action and starts it.
@@ -173,9 +175,9 @@ class VectorEnvironment(vector_env.VectorEnv):
           TypeError: for an unknown keyword argument.
           ValueError: for an unknown name or a bad value.
         """
-        adapters.check_render_mode(render_mode, ("rgb_array", "rgb_array_grid"))
+        adapters.check_render_mode(render_mode, "rgb_array", "rgb_array_grid")
         self.num_envs = adapters.check_num_envs(num_envs)
-        self.autoreset_mode = check_autoreset_mode(autoreset_mode)
+        self.autoreset_mode = _check_autoreset_mode(autoreset_mode)
         self._is_flat = checks.flag("flat_observation", flat_observation)
         adapters.refuse_unknown(VectorEnvironment, domain, task_kwargs)
         self._batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
@@ -191,14 +193,14 @@ class VectorEnvironment(vector_env.VectorEnv):
             "render_fps": adapters.frames_per_second(self._batch.task),
         }
         self.single_observation_space = adapters.observation_space(self._batch.observation_spec(), self._is_flat)
-        self.single_action_space = spaces.Discrete(self._batch.action_spec().num_values)
+        self.single_action_space = adapters.action_space(self._batch)
         self.observation_space = vector_utils.batch_space(self.single_observation_space, num_envs)
         self.action_space = vector_utils.batch_space(self.single_action_space, num_envs)
         super().reset(seed=self._batch.task.options.random)  # `np_random_seed` is the seed that is played.
 
     @property
     def batch(self) -> suite.BatchEnvironment:
-        """The batch that this one wraps."""
+        """The batch behind this environment."""
         return self._batch
 
     @property
@@ -206,7 +208,7 @@ class VectorEnvironment(vector_env.VectorEnv):
         """Gamma of the returns that are scored; rewards are not discounted by the environment."""
         return self._batch.task.discount
 
-    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None):
+    def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Observation, Infos]:
         """Starts the next episode everywhere; with a seed, the first of each: `environment_seed(seed, i)`.
 
         Args:
@@ -227,7 +229,7 @@ class VectorEnvironment(vector_env.VectorEnv):
         self._started = True
         return self._shown(), infos
 
-    def step(self, actions):
+    def step(self, actions: Any) -> tuple[Observation, np.ndarray, np.ndarray, np.ndarray, Infos]:
         """Takes actions, int [num_envs]; infos are those of single environments, each with a mask.
 
         Raises:
@@ -255,7 +257,7 @@ class VectorEnvironment(vector_env.VectorEnv):
             infos |= _masked(adapters.beginnings(batch), timestep.first())
         return self._shown(), rewards, ended & ~lost, lost, infos
 
-    def render(self):
+    def render(self) -> Any:
         """Returns images for people as the render mode says: a tuple (see `adapters.images`) or one; or None."""
         if self.render_mode is None:
             return None
@@ -265,10 +267,10 @@ class VectorEnvironment(vector_env.VectorEnv):
     def close_extras(self, **kwargs: Any) -> None:
         self._batch.close()
 
-    def __reduce__(self):  # Of copies and of pickles.
-        return self._batch.__reduce__()
+    def __reduce__(self) -> NoReturn:  # Of copies and of pickles.
+        self._batch.__reduce__()
 
-    def _begin(self, mask: np.ndarray, episode: int | None = None) -> dict[str, Any]:
+    def _begin(self, mask: np.ndarray, episode: int | None = None) -> Infos:
         """Starts episodes in some environments, bool [num_envs]; returns the infos."""
         first = self._batch.reset(np.flatnonzero(mask), episode).observation
         for name, values in first.items():
@@ -276,7 +278,7 @@ class VectorEnvironment(vector_env.VectorEnv):
         self._ended = self._ended & ~mask
         return _masked(adapters.beginnings(self._batch), mask)
 
-    def _shown(self):
+    def _shown(self) -> Observation:
         """Returns the observations, which nothing changes later."""
         if self._is_flat:
             return adapters.flattened(self._observation, 1)
@@ -296,7 +298,7 @@ class VectorEnvironment(vector_env.VectorEnv):
         return array
 
 
-def check_autoreset_mode(given: Any) -> vector_env.AutoresetMode:
+def _check_autoreset_mode(given: Any) -> vector_env.AutoresetMode:
     """Returns one of Gymnasium's modes; raises ValueError for anything else than it or its name."""
     for mode in vector_env.AutoresetMode:
         if given in (mode, mode.value, mode.name.lower()):
@@ -305,7 +307,7 @@ def check_autoreset_mode(given: Any) -> vector_env.AutoresetMode:
     raise ValueError(f"autoreset_mode is {checks.shown(given)}; choose from {choices}")
 
 
-def _masked(infos: Mapping[str, np.ndarray], mask: np.ndarray) -> dict[str, Any]:
+def _masked(infos: Mapping[str, np.ndarray], mask: np.ndarray) -> Infos:
     """Returns infos of some environments, as Gymnasium has them: 0 for the others, and a mask beside each."""
     if not mask.any():
         return {}
@@ -314,7 +316,7 @@ def _masked(infos: Mapping[str, np.ndarray], mask: np.ndarray) -> dict[str, Any]
 
 
 def environment_id(domain: str, task: str) -> str:
-    """The name under which a task is registered."""
+    """Returns the name under which a task is registered."""
     return f"physexp/{domain}-{task}-v0"
 
 

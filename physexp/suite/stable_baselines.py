@@ -1,13 +1,12 @@
 """A batch of environments for Stable-Baselines3 (and sb3-contrib), whose vector environments reset at once."""
 
 from collections.abc import Sequence
-from typing import Any, cast
+from typing import Any, NoReturn, cast
 
 from physexp import extras, suite
 
 extras.require("stable_baselines3", "gymnasium")
 
-from gymnasium import spaces  # noqa: E402
 import numpy as np  # noqa: E402
 from stable_baselines3.common.vec_env import base_vec_env  # noqa: E402
 
@@ -38,7 +37,7 @@ class VecEnv(base_vec_env.VecEnv):
           ValueError: for an unknown name or a bad value.
         """
         adapters.refuse_unknown(VecEnv, domain, task_kwargs)
-        adapters.check_render_mode(render_mode)
+        adapters.check_render_mode(render_mode, "rgb_array")
         num_envs = adapters.check_num_envs(num_envs)
         self._batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
         self._started = False
@@ -46,11 +45,11 @@ class VecEnv(base_vec_env.VecEnv):
         super().__init__(
             num_envs,
             adapters.observation_space(self._batch.observation_spec()),
-            spaces.Discrete(self._batch.action_spec().num_values),
+            adapters.action_space(self._batch),
         )
         cast(Any, self.metadata)["render_fps"] = adapters.frames_per_second(self._batch.task)
 
-    def seed(self, seed: int | None = None):
+    def seed(self, seed: int | None = None) -> Any:
         """Has the next reset start the first episodes of another seed, by default a random one.
 
         Returns:
@@ -62,7 +61,7 @@ class VecEnv(base_vec_env.VecEnv):
         of_batch = cast(int, super().seed(adapters.check_seed(seed))[0])
         return [suite.environment_seed(of_batch, row) for row in range(self.num_envs)]
 
-    def reset(self):
+    def reset(self) -> Any:
         """Starts the next episode everywhere, or what `seed` and `set_options` have asked for.
 
         Raises:
@@ -77,7 +76,7 @@ class VecEnv(base_vec_env.VecEnv):
         self._reset_options()
         return dict(self._begin(np.arange(self.num_envs), options.get("episode")))
 
-    def _begin(self, rows: np.ndarray, episode: int | None = None):
+    def _begin(self, rows: np.ndarray, episode: int | None = None) -> Any:
         """Starts episodes in some environments and tells which; returns the observations."""
         observation = self._batch.reset(rows, episode).observation
         infos = adapters.beginnings(self._batch)
@@ -90,7 +89,7 @@ class VecEnv(base_vec_env.VecEnv):
         adapters.check_started(self._started)
         self._actions = actions
 
-    def step_wait(self):
+    def step_wait(self) -> Any:
         timestep = self._batch.step(self._actions)
         ended = timestep.last()
         observation = dict(timestep.observation)
@@ -118,17 +117,17 @@ class VecEnv(base_vec_env.VecEnv):
     def close(self) -> None:
         self._batch.close()
 
-    def __reduce__(self):  # Of copies and of pickles.
-        return self._batch.__reduce__()
+    def __reduce__(self) -> NoReturn:  # Of copies and of pickles.
+        self._batch.__reduce__()
 
-    def get_attr(self, attr_name: str, indices=None) -> list[Any]:
+    def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
         return [getattr(self, attr_name)] * len(list(self._get_indices(indices)))
 
-    def set_attr(self, attr_name: str, value: Any, indices=None) -> None:
+    def set_attr(self, attr_name: str, value: Any, indices: Any = None) -> None:
         raise NotImplementedError("the environments of a batch have no attributes of their own")
 
-    def env_method(self, method_name: str, *method_args, indices=None, **method_kwargs) -> list[Any]:
+    def env_method(self, method_name: str, *method_args: Any, indices: Any = None, **method_kwargs: Any) -> list[Any]:
         raise NotImplementedError("the environments of a batch have no methods of their own")
 
-    def env_is_wrapped(self, wrapper_class, indices=None) -> list[bool]:
+    def env_is_wrapped(self, wrapper_class: Any, indices: Any = None) -> list[bool]:
         return [False] * len(list(self._get_indices(indices)))

@@ -2,17 +2,14 @@
 
 import dataclasses
 
-from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import contract, declarations, rendering, seeding, senses
+from physexp.suite.engine import contract, declarations, rendering, seeding
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, block, flag, material
-
-SUITE = containers.TaggedTasks()
 
 PHYSICS_TIMESTEP = 0.01  # s
 
@@ -101,7 +98,7 @@ class Balance(contract.Task):
     options: Options
     question = "Which block has another weight than the others, and is it heavier or lighter?"
 
-    def build(self):
+    def build(self) -> contract.Scene:
         room = arena.Laboratory(**_ROOM)
         room.mjcf_model.option.flag.contact = "disable"
         world = room.mjcf_model.worldbody
@@ -171,19 +168,19 @@ class Balance(contract.Task):
 
     largest_hidden = WEIGHT * (1 + DIFFERENCES[1])
 
-    def draw(self, seeds, episodes):
+    def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
         """Returns the weights of the blocks, in kilograms, float64 [N, NUM_BLOCKS]."""
         return draw_weights(seeds, episodes, self.options.difficulty)
 
-    def answers(self, hidden):
+    def answers(self, hidden: np.ndarray) -> np.ndarray:
         differences = hidden - WEIGHT
         odd = np.abs(differences).argmax(axis=1)
         return 2 * odd + (differences[np.arange(len(hidden)), odd] < 0)
 
-    def hidden_fields(self, apparatus, hidden):
+    def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
         return apparatus_lib.gains(apparatus, self._loads, _GRAVITY * ARM * hidden)
 
-    def drive(self, actions, qpos, ctrl):
+    def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
         """Returns where the blocks are, -1 for the left pan, 1 for the right one, 0 for aside, [N, NUM_BLOCKS]."""
         places = ctrl.copy()
         moved = np.asarray(actions) // len(PLACES)
@@ -191,17 +188,8 @@ class Balance(contract.Task):
         places[rows, moved] = self.controls[actions][rows, moved]
         return places
 
-    def reveal(self, hidden):
+    def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
         return declarations.Revealed(marks={f"block_{k}": f"{weight:.2f} kg" for k, weight in enumerate(hidden)})
 
 
-@SUITE.add("features")
-def features(options):
-    """Observes `places`, float32 (6,): -1 left, 1 right, 0 aside; `tilt`, float32 (1,): the heavier side, or 0."""
-    return Balance(options, senses.Features())
-
-
-@SUITE.add("pixels")
-def pixels(options):
-    """Observes `pixels`, uint8 (84, 84, 3): blocks, aside or on one of two pans, and a pointer that shows the tilt."""
-    return Balance(options, senses.Pixels())
+SUITE = contract.features_and_pixels(Balance)

@@ -3,17 +3,14 @@
 import dataclasses
 import itertools
 
-from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import contract, declarations, rendering, seeding, senses
+from physexp.suite.engine import contract, declarations, rendering, seeding
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, block, flag, measures, puck
-
-SUITE = containers.TaggedTasks()
 
 PHYSICS_TIMESTEP = 0.02  # s
 
@@ -118,7 +115,7 @@ class SealedBox(contract.Task):
     options: Options
     question = "What is in the box?"
 
-    def build(self):
+    def build(self) -> contract.Scene:
         self._mark = MARKS[int(self.options.difficulty)]
         room = arena.Laboratory(**_ROOM)
         root = room.mjcf_model
@@ -191,23 +188,25 @@ class SealedBox(contract.Task):
 
     largest_hidden = len(ALL_CONTENTS) - 1
 
-    def draw(self, seeds, episodes):
+    def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
         """Returns what is in the box: indices of `ALL_CONTENTS`, int64 [N]."""
         return draw_contents(seeds, episodes)
 
-    def answers(self, hidden):
+    def answers(self, hidden: np.ndarray) -> np.ndarray:
         return KINDS[hidden]
 
-    def hidden_fields(self, apparatus, hidden):
+    def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
         return _fields(apparatus, self._joints, [ALL_CONTENTS[k] for k in hidden])
 
-    def reveal(self, hidden):
+    def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
         content = ALL_CONTENTS[int(hidden)]
         weight = content.share * content.mass
         return declarations.Revealed(marks={"box": f"{CONTENTS[content.kind]}, {weight:.2f} of {content.mass:.1f} kg"})
 
 
-def _fields(apparatus: apparatus_lib.Apparatus, joints: tuple[str, str], contents: list[Content]):
+def _fields(
+    apparatus: apparatus_lib.Apparatus, joints: tuple[str, str], contents: list[Content]
+) -> declarations.Fields:
     """Returns the model fields that follow from what is in boxes; of masses, what `mj_setConst` would compute."""
     dofs, bodies = apparatus.dofs(joints)
     total, share, gap, stiffness, damping = (
@@ -227,13 +226,4 @@ def _fields(apparatus: apparatus_lib.Apparatus, joints: tuple[str, str], content
     }
 
 
-@SUITE.add("features")
-def features(options):
-    """Observes `push`, `covered` and `place`, float32 (1,): last push, whether it hid the box, and where that is."""
-    return SealedBox(options, senses.Features())
-
-
-@SUITE.add("pixels")
-def pixels(options):
-    """Observes `pixels`, uint8 (84, 84, 3): the box, or a curtain before it, and a pointer that shows the push."""
-    return SealedBox(options, senses.Pixels())
+SUITE = contract.features_and_pixels(SealedBox)

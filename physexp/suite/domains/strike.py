@@ -1,19 +1,18 @@
 """Strike: a puck that may be poked in a bay, and the question with which strike it stops in the goal."""
 
+from collections.abc import Iterator
 import dataclasses
 import itertools
+from typing import Any
 
-from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import contract, declarations, seeding, senses
+from physexp.suite.engine import contract, declarations, seeding
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, block, flag, material, measures, puck
-
-SUITE = containers.TaggedTasks()
 
 PHYSICS_TIMESTEP = 0.01  # s
 
@@ -94,7 +93,7 @@ class Strike(contract.Task):
     options: Options
     question = "With which strike does the puck stop in the goal?"
 
-    def build(self):
+    def build(self) -> contract.Scene:
         self._num_gates = GATES[int(self.options.difficulty)]
         room = arena.Laboratory(**_ROOM)
         root = room.mjcf_model
@@ -144,25 +143,25 @@ class Strike(contract.Task):
 
     largest_hidden = len(PUCKS) - 1
 
-    def draw(self, seeds, episodes):
+    def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
         """Returns the pucks: indices of `PUCKS`, int64 [N]."""
         return draw_pucks(seeds, episodes)
 
-    def answers(self, hidden):
+    def answers(self, hidden: np.ndarray) -> np.ndarray:
         return np.array([strike for strike, *_ in PUCKS])[hidden]
 
-    def hidden_fields(self, apparatus, hidden):
+    def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
         masses, frictions = (values[:, None] for values in properties(hidden, self.options.goal_distance))
         return {
             **apparatus_lib.slide_masses(apparatus, self._rails, masses),
             **apparatus_lib.frictions(apparatus, self._rails, frictions),
         }
 
-    def reveal(self, hidden):
+    def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
         ((mass,), (friction,)) = properties(np.array([hidden]), self.options.goal_distance)
         return declarations.Revealed(marks={"puck": f"{mass:.2f} kg, friction {friction:.1f} N"})
 
-    def play_out(self, physics, label):
+    def play_out(self, physics: Any, label: int) -> Iterator[None]:
         """Puts the puck back, opens the barrier, and strikes; the end of the lane catches the puck."""
         joint = physics.model.name2id(self._rails[0], "joint")
         barrier = physics.model.jnt_range[joint].copy()
@@ -179,13 +178,4 @@ class Strike(contract.Task):
             physics.model.jnt_range[joint] = barrier
 
 
-@SUITE.add("features")
-def features(options):
-    """Observes `strength`, float32 (1,): the last poke's share of the greatest; `gate`, float32 (1,): the last gate."""
-    return Strike(options, senses.Features())
-
-
-@SUITE.add("pixels")
-def pixels(options):
-    """Observes `pixels`, uint8 (84, 84, 3): a covered bay, a goal, and boards that show the poke and the last gate."""
-    return Strike(options, senses.Pixels())
+SUITE = contract.features_and_pixels(Strike)

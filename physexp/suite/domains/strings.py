@@ -3,19 +3,17 @@
 from collections.abc import Sequence
 import dataclasses
 import itertools
+from typing import Any
 
 from dm_control import mjcf
-from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import contract, declarations, rendering, seeding, senses
+from physexp.suite.engine import contract, declarations, rendering, seeding
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, block, flag, measures, puck
-
-SUITE = containers.TaggedTasks()
 
 PHYSICS_TIMESTEP = 0.01  # s
 
@@ -104,7 +102,7 @@ class Strings(contract.Task):
     options: Options
     question = "Which pucks are joined by bands?"
 
-    def build(self):
+    def build(self) -> contract.Scene:
         room = arena.Laboratory(**_ROOM)
         root = room.mjcf_model
         root.option.flag.contact = "disable"
@@ -150,17 +148,17 @@ class Strings(contract.Task):
 
     largest_hidden = SLACKS[1]
 
-    def draw(self, seeds, episodes):
+    def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
         """Returns the slacks of the bands, m, 0 where there is none, float64 [N, number of pairs]."""
         return draw_slacks(seeds, episodes, self.options.difficulty)
 
-    def answers(self, hidden):
+    def answers(self, hidden: np.ndarray) -> np.ndarray:
         return (hidden > 0) @ 2 ** np.arange(len(PAIRS))
 
-    def hidden_fields(self, apparatus, hidden):
+    def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
         return apparatus_lib.bands(apparatus, self._bands, np.where(hidden > 0, _SPRING, 0.0), hidden)
 
-    def drive(self, actions, qpos, ctrl):
+    def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
         """Returns the pulls, N, where the clamp is pressed, and where it holds, float64 [N, 3 * NUM_PUCKS].
 
         The clamp takes hold with the step after the one that puts it on, in which the puck comes home.
@@ -170,7 +168,7 @@ class Strings(contract.Task):
         pressed = np.where(wanted.any(axis=1, keepdims=True), wanted * (1 - before), before)
         return np.concatenate([pulls, pressed, pressed * before], axis=1)
 
-    def reveal(self, hidden):
+    def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
         tied = [(f"puck_{i}", f"puck_{j}") for (i, j), slack in zip(PAIRS, hidden, strict=True) if slack > 0]
         return declarations.Revealed(marks={} if tied else {"puck_1": "no bands"}, tied=tied)
 
@@ -214,7 +212,7 @@ def _add_band(root: mjcf.RootElement, rails: Sequence[mjcf.Element], pair: tuple
 
 
 def _add_actuators(
-    root: mjcf.RootElement, name: str, rails: Sequence[mjcf.Element], kind: str, **settings
+    root: mjcf.RootElement, name: str, rails: Sequence[mjcf.Element], kind: str, **settings: Any
 ) -> list[mjcf.Element]:
     """Adds an actuator for each rail and returns the sensors of their forces."""
     actuators = [root.actuator.add(kind, name=f"{name}_{k}", joint=rail, **settings) for k, rail in enumerate(rails)]
@@ -227,13 +225,4 @@ def _name(graph: int) -> str:
     return ", ".join(joined) or "none"
 
 
-@SUITE.add("features")
-def features(options):
-    """Observes what was `pulled`, what is `clamped` and which pucks are `away` from home, float32 (3,) each: 0 or 1."""
-    return Strings(options, senses.Features())
-
-
-@SUITE.add("pixels")
-def pixels(options):
-    """Observes `pixels`, uint8 (84, 84, 3): the cover, and for each puck a handle, a clamp and a flag."""
-    return Strings(options, senses.Pixels())
+SUITE = contract.features_and_pixels(Strings)

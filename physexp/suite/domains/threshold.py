@@ -2,17 +2,14 @@
 
 import dataclasses
 
-from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import contract, declarations, rendering, seeding, senses
+from physexp.suite.engine import contract, declarations, rendering, seeding
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, block, flag, material, measures
-
-SUITE = containers.TaggedTasks()
 
 PHYSICS_TIMESTEP = 0.01  # s
 
@@ -111,7 +108,7 @@ class Threshold(contract.Task):
     options: Options
     question = "Which is the smallest of the forces that makes the block slide?"
 
-    def build(self):
+    def build(self) -> contract.Scene:
         room = arena.Laboratory(**_ROOM)
         room.mjcf_model.option.gravity = [0, 0, 0]
         room.mjcf_model.option.flag.contact = "disable"
@@ -156,35 +153,26 @@ class Threshold(contract.Task):
 
     largest_hidden = LEVEL_SPACING * (NUM_LEVELS - MARGIN)
 
-    def draw(self, seeds, episodes):
+    def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
         """Returns frictions, in newtons, float64 [N]."""
         return draw_frictions(seeds, episodes, self.options.difficulty)
 
-    def answers(self, hidden):
+    def answers(self, hidden: np.ndarray) -> np.ndarray:
         return (hidden // LEVEL_SPACING).astype(np.int64)
 
-    def hidden_fields(self, apparatus, hidden):
+    def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
         return apparatus_lib.frictions(apparatus, self._rails, hidden[:, None])
 
-    def drive(self, actions, qpos, ctrl):
+    def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
         """Returns the force of a push, which goes away from the stop that the block leans on, N [N, 1]."""
         return self.controls[actions] * np.where(_is_right(qpos), -1, 1)
 
-    def reveal(self, hidden):
+    def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
         return declarations.Revealed(marks={"block": f"friction {float(hidden):.1f} N"})
 
-    def hardness(self, hidden):
+    def hardness(self, hidden: np.ndarray) -> np.ndarray:
         """Returns how rare the right answer is: the rarer, the more pushes it takes to find."""
         return -prior(self.options.difficulty)[self.answers(hidden)]
 
 
-@SUITE.add("features")
-def features(options):
-    """Observes `strength`, float32 (1,): the last push's share of the greatest force; `slid`, float32 (1,): 0 or 1."""
-    return Threshold(options, senses.Features())
-
-
-@SUITE.add("pixels")
-def pixels(options):
-    """Observes `pixels`, uint8 (84, 84, 3): a covered rail, a pointer that shows the strength, and the flag."""
-    return Threshold(options, senses.Pixels())
+SUITE = contract.features_and_pixels(Threshold)

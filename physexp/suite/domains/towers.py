@@ -1,8 +1,10 @@
 """Towers: a column of five cubes, and the question how many rigid bodies it is made of (paper, Section 6)."""
 
+from collections.abc import Sequence
 import dataclasses
 import functools
 import math
+from typing import Any
 
 from dm_control.utils import containers
 import numpy as np
@@ -111,7 +113,7 @@ class Towers(contract.Task):
         self._actuator = actuator
         super().__init__(options, sense)
 
-    def build(self):
+    def build(self) -> contract.Scene:
         friction = self.options.friction
         self._room = arena.Laboratory(**_ROOM, friction=friction)
         self._room.add_walls(WALL_DISTANCE, CEILING)
@@ -151,17 +153,17 @@ class Towers(contract.Task):
             num_structures=len(tower.PATTERNS),
         )
 
-    def draw(self, seeds, episodes):
+    def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
         """Returns indices of glue patterns in `tower.PATTERNS`, int64 [N]."""
         return draw_patterns(seeds, episodes)
 
-    def answers(self, hidden):
+    def answers(self, hidden: np.ndarray) -> np.ndarray:
         return NUM_BODIES[hidden] - 1
 
-    def structures(self, hidden):
+    def structures(self, hidden: np.ndarray) -> np.ndarray:
         return hidden
 
-    def arrange(self, structure):
+    def arrange(self, structure: int) -> None:
         chosen = self._tower_of(structure)
         if chosen is not self.tower:
             self.tower.detach()
@@ -169,7 +171,7 @@ class Towers(contract.Task):
             self._room.attach(chosen)
             self.scene = self._scene()
 
-    def compose(self, structures):
+    def compose(self, structures: Sequence[int]) -> list[str]:
         """Composes towers that this process has not composed in the same scene before; it takes most of a reset."""
         known, found = _composed(self.root_entity.mjcf_model.to_xml_string()), []
         for structure in structures:
@@ -181,7 +183,7 @@ class Towers(contract.Task):
             found.append(known[structure])
         return found
 
-    def circumstances(self, apparatus, nuisances):
+    def circumstances(self, apparatus: apparatus_lib.Apparatus, nuisances: np.ndarray) -> declarations.Circumstances:
         """Varies where tower, fist and camera are, how strong pushes or how fast the fist is, friction, and mass."""
         place, yaw, fist, (strength, friction, mass), camera = (
             nuisances[:, :2],
@@ -208,14 +210,14 @@ class Towers(contract.Task):
             camera=contract.CAMERA_VARIATION * camera,
         )
 
-    def reveal(self, hidden):
+    def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
         """Returns the pairs of blocks that are glued together."""
         pattern = tower.PATTERNS[int(hidden)]
         glued = [(f"block_{k}", f"block_{k + 1}") for k, is_glued in enumerate(pattern) if is_glued]
         return declarations.Revealed(joined=glued)
 
 
-def _frictions(model, nuisances: np.ndarray) -> declarations.Fields:
+def _frictions(model: Any, nuisances: np.ndarray) -> declarations.Fields:
     """Returns the friction of everything that slides as cubes do, of nuisances in [-1, 1], [N]."""
     geoms = np.flatnonzero(model.geom_friction[:, 0] == material.FRICTION)
     low, high = np.subtract(FRICTIONS, material.FRICTION)
@@ -236,25 +238,25 @@ def _fist(options: Options, sense: senses.Sense) -> Towers:
     return Towers(options, actuators.FistActuator(options.friction, options.fist_distance), sense)
 
 
-@SUITE.add("features", "direct")
-def direct_features(options):
+@SUITE.add("features", "direct")  # type: ignore[untyped-decorator]
+def direct_features(options: Options) -> contract.Task:
     """Observes `positions`, float32 (5, 3): the blocks' centres, m."""
     return _direct(options, senses.Features())
 
 
-@SUITE.add("features", "fist")
-def fist_features(options):
+@SUITE.add("features", "fist")  # type: ignore[untyped-decorator]
+def fist_features(options: Options) -> contract.Task:
     """Observes `positions`, float32 (5, 3), and `fist_position`, float32 (3,), m."""
     return _fist(options, senses.Features())
 
 
-@SUITE.add("pixels", "direct")
-def direct_pixels(options):
+@SUITE.add("pixels", "direct")  # type: ignore[untyped-decorator]
+def direct_pixels(options: Options) -> contract.Task:
     """Observes `pixels`, uint8 (84, 84, 3): the room from above its front wall."""
     return _direct(options, senses.Pixels())
 
 
-@SUITE.add("pixels", "fist")
-def fist_pixels(options):
+@SUITE.add("pixels", "fist")  # type: ignore[untyped-decorator]
+def fist_pixels(options: Options) -> contract.Task:
     """Observes `pixels`, uint8 (84, 84, 3): the room from above its front wall."""
     return _fist(options, senses.Pixels())

@@ -1,18 +1,16 @@
 """Which is Heavier: four equal blocks, and the question which of them is heaviest (paper, Section 5)."""
 
 import dataclasses
+from typing import Any
 
-from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import contract, declarations, priors, senses
+from physexp.suite.engine import contract, declarations, priors
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, block
-
-SUITE = containers.TaggedTasks()
 
 NUM_BLOCKS = 4
 SPACING = 0.16  # m, between the centres of neighbours
@@ -52,7 +50,7 @@ class WhichIsHeavier(contract.Task):
     options: Options
     question = "Which of the four blocks is heaviest?"
 
-    def build(self):
+    def build(self) -> contract.Scene:
         room = arena.Laboratory(**_ROOM)
         room.mjcf_model.option.gravity = [0, 0, 0]
         room.mjcf_model.option.flag.contact = "disable"
@@ -101,17 +99,17 @@ class WhichIsHeavier(contract.Task):
 
     largest_hidden = 1.0
 
-    def draw(self, seeds, episodes):
+    def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
         """Returns masses on the paper's scale, float64 [N, 4] in [0, 1]; to kilograms: `kilograms`."""
         return draw_masses(seeds, episodes, self.options.difficulty)
 
-    def answers(self, hidden):
+    def answers(self, hidden: np.ndarray) -> np.ndarray:
         return hidden.argmax(axis=1)
 
-    def hidden_fields(self, apparatus, hidden):
+    def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
         return apparatus_lib.slide_masses(apparatus, self._rails, kilograms(hidden))
 
-    def circumstances(self, apparatus, nuisances):
+    def circumstances(self, apparatus: apparatus_lib.Apparatus, nuisances: np.ndarray) -> declarations.Circumstances:
         """Varies the force of pokes, and for images the space between the blocks and where the camera is."""
         strength = 1 + FORCE_VARIATION * nuisances[:, :1]
         if not self.sense.needs_gl:
@@ -122,11 +120,11 @@ class WhichIsHeavier(contract.Task):
         camera = contract.CAMERA_VARIATION * nuisances[:, 2:]
         return declarations.Circumstances({"body_pos": (bodies, places)}, strength=strength, camera=camera)
 
-    def reveal(self, hidden):
+    def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
         """Returns the blocks' masses."""
         return declarations.Revealed(marks={f"block_{k}": f"{mass:.2f} kg" for k, mass in enumerate(kilograms(hidden))})
 
-    def hardness(self, hidden):
+    def hardness(self, hidden: np.ndarray) -> np.ndarray:
         """Returns how near the two heaviest blocks are: the smaller the mass gap, the harder."""
         return -mass_gaps(hidden)
 
@@ -140,7 +138,7 @@ def highest(force: float) -> float:
     return CEILING + 2 * force / DAMPING * PHYSICS_TIMESTEP
 
 
-def kilograms(masses):
+def kilograms(masses: Any) -> Any:
     """Maps the paper's masses in [0, 1] linearly to what the agent's strength can lift, kg."""
     return LIGHTEST + (HEAVIEST - LIGHTEST) * masses
 
@@ -168,13 +166,4 @@ def mass_gaps(masses: np.ndarray) -> np.ndarray:
     return priors.gaps(masses)
 
 
-@SUITE.add("features")
-def features(options):
-    """Observes `heights`, float32 (4,): how far each block is above its rest, m."""
-    return WhichIsHeavier(options, senses.Features())
-
-
-@SUITE.add("pixels")
-def pixels(options):
-    """Observes `pixels`, uint8 (84, 84, 3): the blocks from the front."""
-    return WhichIsHeavier(options, senses.Pixels())
+SUITE = contract.features_and_pixels(WhichIsHeavier)

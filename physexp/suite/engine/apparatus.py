@@ -3,11 +3,12 @@
 One environment and a batch both step apparatuses of the same task, which is why they agree bit for bit.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 import copy
 import dataclasses
 import functools
 import math
+from typing import Any
 
 from dm_control import composer, mjcf
 import mujoco
@@ -321,7 +322,7 @@ def _addresses_of(model: mujoco.MjModel, reading: declarations.Reading) -> np.nd
     return addresses if reading.measure is not None else addresses.reshape(reading.shape)
 
 
-def _addresses(sensors) -> np.ndarray:
+def _addresses(sensors: Iterable[Any]) -> np.ndarray:
     """Returns the addresses in `sensordata` of some of a model's sensors, int [K]."""
     ranges = [sensor.adr[0] + np.arange(sensor.dim[0]) for sensor in sensors]
     return np.concatenate([np.zeros(0, np.intp), *ranges]).astype(np.intp)

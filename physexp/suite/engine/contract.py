@@ -1,13 +1,14 @@
 """The contract of a task: what a question declares about something that cannot be seen (paper, Section 3)."""
 
 import abc
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 import dataclasses
 import functools
 import math
 from typing import Any
 
 from dm_control import composer
+from dm_control.utils import containers
 from dm_env import specs
 import numpy as np
 
@@ -251,6 +252,21 @@ class Task(abc.ABC):
     def close(self) -> None:
         """Frees the resources of the sense. A closed task can be played again."""
         self.sense.close()
+
+
+def features_and_pixels(kind: Callable[[Any, senses_lib.Sense], Task]) -> containers.TaggedTasks:
+    """Returns the suite of a domain with two tasks, `features` and `pixels`, from its class of task."""
+    suite = containers.TaggedTasks()
+
+    @suite.add("features")  # type: ignore[untyped-decorator]
+    def features(options: Any) -> Task:
+        return kind(options, senses_lib.Features())
+
+    @suite.add("pixels")  # type: ignore[untyped-decorator]
+    def pixels(options: Any) -> Task:
+        return kind(options, senses_lib.Pixels())
+
+    return suite
 
 
 def _listed(fields: declarations.Fields) -> list[tuple[str, np.ndarray, np.ndarray]]:

@@ -1,6 +1,7 @@
 """One environment: dm_control's composer environment, with each structure of the task compiled only once."""
 
 import copy
+from typing import Any, NoReturn
 
 from dm_control import composer, mjcf
 from dm_control.mujoco import wrapper
@@ -10,6 +11,7 @@ from dm_env import specs
 import numpy as np
 
 from physexp import checks
+from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import composer_task, contract, guard, rendering
 
 
@@ -38,8 +40,8 @@ class Environment(composer.Environment):
         self._flat = checks.flag("flat_observation", flat_observation)
         raises = checks.flag("raise_exception_on_physics_error", raise_exception_on_physics_error)
         self._renderer: rendering.Renderer | None = None  # Of images for people.
-        self._compiled = {}  # Apparatus and physics of each structure used so far.
-        self._current = None  # The structure in use, and the physics steps in a control step.
+        self._compiled: dict[int, tuple[apparatus_lib.Apparatus, mjcf.Physics]] = {}  # By structure.
+        self._current: tuple[int, int] | None = None  # The structure in use, and the physics steps in a control step.
         super().__init__(
             composer_task.ComposerTask(task),
             random_state=0,
@@ -47,7 +49,7 @@ class Environment(composer.Environment):
             raise_exception_on_physics_error=raises,
         )
 
-    def reset(self, hidden=None) -> dm_env.TimeStep:
+    def reset(self, hidden: Any = None) -> dm_env.TimeStep:
         """Starts the next episode.
 
         Args:
@@ -63,7 +65,7 @@ class Environment(composer.Environment):
                 self._task.give_hidden(hidden)
             return self._flattened(super().reset())
 
-    def step(self, action) -> dm_env.TimeStep:
+    def step(self, action: Any) -> dm_env.TimeStep:
         """Takes one action, an integer.
 
         Raises:
@@ -74,7 +76,7 @@ class Environment(composer.Environment):
             self._check_open()
             return self._flattened(super().step(action))
 
-    def observation_spec(self):
+    def observation_spec(self) -> Any:
         """Returns the specs of the observations by name, with bounds if the task knows them."""
         described = super().observation_spec()
         if not self._flat:
@@ -117,25 +119,25 @@ class Environment(composer.Environment):
                 self._renderer.close()
             self._physics = self._physics_proxy = None
 
-    def __reduce__(self):  # Of copies and of pickles.
-        return self._guard.__reduce__()
+    def __reduce__(self) -> NoReturn:  # Of copies and of pickles.
+        self._guard.__reduce__()
 
     def _flattened(self, timestep: dm_env.TimeStep) -> dm_env.TimeStep:
         if not self._flat:
             return timestep
         return timestep._replace(observation=control.flatten_observation(timestep.observation))
 
-    def _check_open(self):
+    def _check_open(self) -> None:
         if self._physics is None:
             raise RuntimeError("the environment is closed; load another")
 
-    def _recompile_physics_and_update_observables(self):
+    def _recompile_physics_and_update_observables(self) -> None:
         wanted = self._task.structure, self._task.physics_steps_per_control_step
         if wanted != self._current:
             super()._recompile_physics_and_update_observables()
             self._current = wanted
 
-    def _recompile_physics(self):
+    def _recompile_physics(self) -> None:
         structure = self._task.structure
         if structure not in self._compiled:
             apparatus = self._task.build_apparatus(structure)
@@ -144,7 +146,7 @@ class Environment(composer.Environment):
             self._compiled[structure] = (apparatus, physics)
         self._task.apparatus, self._physics = self._compiled[structure]
 
-    def _substep(self, action):
+    def _substep(self, action: Any) -> None:
         if self._task.answered:  # An answer ends the episode at once: nothing moves any more.
             return
         try:

@@ -23,7 +23,7 @@ class Ledger:
       over: whether the episode has ended, or none has begun, bool [N].
     """
 
-    def __init__(self, task, size: int):
+    def __init__(self, task: Any, size: int):
         """Makes a ledger of `size` rows for a task."""
         self._task = task
         self._hidden: np.ndarray | None = None

@@ -4,7 +4,7 @@ A GL context is current to a thread. All contexts of this package belong to a th
 caller's current context as it is, and the caller's contexts, of any library, leave this package's as they are.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent import futures
 import contextlib
 import ctypes
@@ -97,7 +97,7 @@ def _egl_works(library: str) -> bool:
         return False
     egl.eglGetProcAddress.restype = ctypes.c_void_p
 
-    def function(name: bytes, result, *arguments):
+    def function(name: bytes, result: Any, *arguments: Any) -> Any:
         address = egl.eglGetProcAddress(name)
         return ctypes.CFUNCTYPE(result, *arguments)(address) if address else None
 
@@ -115,12 +115,12 @@ _DRAWING = threading.Lock()
 """Held while a job is done and while this process is forked, so that no fork finds the driver's own locks taken."""
 os.register_at_fork(before=_DRAWING.acquire, after_in_parent=_DRAWING.release, after_in_child=_DRAWING.release)
 
-_QUEUES: dict[int, queue.SimpleQueue] = {}  # By process: a fork has no thread of its parent's.
+_QUEUES: dict[int, queue.SimpleQueue[Any]] = {}  # By process: a fork has no thread of its parent's.
 
 
-def _jobs(process: int) -> queue.SimpleQueue:
+def _jobs(process: int) -> queue.SimpleQueue[Any]:
     """Returns the queue of a process's drawing thread, which the first call starts: futures, and functions to call."""
-    new: queue.SimpleQueue = queue.SimpleQueue()
+    new: queue.SimpleQueue[Any] = queue.SimpleQueue()
     jobs = _QUEUES.setdefault(process, new)  # Of several threads that come first, one starts it.
 
     def work() -> None:
@@ -132,7 +132,7 @@ def _jobs(process: int) -> queue.SimpleQueue:
     return jobs
 
 
-def _do(future: futures.Future, function: Callable[[], Any]) -> None:
+def _do(future: futures.Future[Any], function: Callable[[], Any]) -> None:
     try:
         with _DRAWING:
             result = function()
@@ -141,9 +141,9 @@ def _do(future: futures.Future, function: Callable[[], Any]) -> None:
         future.set_exception(error)
 
 
-def later(function: Callable[[], Any]) -> futures.Future:
+def later(function: Callable[[], Any]) -> futures.Future[Any]:
     """Has the drawing thread of this process call a function, after its earlier jobs."""
-    future: futures.Future = futures.Future()
+    future: futures.Future[Any] = futures.Future()
     _jobs(os.getpid()).put((future, function))
     return future
 
@@ -156,7 +156,7 @@ def draw(function: Callable[[], Any]) -> Any:
     return later(function).result()
 
 
-def make_context(size: int):
+def make_context(size: int) -> Any:
     """Makes an off-screen GL context for images of `size` by `size` pixels; for the drawing thread.
 
     Raises:
@@ -197,7 +197,7 @@ def _module(backend: str) -> str:
 
 
 @contextlib.contextmanager
-def current(context):
+def current(context: Any) -> Iterator[None]:
     """Makes a GL context current, and afterwards none: a fork's drawing thread could not take over a current one."""
     context.make_current()
     try:

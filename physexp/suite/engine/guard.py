@@ -2,6 +2,7 @@
 
 import os
 import threading
+from typing import NoReturn
 
 
 class Guard:
@@ -20,7 +21,7 @@ class Guard:
         self._process = os.getpid() if num_threads > 1 else None
         self._lock = threading.RLock()
 
-    def __enter__(self):
+    def __enter__(self) -> None:
         if self._process not in (None, os.getpid()):
             raise RuntimeError(
                 f"this {self._name} was loaded in process {self._process}, and this is a fork; load another"
@@ -31,10 +32,10 @@ class Guard:
                 "load one for each thread, or let load_batch(..., num_threads=) step many"
             )
 
-    def __exit__(self, *error):
+    def __exit__(self, *error: object) -> None:
         self._lock.release()
 
-    def __reduce__(self):
+    def __reduce__(self) -> NoReturn:
         raise TypeError(
             f"an open {self._name} can be neither copied nor pickled; "
             "load another with the same random, and start the same episode in it"

@@ -1,6 +1,7 @@
 """Priors of hidden properties, written once: what draws them and what an ideal experimenter knows of them."""
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 
@@ -24,24 +25,24 @@ class OddOneOut:
     num_things: int
     difficulty: float
 
-    def odd_cdf(self, values):
+    def odd_cdf(self, values: Any) -> Any:
         """Returns the cumulative distribution function of the odd one's value, at `values`."""
         return values**self.difficulty
 
-    def odd_quantile(self, levels):
+    def odd_quantile(self, levels: Any) -> Any:
         """Returns the quantiles of the odd one's value, at the probabilities `levels`."""
         return np.exp(np.log(levels) / self.difficulty)
 
-    def common_cdf(self, values):
+    def common_cdf(self, values: Any) -> Any:
         """Returns the cumulative distribution function of a common one's value, at `values`."""
         with np.errstate(divide="ignore"):
             return -np.expm1(self.difficulty * np.log1p(-values))
 
-    def common_quantile(self, levels):
+    def common_quantile(self, levels: Any) -> Any:
         """Returns the quantiles of a common one's value, at the probabilities `levels`."""
         return -np.expm1(np.log1p(-levels) / self.difficulty)
 
-    def log_ratio(self, values):
+    def log_ratio(self, values: Any) -> Any:
         """Returns the log likelihood ratio of `values`: of the odd one's density to a common one's."""
         with np.errstate(divide="ignore"):
             return (self.difficulty - 1) * (np.log(values) - np.log1p(-values))

@@ -3,6 +3,7 @@
 import atexit
 import copy
 import functools
+from typing import Any
 import weakref
 
 import mujoco
@@ -28,7 +29,7 @@ class Renderer:
       buffers: the `MjrContext` that it is drawn with; None once it is closed.
     """
 
-    def __init__(self, model, moving_geoms: np.ndarray, camera: str = "observer", size: int = SIZE):
+    def __init__(self, model: mujoco.MjModel, moving_geoms: np.ndarray, camera: str = "observer", size: int = SIZE):
         """Makes a context and uploads the scene.
 
         Args:
@@ -93,7 +94,14 @@ class Renderer:
         displaced = camera if camera is not None and camera.any() else None
         gl.draw(functools.partial(self._draw_all, positions, rotations, rows, images, displaced))
 
-    def _draw_all(self, positions, rotations, rows, images, displaced) -> None:
+    def _draw_all(
+        self,
+        positions: np.ndarray,
+        rotations: np.ndarray,
+        rows: np.ndarray,
+        images: np.ndarray,
+        displaced: np.ndarray | None,
+    ) -> None:
         with gl.current(self.context):
             for number, (row, position, rotation) in enumerate(zip(rows, positions, rotations, strict=True)):
                 if displaced is not None:
@@ -135,7 +143,7 @@ def _close_all() -> None:
     gl.draw(lambda: None)  # It waits until all are freed.
 
 
-def _upload(model, size: int):
+def _upload(model: mujoco.MjModel, size: int) -> tuple[Any, Any, str]:
     """Returns a new context, its buffers for a model, and the name of the GL renderer."""
     context = gl.make_context(size)
     with gl.current(context):
@@ -144,20 +152,20 @@ def _upload(model, size: int):
         return context, buffers, gl.gl_renderer_name()
 
 
-def _free(context, buffers) -> None:
+def _free(context: Any, buffers: Any) -> None:
     with gl.current(context):
         buffers.free()
     context.free()
 
 
-def _with_buffer(model, size: int):
+def _with_buffer(model: mujoco.MjModel, size: int) -> mujoco.MjModel:
     """A copy of a model whose off-screen buffer is as large as the image: software GL clears the whole buffer."""
     drawn = copy.copy(model)
     drawn.vis.global_.offwidth = drawn.vis.global_.offheight = size
     return drawn
 
 
-def _make_scene(model, camera: str):
+def _make_scene(model: mujoco.MjModel, camera: str) -> mujoco.MjvScene:
     """Returns the scene in the initial state, without effects that take time and change no pixel."""
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
@@ -174,7 +182,7 @@ def _make_scene(model, camera: str):
     return scene
 
 
-def _views(scene, field: str) -> np.ndarray:
+def _views(scene: mujoco.MjvScene, field: str) -> np.ndarray:
     """A field of a scene's geoms, [number of geoms, ...], as a view: written all at once.
 
     A scene's geoms are one array of structs. MuJoCo's bindings give access to one geom at a time, which would take a

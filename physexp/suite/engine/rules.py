@@ -5,6 +5,7 @@ follow answer the question and end the episode. Running out of time counts as a 
 """
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 
@@ -31,7 +32,7 @@ class Rules:
     def num_actions(self) -> int:
         return self.num_interactions + self.num_labels
 
-    def check_type(self, actions, shape: tuple[int, ...]) -> np.ndarray:
+    def check_type(self, actions: Any, shape: tuple[int, ...]) -> np.ndarray:
         """Returns `actions` as an array, if it holds integers in the given shape.
 
         Raises:
@@ -59,7 +60,7 @@ class Rules:
                 f"{self.num_interactions} to {self.num_actions - 1} (label)"
             )
 
-    def judge(self, actions: np.ndarray, answers: np.ndarray, steps: np.ndarray):
+    def judge(self, actions: np.ndarray, answers: np.ndarray, steps: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Rewards and endings of one control step.
 
         Args:

@@ -4,6 +4,8 @@ An episode's hidden property depends on `(environment seed, episode index)` alon
 rebuilt without playing those before it, and a batch draws all its resets in one vectorised call.
 """
 
+from typing import Any
+
 import numpy as np
 from scipy import special
 
@@ -103,7 +105,7 @@ def _uniforms(keys: np.ndarray, count: int, attempt: int = 0) -> np.ndarray:
     return (bits.astype(np.float64) + 0.5) * 2.0**-52
 
 
-def seed_from(random) -> int:
+def seed_from(random: Any) -> int:
     """The environment seed that a `random` argument stands for, as in dm_control's tasks.
 
     Args:

@@ -61,14 +61,21 @@ class Features(Sense):
     fields = ("sensordata",)
     needs_gl = False
 
-    def blank(self, shapes, size):
+    def blank(self, shapes: Mapping[str, tuple[int, ...]], size: int) -> dict[str, np.ndarray]:
         return {name: np.zeros((size, *shape), np.float32) for name, shape in shapes.items()}
 
-    def look(self, apparatus, state, camera, rows, observations):
+    def look(
+        self,
+        apparatus: apparatus_lib.Apparatus,
+        state: Mapping[str, np.ndarray],
+        camera: np.ndarray,
+        rows: np.ndarray,
+        observations: Mapping[str, np.ndarray],
+    ) -> None:
         for name in apparatus.readings:
             observations[name][rows] = apparatus.read(name, state["sensordata"])
 
-    def close(self):
+    def close(self) -> None:
         """Does nothing: features hold no resources."""
 
 
@@ -78,19 +85,26 @@ class Pixels(Sense):
     fields = apparatus_lib.LOOKED_AT
     needs_gl = True
 
-    def __init__(self):
+    def __init__(self) -> None:
         self._renderer: rendering.Renderer | None = None
 
-    def blank(self, shapes, size):
+    def blank(self, shapes: Mapping[str, tuple[int, ...]], size: int) -> dict[str, np.ndarray]:
         return {"pixels": np.zeros((size, rendering.SIZE, rendering.SIZE, 3), np.uint8)}
 
-    def look(self, apparatus, state, camera, rows, observations):
+    def look(
+        self,
+        apparatus: apparatus_lib.Apparatus,
+        state: Mapping[str, np.ndarray],
+        camera: np.ndarray,
+        rows: np.ndarray,
+        observations: Mapping[str, np.ndarray],
+    ) -> None:
         if self._renderer is None:  # All structures of a task have the same geoms: one renderer draws them all.
             self._renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms)
         apparatus.indicate(state["geom_xpos"], state["sensordata"])
         self._renderer.render(state["geom_xpos"], state["geom_xmat"], rows, observations["pixels"], camera)
 
-    def close(self):
+    def close(self) -> None:
         if self._renderer is not None:
             self._renderer.close()
             self._renderer = None

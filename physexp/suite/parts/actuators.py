@@ -1,5 +1,7 @@
 """The two ways to act on a tower: forces on its blocks, and a fist (paper, Section 6.2)."""
 
+from typing import Any
+
 import numpy as np
 
 from physexp.suite.engine import declarations
@@ -25,7 +27,7 @@ class DirectActuator:
 
     readings: dict[str, declarations.Reading] = {}
 
-    def start(self, model, displacements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def start(self, model: Any, displacements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Returns the coordinates of nothing; see `FistActuator.start`."""
         return np.zeros(0, np.intp), np.zeros((len(displacements), 0))
 
@@ -75,7 +77,7 @@ class FistActuator:
             )
         }
 
-    def start(self, model, displacements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def start(self, model: Any, displacements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Returns where the fist starts: addresses of its coordinates, int [2], and their values, m [N, 2].
 
         Args:

@@ -1,6 +1,8 @@
 """The room in which questions are asked: a lit floor and one fixed camera."""
 
-from dm_control import composer
+from collections.abc import Sequence
+
+from dm_control import composer, mjcf
 import numpy as np
 
 from physexp.suite.engine import rendering
@@ -18,7 +20,15 @@ class Laboratory(composer.Arena):
     The visible floor is a box, much cheaper to draw than a plane; a plane that is not drawn carries the contacts.
     """
 
-    def _build(self, mat_size, camera_pos, camera_target, fovy, friction=material.FRICTION, name="laboratory"):
+    def _build(
+        self,
+        mat_size: Sequence[float],
+        camera_pos: Sequence[float],
+        camera_target: Sequence[float],
+        fovy: float,
+        friction: float = material.FRICTION,
+        name: str = "laboratory",
+    ) -> None:
         """Builds the room.
 
         Args:
@@ -63,7 +73,9 @@ class Laboratory(composer.Arena):
             "camera", name="observer", pos=camera_pos, fovy=fovy, xyaxes=_looking_at(camera_pos, camera_target)
         )
 
-    def add_scenery(self, name: str, half_size, pos, rgba):
+    def add_scenery(
+        self, name: str, half_size: Sequence[float], pos: Sequence[float], rgba: Sequence[float]
+    ) -> mjcf.Element:
         """Adds a box that is seen and touches nothing; returns its geom.
 
         Args:
@@ -76,7 +88,7 @@ class Laboratory(composer.Arena):
             "geom", name=name, type="box", size=half_size, pos=pos, rgba=rgba, contype=0, conaffinity=0
         )
 
-    def add_cover(self, half_size, x: float = 0.0) -> None:
+    def add_cover(self, half_size: Sequence[float], x: float = 0.0) -> None:
         """Adds a box, m (3,), whose middle is at `x` of the floor, and which hides what is in it."""
         self.add_scenery("cover", half_size, [x, 0, half_size[2]], COVER_RGBA)
 
@@ -107,7 +119,7 @@ class Laboratory(composer.Arena):
             )
 
 
-def _looking_at(pos, target) -> np.ndarray:
+def _looking_at(pos: Sequence[float], target: Sequence[float]) -> np.ndarray:
     """The right and up directions (6,) of an upright camera at `pos` that looks at `target`."""
     forward = np.subtract(target, pos) / np.linalg.norm(np.subtract(target, pos))
     right = np.cross(forward, [0, 0, 1])

@@ -1,5 +1,7 @@
 """The block: a cube."""
 
+from collections.abc import Sequence
+
 from dm_control import composer, mjcf
 
 from physexp.suite.parts import material
@@ -19,7 +21,14 @@ COLORS = (
 class Block(composer.Entity):
     """A cube with a site at its centre of mass."""
 
-    def _build(self, rgba, mass, half_size=HALF_SIZE, friction=material.FRICTION, name="block"):
+    def _build(
+        self,
+        rgba: Sequence[float],
+        mass: float,
+        half_size: float = HALF_SIZE,
+        friction: float = material.FRICTION,
+        name: str = "block",
+    ) -> None:
         """Builds a cube of the given colour, mass (kg), half an edge (m) and coefficient of friction."""
         self._root = mjcf.RootElement(model=name)
         world = self._root.worldbody
@@ -29,5 +38,5 @@ class Block(composer.Entity):
         self.center = world.add("site", name="center", size=[0.001], group=5)
 
     @property
-    def mjcf_model(self):
+    def mjcf_model(self) -> mjcf.RootElement:
         return self._root

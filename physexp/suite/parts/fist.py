@@ -1,5 +1,7 @@
 """The fist: a large sphere that moves in a horizontal plane (paper, Section 6.2)."""
 
+from collections.abc import Sequence
+
 from dm_control import composer, mjcf
 
 from physexp.suite.parts import material
@@ -14,7 +16,13 @@ RGBA = (0.15, 0.15, 0.18, 1.0)
 class Fist(composer.Entity):
     """A sphere on two sliding joints, driven by velocity actuators."""
 
-    def _build(self, x_range, y_range, friction=material.FRICTION, name="fist"):
+    def _build(
+        self,
+        x_range: Sequence[float],
+        y_range: Sequence[float],
+        friction: float = material.FRICTION,
+        name: str = "fist",
+    ) -> None:
         """Builds the fist.
 
         Args:
@@ -38,5 +46,5 @@ class Fist(composer.Entity):
         self.position_sensor = self._root.sensor.add("framepos", name="position", objtype="site", objname=center)
 
     @property
-    def mjcf_model(self):
+    def mjcf_model(self) -> mjcf.RootElement:
         return self._root

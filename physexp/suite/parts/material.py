@@ -1,5 +1,7 @@
 """What solid things are made of: contacts of geoms that can touch another, and stops and dry friction of joints."""
 
+from typing import Any
+
 FRICTION = 0.3  # low enough to slide one block out between two others
 WALL_FRICTION = 0.1
 # m. Blocks that just touch are in contact, whatever the last bit of their distance: without a margin, rounding decides
@@ -8,7 +10,7 @@ MARGIN = 1e-6
 _NEARLY_RIGID = (0.9999, 0.9999, 0.001, 0.5, 2.0)  # Impedance of a joint's constraints.
 
 
-def solid(friction: float = FRICTION) -> dict:
+def solid(friction: float = FRICTION) -> dict[str, Any]:
     """MJCF attributes of a solid geom.
 
     Contacts are as stiff as a physics step of 5 ms allows (a time constant of two steps), with an impedance close to
@@ -25,7 +27,7 @@ def solid(friction: float = FRICTION) -> dict:
     )
 
 
-def dry_friction(physics_timestep: float) -> dict:
+def dry_friction(physics_timestep: float) -> dict[str, Any]:
     """MJCF attributes of a joint that does not move while the force on it is less than its `frictionloss`.
 
     MuJoCo's friction is soft: with its defaults a block of Threshold creeps by 18 mm under nine tenths of the force
@@ -37,7 +39,7 @@ def dry_friction(physics_timestep: float) -> dict:
     return dict(solimpfriction=_NEARLY_RIGID, solreffriction=[2 * physics_timestep, 1.0])
 
 
-def stop(physics_timestep: float, damping_ratio: float = 1.0) -> dict:
+def stop(physics_timestep: float, damping_ratio: float = 1.0) -> dict[str, Any]:
     """MJCF attributes of a joint whose limits are hard.
 
     Args:

@@ -1,5 +1,7 @@
 """The puck: a flat cylinder that slides where a question lets it."""
 
+from collections.abc import Sequence
+
 from dm_control import composer, mjcf
 
 RADIUS = 0.03  # m
@@ -9,7 +11,7 @@ HALF_HEIGHT = 0.01  # m
 class Puck(composer.Entity):
     """A cylinder without contacts."""
 
-    def _build(self, rgba, mass, name="puck"):
+    def _build(self, rgba: Sequence[float], mass: float, name: str = "puck") -> None:
         """Builds a puck of the given colour and mass (kg)."""
         self._root = mjcf.RootElement(model=name)
         self.geom = self._root.worldbody.add(
@@ -24,5 +26,5 @@ class Puck(composer.Entity):
         )
 
     @property
-    def mjcf_model(self):
+    def mjcf_model(self) -> mjcf.RootElement:
         return self._root

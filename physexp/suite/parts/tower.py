@@ -1,5 +1,6 @@
 """A column of five blocks, some of them glued into larger rigid bodies (paper, Section 6.1)."""
 
+from collections.abc import Sequence
 import itertools
 
 from dm_control import composer, mjcf
@@ -14,12 +15,12 @@ BLOCK_MASS = 1.0  # kg
 PATTERNS = tuple(itertools.product((False, True), repeat=NUM_BLOCKS - 1))
 
 
-def num_bodies(pattern) -> int:
+def num_bodies(pattern: Sequence[bool]) -> int:
     """How many rigid bodies a tower with this glue pattern is made of: each glued joint saves one."""
     return NUM_BLOCKS - sum(pattern)
 
 
-def _rigid_bodies(pattern) -> list[list[int]]:
+def _rigid_bodies(pattern: Sequence[bool]) -> list[list[int]]:
     """The blocks of each rigid body, from the floor up."""
     bodies = [[0]]
     for upper, glued in enumerate(pattern, start=1):
@@ -37,7 +38,13 @@ class Tower(composer.Entity):
     directly below the world. All coordinates are zero (and the quaternion the identity) in the initial column.
     """
 
-    def _build(self, pattern, half_size=block.HALF_SIZE, friction=material.FRICTION, name="tower"):
+    def _build(
+        self,
+        pattern: Sequence[bool],
+        half_size: float = block.HALF_SIZE,
+        friction: float = material.FRICTION,
+        name: str = "tower",
+    ) -> None:
         """Builds the tower.
 
         Args:
@@ -66,10 +73,10 @@ class Tower(composer.Entity):
         ]
 
     @property
-    def mjcf_model(self):
+    def mjcf_model(self) -> mjcf.RootElement:
         return self._root
 
-    def add_pushers(self, world_site) -> None:
+    def add_pushers(self, world_site: mjcf.Element) -> None:
         """Adds two force actuators a block, along the world's x and y, that act at the block's centre (N).
 
         They follow the block as it moves, so a glued block passes on the force and the torque that goes with it.
