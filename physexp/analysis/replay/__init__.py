@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from physexp import suite
-from physexp.agents import config as agent_config
-from physexp.analysis.replay import recording, selection, writing
+from physexp.analysis.replay import recording, selection, words, writing
 from physexp.analysis.replay.recording import Episode, EpisodeRecorder
 from physexp.analysis.replay.viewing import check_display, view
 from physexp.analysis.training import callbacks, finding, playing
+from physexp.analysis.training import config as config_lib
 
 __all__ = ["Episode", "EpisodeRecorder", "check_display", "replay", "view"]
 
@@ -43,12 +43,12 @@ def replay(
       ValueError: if a target is no agent, agents play different tasks, or `output` is no path for a replay.
     """
     writing.check_output(output)
-    agents = [finding.find_agent(target, task_kwargs) for target in targets]
+    agents = [finding.find_agent(target, task_kwargs)[:2] for target in targets]
     network, config = agents[0]
     for target, (_, other) in zip(targets[1:], agents[1:], strict=True):
         if _played(other) != _played(config):
             raise ValueError(
-                f"{targets[0]} plays {_task_name(config)}, and {target} plays {_task_name(other)}; "
+                f"{targets[0]} plays {words.task_name(config)}, and {target} plays {words.task_name(other)}; "
                 "compare agents that play the same"
             )
     chosen = list(selection.select(network, config, count, select, interaction, seed, tell))
@@ -58,19 +58,12 @@ def replay(
     return writing.write(output, groups, tell)
 
 
-def _played(config) -> tuple:
+def _played(config: config_lib.TrainConfig) -> tuple[str, str, suite.Options]:
     """Returns domain, task and all options but the seed of an agent."""
-    options = suite.options(config.domain)(**{**config.task_kwargs, "random": 0})
-    return config.domain, config.task, options
+    return config.domain, config.task, suite.options(config.domain)(**{**config.task_kwargs, "random": 0})
 
 
-def _task_name(config) -> str:
-    """Returns the name of an agent's task with its options."""
-    options = "".join(f", {name} {agent_config.shown(value)}" for name, value in config.task_kwargs.items())
-    return f"{config.domain}/{config.task}{options}"
-
-
-def _episodes(targets, agents, instance, interaction) -> list[Episode]:
+def _episodes(targets, agents, instance, interaction: str) -> list[Episode]:
     """Returns the episodes of all agents on one instance."""
     seed, episode, actions = instance
     (network, config), *others = agents

@@ -1,34 +1,16 @@
 """Episodes in the viewer while they are played."""
 
-from typing import Protocol
-
 import rerun as rr
-import rerun.blueprint as rrb
 
 from physexp.agents import environment_loop
-from physexp.analysis.replay import layout, recording, words, writing
-
-
-class Screen(Protocol):
-    """Shows streams, as `viewing.Viewer` does."""
-
-    def show(self, stream: rr.RecordingStream, layout: rrb.Blueprint) -> None:
-        """Connects a stream."""
-
-    def flush(self, stream: rr.RecordingStream) -> None:
-        """Sends the data of a stream."""
+from physexp.analysis.replay import layout, recording, viewing, words, writing
 
 
 class Live(environment_loop.Observer):
     """Shows an episode while it is played: the observations at first, and everything after its end."""
 
-    def __init__(self, recorder: recording.EpisodeRecorder, screen: Screen):
-        """Prepares to show.
-
-        Args:
-          recorder: observes the same episodes, before this observer does.
-          screen: shows the stream of each episode.
-        """
+    def __init__(self, recorder: recording.EpisodeRecorder, screen: viewing.Viewer):
+        """Prepares to show the episodes of a recorder, which must observe them before this observer."""
         self._recorder, self._screen = recorder, screen
 
     def observe_first(self, environment, timestep):

@@ -27,7 +27,7 @@ def select(
     """Plays episodes and chooses some.
 
     Args:
-      network, config, interaction, seed: as for `playing.play`.
+      network, config, interaction, seed: see `playing.play`.
       count: number of episodes, >= 1.
       selection: the first episodes, the first wrong or right ones, those with the most interactions, or the hardest: by
         the task's hardness, or else by this agent's mean number of interactions.

@@ -29,7 +29,9 @@ class Writer:
         Raises:
           OSError: if the file cannot be written.
         """
-        if frames - self._last_replay(frames) < self._config.replay_every:
+        names = [path.stem for path in self._folder.glob("*.rrd")]
+        last = max((int(name) for name in names if name.isdecimal() and int(name) <= frames), default=0)
+        if frames - last < self._config.replay_every:
             return
         environment = trainer.make_environment(self._config, 0, 1, 1)
         network = registry.make_network(environment, self._config.agent)
@@ -39,8 +41,3 @@ class Writer:
         self._folder.mkdir(exist_ok=True)
         path = self._folder / f"{frames:015d}.rrd"
         writing.write(path, [lambda: [recording.reenact(network, self._config, SEED, 0, None, title)]])
-
-    def _last_replay(self, frames: int) -> int:
-        """Returns the frames of the last replay that is not later than `frames`, 0 for none."""
-        names = (path.stem for path in self._folder.glob("*.rrd"))
-        return max((int(name) for name in names if name.isdecimal() and int(name) <= frames), default=0)

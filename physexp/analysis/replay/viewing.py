@@ -27,23 +27,18 @@ def check_display() -> None:
 
 
 def view(path: Path, web: bool, tell: Callable[[str], None] = lambda line: None) -> None:
-    """Opens a file in the viewer until it is closed or Ctrl-C ends it.
-
-    Args:
-      path: the file.
-      web: serve the viewer to a browser instead of opening a window.
-      tell: called with a line that names the address for a browser.
+    """Opens a file in a window, or on the web for a browser, until the viewer is closed or Ctrl-C ends it.
 
     Raises:
       RuntimeError: if the viewer fails.
-      ValueError: where there is no display for a window.
+      ValueError: if there is no display for a window.
     """
     data_port = _free_port(_DATA_PORT if web else 0)
     command = [*_command(data_port), str(path)]
     if web:
         web_port = _free_port(_WEB_PORT)
         command += ["--web-viewer", "--web-viewer-port", str(web_port)]
-        query = urllib.parse.urlencode({"url": _address(data_port)})
+        query = urllib.parse.urlencode({"url": f"rerun+http://{_LOOPBACK}:{data_port}/proxy"})
         tell(f"serving http://{_LOOPBACK}:{web_port}/?{query} to this machine alone; Ctrl-C ends it")
     else:
         check_display()
@@ -64,11 +59,7 @@ class Viewer:
     """
 
     def __init__(self):
-        """Prepares a window, which opens with the first stream, and again if it has been closed.
-
-        Raises:
-          ValueError: where there is no display.
-        """
+        """Prepares a window, which opens with the first stream; raises ValueError without a display."""
         check_display()
         self._process: subprocess.Popen | None = None
 
@@ -103,10 +94,6 @@ def last_line(messages: bytes) -> str:
 
 def _command(data_port: int) -> list[str]:
     return [str(PROGRAM), "--bind", _LOOPBACK, "--port", str(data_port)]
-
-
-def _address(data_port: int) -> str:
-    return f"rerun+http://{_LOOPBACK}:{data_port}/proxy"
 
 
 def _free_port(preferred: int = 0) -> int:

@@ -6,6 +6,7 @@ import numpy as np
 
 from physexp.agents import config as agent_config
 from physexp.analysis.replay import recording
+from physexp.analysis.training import config as config_lib
 
 HIDDEN_TAB = "with what is hidden"
 """Title of the view that shows the hidden properties."""
@@ -33,8 +34,13 @@ scene.
 
 def name(episode: recording.Episode) -> str:
     """Returns the name of an episode."""
-    options = "".join(f", {key} {agent_config.shown(value)}" for key, value in episode.task_kwargs.items())
-    return f"{episode.domain}/{episode.task}{options}, seed {episode.seed}, episode {episode.episode}"
+    return f"{task_name(episode)}, seed {episode.seed}, episode {episode.episode}"
+
+
+def task_name(played: recording.Episode | config_lib.TrainConfig) -> str:
+    """Returns the name of a task with its options."""
+    options = "".join(f", {key} {agent_config.shown(value)}" for key, value in played.task_kwargs.items())
+    return f"{played.domain}/{played.task}{options}"
 
 
 def about(episode: recording.Episode, ending: str) -> str:
@@ -57,14 +63,7 @@ def outcome(episode: recording.Episode) -> str:
 
 
 def bars(labels: Sequence[str], belief: np.ndarray, answers: np.ndarray, ideal: np.ndarray | None) -> str:
-    """Returns a Markdown table of labels: belief with a bar, policy, and the ideal experimenter's belief.
-
-    Args:
-      labels: names of L labels.
-      belief: float64 [L].
-      answers: the policy's probabilities of the labels, float64 [L].
-      ideal: the ideal experimenter's belief, float64 [L], or None.
-    """
+    """Returns a Markdown table of labels: belief with a bar, policy and ideal belief, float64 [L] each."""
     heads = ["label", "belief", "", "policy", *([] if ideal is None else ["ideal belief"])]
     rows = [heads, [":--", "--:", ":--", "--:", "--:"][: len(heads)]]
     for k, label in enumerate(labels):
