@@ -46,21 +46,13 @@ ALL_TASKS = tuple((domain, task) for domain, tasks in TASKS_BY_DOMAIN.items() fo
 
 
 def tags(domain_name: str, task_name: str) -> frozenset[str]:
-    """Returns a task's tags: `features` or `pixels`, and those of its domain, such as `fist`.
-
-    Raises:
-      ValueError: for an unknown name.
-    """
+    """Returns the tags of a task: `features` or `pixels`, and those of its domain, such as `fist`."""
     suite = _find_suite(domain_name, task_name)
     return frozenset(tag for tag in suite.tags() if task_name in suite.tagged(tag))
 
 
 def tagged(*wanted: str) -> tuple[tuple[str, str], ...]:
-    """Returns the (domain name, task name) pairs of the tasks that have all of these tags.
-
-    Raises:
-      ValueError: for a tag that no task has.
-    """
+    """Returns the (domain name, task name) pairs of the tasks that have all of these tags."""
     tags_of = {pair: tags(*pair) for pair in ALL_TASKS}
     known = frozenset().union(*tags_of.values())
     for tag in wanted:
@@ -70,11 +62,7 @@ def tagged(*wanted: str) -> tuple[tuple[str, str], ...]:
 
 
 def options(domain_name: str) -> type[Options]:
-    """Returns the class of a domain's options: the fields and defaults of its `task_kwargs`.
-
-    Raises:
-      ValueError: for an unknown name.
-    """
+    """Returns the class of a domain's options: the fields and defaults of its `task_kwargs`."""
     kind: type[Options] = _find_domain(domain_name).Options
     return kind
 
@@ -118,7 +106,7 @@ def load_batch(
 
     Args:
       domain_name, task_name, task_kwargs: as for `load`.
-      num_environments: how many.
+      num_environments: number of environments.
       num_threads: threads that simulate.
 
     Raises:
@@ -131,11 +119,7 @@ def load_batch(
 
 
 def load_task(domain_name: str, task_name: str, task_kwargs: Mapping[str, Any] | None = None) -> contract.Task:
-    """Returns the task that an environment or a batch plays.
-
-    Raises:
-      ValueError: for an unknown name or a bad keyword argument.
-    """
+    """Returns the task that an environment or a batch plays; arguments as for `load`."""
     factory = _find_suite(domain_name, task_name)[task_name]
     task: contract.Task = factory(_call(_find_domain(domain_name).Options, "task_kwargs", task_kwargs))
     return task
@@ -172,7 +156,7 @@ def _spelled(key: Any) -> str:
 
 
 def _checked(name: str, kwargs: Any) -> dict[str, Any]:
-    """Keyword arguments as a dictionary; raises ValueError for anything else."""
+    """Returns keyword arguments as a dictionary; raises ValueError for anything else."""
     if kwargs is not None and not isinstance(kwargs, Mapping):
         raise ValueError(f"{name} is {checks.shown(kwargs)}; give a dictionary")
     return dict(kwargs or {})

@@ -69,14 +69,9 @@ def num_suspects(difficulty: float) -> int:
 
 
 def draw_weights(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
-    """Returns the weights of the blocks in some episodes, in kilograms, float64 [N, NUM_BLOCKS].
+    """Returns the weights of the blocks in some episodes, kg, float64 [N, NUM_BLOCKS].
 
-    Which block is odd, among those that may be, and whether it is heavier or lighter are equally likely; the difference
-    is uniform within `DIFFERENCES`.
-
-    Args:
-      seeds, episodes: environment seeds and episode indices, int64 [N].
-      difficulty: as in `Options`.
+    The odd block and the sign of its difference are drawn uniformly, the difference uniformly within `DIFFERENCES`.
     """
     draws = seeding.uniforms(seeds, episodes, 2)
     labels = np.floor(draws[:, 0] * 2 * num_suspects(difficulty)).astype(np.int64)

@@ -30,15 +30,15 @@ _RUB = 0.02  # N s/m, of every weight that moves
 
 @dataclasses.dataclass(frozen=True)
 class Content:
-    """What may be in the box.
+    """The content of a box.
 
     Attributes:
       kind: index in `CONTENTS`.
-      mass: of box and weight together, kg.
-      share: of that, the weight's.
+      mass: mass of box and weight together, kg.
+      share: the weight's share of it.
       gap: how far the weight may move to either side, m.
-      stiffness: of the weight's spring, N/m.
-      damping: of the weight's motion, N s/m.
+      stiffness: stiffness of the weight's spring, N/m.
+      damping: damping of the weight's motion, N s/m.
     """
 
     kind: int
@@ -50,7 +50,7 @@ class Content:
 
 
 def _contents() -> tuple[Content, ...]:
-    """All that there may be, kind by kind."""
+    """Returns all possible contents, kind by kind."""
     kinds = (
         ({"damping": 1e6},),
         ({"gap": 0.010}, {"gap": 0.025}),
@@ -95,11 +95,7 @@ class Options(options_lib.Options):
 
 
 def draw_contents(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-    """Returns what is in the box in some episodes: indices of `ALL_CONTENTS`, int64 [N].
-
-    Args:
-      seeds, episodes: environment seeds and episode indices, int64 [N].
-    """
+    """Returns the contents of the boxes of some episodes: indices of `ALL_CONTENTS`, int64 [N]."""
     draws = seeding.uniforms(seeds, episodes, 1)[:, 0]
     return np.searchsorted(np.cumsum(PRIOR)[:-1], draws, side="right")
 
@@ -177,11 +173,7 @@ class SealedBox(contract.Task):
         )
 
     def _place(self, values: np.ndarray) -> np.ndarray:
-        """Returns how many marks the box is from home, and 0 while it is pushed.
-
-        Args:
-          values: its position, m, and the force of the hand, N, [N, 2].
-        """
+        """Returns the marks from home to the box, and 0 while it is pushed, from its position and the force, [N, 2]."""
         positions, forces = values.T
         # Adding 0 makes 0 of -0, which would tell the side.
         return np.where(forces == 0, np.round(positions / self._mark) + 0.0, 0.0)[:, None]
@@ -189,7 +181,7 @@ class SealedBox(contract.Task):
     largest_hidden = len(ALL_CONTENTS) - 1
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-        """Returns what is in the box: indices of `ALL_CONTENTS`, int64 [N]."""
+        """Returns the contents: indices of `ALL_CONTENTS`, int64 [N]."""
         return draw_contents(seeds, episodes)
 
     def answers(self, hidden: np.ndarray) -> np.ndarray:
@@ -207,7 +199,7 @@ class SealedBox(contract.Task):
 def _fields(
     apparatus: apparatus_lib.Apparatus, joints: tuple[str, str], contents: list[Content]
 ) -> declarations.Fields:
-    """Returns the model fields that follow from what is in boxes; of masses, what `mj_setConst` would compute."""
+    """Returns the model fields that follow from contents; masses as `mj_setConst` computes them."""
     dofs, bodies = apparatus.dofs(joints)
     total, share, gap, stiffness, damping = (
         np.array([getattr(content, name) for content in contents])

@@ -62,23 +62,15 @@ class Options(options_lib.Options):
 
 
 def draw_pucks(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-    """Returns the pucks of some episodes: indices of `PUCKS`, int64 [N].
-
-    Args:
-      seeds, episodes: environment seeds and episode indices, int64 [N].
-    """
+    """Returns the pucks of some episodes: indices of `PUCKS`, int64 [N]."""
     return (len(PUCKS) * seeding.uniforms(seeds, episodes, 1)[:, 0]).astype(np.int64)
 
 
 def properties(pucks: np.ndarray, goal_distance: float) -> tuple[np.ndarray, np.ndarray]:
-    """Returns masses, kg, and forces of friction, N, float64 [N] each.
+    """Returns masses, kg, and forces of friction, N, float64 [N] each, of pucks: indices of `PUCKS`, int [N].
 
     A force F that pushes for a time T takes a puck of mass m by `s = mu g T^2 p (p - 1) / 2`, with p = F / (m mu g). So
-    the mass follows from where a strike is to take the puck.
-
-    Args:
-      pucks: indices of `PUCKS`, int [N].
-      goal_distance: from the puck to the middle of the goal, m.
+    the mass follows from the distance that the right strike must take it.
     """
     strikes, frictions, places = np.array(PUCKS)[pucks].T
     forces = np.array(STRIKES)[strikes.astype(int)]

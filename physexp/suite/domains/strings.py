@@ -77,13 +77,9 @@ def is_joined(graphs: np.ndarray) -> np.ndarray:
 
 
 def draw_slacks(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
-    """Returns the slacks of the bands of some episodes, m, 0 where there is none, float64 [N, number of pairs].
+    """Returns the slacks of the bands of some episodes, m, 0 for no band, float64 [N, number of pairs].
 
-    Which pairs are joined follows from the prior; slacks are uniform within `SLACKS`.
-
-    Args:
-      seeds, episodes: environment seeds and episode indices, int64 [N].
-      difficulty: as in `Options`.
+    The pairs that are joined follow the prior; slacks are uniform within `SLACKS`.
     """
     draws = seeding.uniforms(seeds, episodes, 2 * len(PAIRS))
     joined, slack = np.split(draws, 2, axis=1)
@@ -149,7 +145,7 @@ class Strings(contract.Task):
     largest_hidden = SLACKS[1]
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-        """Returns the slacks of the bands, m, 0 where there is none, float64 [N, number of pairs]."""
+        """Returns the slacks of the bands, m, 0 for no band, float64 [N, number of pairs]."""
         return draw_slacks(seeds, episodes, self.options.difficulty)
 
     def answers(self, hidden: np.ndarray) -> np.ndarray:
@@ -189,7 +185,7 @@ def _interactions() -> list[declarations.Interaction]:
 
 
 def _x(puck: int) -> float:
-    """Where a puck's rail is, m."""
+    """Returns the position of a puck's rail along x, m."""
     return (puck - (NUM_PUCKS - 1) / 2) * _SPACING
 
 

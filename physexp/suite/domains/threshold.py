@@ -73,13 +73,9 @@ def prior(difficulty: float) -> np.ndarray:
 
 
 def draw_frictions(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
-    """Returns the friction of some episodes, in newtons, float64 [N].
+    """Returns the frictions of some episodes, N, float64 [N].
 
     The label follows `prior`; friction is uniform between the forces of two neighbouring levels, away from both.
-
-    Args:
-      seeds, episodes: environment seeds and episode indices, int64 [N].
-      difficulty: the skew of the prior.
     """
     draws = seeding.uniforms(seeds, episodes, 2)
     labels = np.searchsorted(np.cumsum(prior(difficulty))[:-1], draws[:, 0], side="right")
@@ -92,11 +88,9 @@ def _is_right(positions: np.ndarray) -> np.ndarray:
 
 
 def _slid(values: np.ndarray) -> np.ndarray:
-    """Returns 1 where the last push took the block to the other stop, and 0 elsewhere.
+    """Returns 1 where the last push took the block to the other stop, from its position, m, and the force, N, [N, 2].
 
-    Args:
-      values: the block's position on the rail, m, and the force of the actuator, N, [N, 2]. A push goes away from the
-        stop that the block leans on: if it leans on the one that the push goes to, it has slid.
+    A push goes away from the stop that the block leans on: if it leans on the stop ahead of the push, it has slid.
     """
     positions, forces = values.T
     return np.where(_is_right(positions), forces > 0, forces < 0).astype(float)[:, None]

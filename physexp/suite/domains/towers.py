@@ -80,14 +80,7 @@ PRIOR = 1 / tower.NUM_BLOCKS / _PATTERNS_OF_COUNT[NUM_BODIES - 1]
 
 
 def draw_patterns(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-    """Returns the glue patterns of some episodes, drawn from `PRIOR`.
-
-    Args:
-      seeds, episodes: environment seeds and episode indices, int64 [N].
-
-    Returns:
-      Indices in `tower.PATTERNS`, int64 [N].
-    """
+    """Returns the glue patterns of some episodes, drawn from `PRIOR`: indices in `tower.PATTERNS`, int64 [N]."""
     draws = seeding.uniforms(seeds, episodes, 2)
     counts = 1 + (draws[:, 0] * tower.NUM_BLOCKS).astype(np.int64)
     by_count = np.argsort(NUM_BODIES, kind="stable")

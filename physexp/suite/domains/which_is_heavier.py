@@ -130,7 +130,7 @@ class WhichIsHeavier(contract.Task):
 
 
 def highest(force: float) -> float:
-    """Returns how high a poke of so many newtons takes a block at most, m.
+    """Returns the greatest height that a poke of a force, N, can reach, m.
 
     A block rises by at most force / damping in a second. So it passes the rail's end by one physics step at that speed
     before it feels it, and by less than another one before it is stopped.
@@ -144,20 +144,12 @@ def kilograms(masses: Any) -> Any:
 
 
 def prior(difficulty: float) -> priors.OddOneOut:
-    """Returns what masses are drawn from: Beta(difficulty, 1) for one block, Beta(1, difficulty) for the others."""
+    """Returns the prior of the masses: Beta(difficulty, 1) for one block, Beta(1, difficulty) for the others."""
     return priors.OddOneOut(NUM_BLOCKS, difficulty)
 
 
 def draw_masses(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
-    """Returns the masses of some episodes (paper, Section 5.1), float64 [N, 4] in [0, 1].
-
-    Args:
-      seeds, episodes: environment seeds and episode indices, int64 [N].
-      difficulty: the paper's beta.
-
-    Raises:
-      RuntimeError: if the two heaviest blocks tie in every one of many draws.
-    """
+    """Returns the masses of some episodes (paper, Section 5.1), float64 [N, 4] in [0, 1]."""
     return prior(difficulty).draw(seeds, episodes)
 
 

@@ -32,7 +32,7 @@ class Held:
 
     Attributes:
       qpos: addresses of its coordinates, int [K].
-      bodies: of which it is made, int [M].
+      bodies: its bodies, int [M].
       shows: for each field of `LOOKED_AT`, the addresses of its values that show the entity.
     """
 
@@ -43,13 +43,13 @@ class Held:
 
 @dataclasses.dataclass(frozen=True)
 class Starts:
-    """How N episodes start, and how they are looked at.
+    """The initial states of N episodes.
 
     Attributes:
       qpos: coordinates, float64 [N, nq].
       shown: the fields of `LOOKED_AT`, float64 [N, ...], by name.
-      strength: factors on what is sent to the actuators, [N, 1 or nu].
-      camera: how far the camera is displaced, m [N, 3].
+      strength: factors on the control signals, [N, 1 or nu].
+      camera: displacements of the camera, m [N, 3].
     """
 
     qpos: np.ndarray
@@ -58,7 +58,7 @@ class Starts:
     camera: np.ndarray
 
     def repeated(self, size: int) -> "Starts":
-        """Returns the only one of them, as that of `size` episodes; not to be written to."""
+        """Returns the only initial state, repeated `size` times; not to be written to."""
         qpos, strength, camera, *shown = (
             np.broadcast_to(values, (size, *values.shape[1:]))
             for values in (self.qpos, self.strength, self.camera, *self.shown.values())
@@ -66,13 +66,13 @@ class Starts:
         return Starts(qpos, dict(zip(self.shown, shown, strict=True)), strength, camera)
 
     def put(self, rows: np.ndarray, starts: "Starts") -> None:
-        """Writes how some episodes start in place of what was there, int [K]."""
+        """Writes the initial states of some episodes, int [K]."""
         self.qpos[rows], self.strength[rows], self.camera[rows] = starts.qpos, starts.strength, starts.camera
         for field, values in self.shown.items():
             values[rows] = starts.shown[field]
 
     def of(self, rows: np.ndarray) -> "Starts":
-        """Returns those of some episodes, int [K]."""
+        """Returns the initial states of some episodes, int [K]."""
         shown = {field: values[rows] for field, values in self.shown.items()}
         return Starts(self.qpos[rows], shown, self.strength[rows], self.camera[rows])
 
@@ -101,7 +101,7 @@ class Apparatus:
     _dofs: dict[tuple[str, ...], tuple[np.ndarray, np.ndarray]] = dataclasses.field(default_factory=dict, init=False)
 
     def starts(self, circumstances: declarations.Circumstances, size: int) -> Starts:
-        """Returns how episodes start, as many as `size`."""
+        """Returns the initial states of `size` episodes."""
         starts = self.start.of(np.zeros(size, np.intp))
         for own, given in ((starts.strength, circumstances.strength), (starts.camera, circumstances.camera)):
             if given is not None:
@@ -133,17 +133,14 @@ class Apparatus:
     def shown(
         self, field: str, values: np.ndarray, touched: np.ndarray, starts: Starts, rows: np.ndarray
     ) -> np.ndarray:
-        """Returns a field as observations may have it: held entities that were not touched are exactly as at the start.
+        """Returns a copy of a field for observations: held entities that were not touched are exactly as at the start.
 
         Args:
           field: one of `LOOKED_AT`.
           values: its values, float64 [N, ...].
           touched: whether each held entity has been touched, bool [N, number of held entities].
-          starts: of all episodes.
-          rows: which of them these are, int [N].
-
-        Returns:
-          A copy, float64 [N, ...].
+          starts: initial states of all episodes.
+          rows: the episodes of the values, int [N].
         """
         shown = values.copy()
         for held, is_touched in zip(self.held, touched.T, strict=True):
@@ -183,17 +180,16 @@ class Apparatus:
 def slide_masses(apparatus: Apparatus, joints: tuple[str, ...], kilograms: np.ndarray) -> declarations.Fields:
     """Returns the model fields that follow from the masses, float64 [N, K], of bodies on one slide each.
 
-    They are what `mj_setConst` would compute, at a hundredth of its cost; without those that only contacts and other
-    joints need.
+    They are the values of `mj_setConst`, at a hundredth of its cost, without those that contacts and other joints need.
     """
     dofs, bodies = apparatus.dofs(joints)
     return {"body_mass": (bodies, kilograms), "dof_M0": (dofs, kilograms), "dof_invweight0": (dofs, 1 / kilograms)}
 
 
 def scaled_masses(apparatus: Apparatus, bodies: np.ndarray, factors: np.ndarray) -> declarations.Fields:
-    """Returns the model fields that follow when some bodies, int [K], are as many times as heavy as in the model, [N].
+    """Returns the model fields of bodies, int [K], whose masses are multiplied by factors, [N]; as `mj_setConst` does.
 
-    Together they are all that moves with what moves them. The fields are what `mj_setConst` would compute.
+    The bodies must be all that moves with their degrees of freedom.
     """
     model = apparatus.model
     dofs = np.flatnonzero(np.isin(model.dof_bodyid, bodies))
@@ -225,13 +221,13 @@ def gains(apparatus: Apparatus, actuators: tuple[str, ...], values: np.ndarray) 
 def bands(
     apparatus: Apparatus, tendons: tuple[str, ...], stiffness: np.ndarray, slack: np.ndarray
 ) -> declarations.Fields:
-    """Returns the model fields of fixed tendons that pull once their slack is used up, by their full names.
+    """Returns the model fields of fixed tendons, by their full names, that pull once their slack is used up.
 
     Args:
-      apparatus: of which they are part.
-      tendons: their names, K.
-      stiffness: N/m, float64 [N, K]; 0 for none.
-      slack: how far a tendon's length may be from 0 without a force, m, float64 [N, K].
+      apparatus: the compiled model.
+      tendons: full names of the tendons, K.
+      stiffness: N/m, float64 [N, K]; 0 for no band.
+      slack: length at which a band begins to pull, m, float64 [N, K].
     """
     addresses = np.array([apparatus.model.tendon(tendon).id for tendon in tendons])
     return {
@@ -255,7 +251,7 @@ def build(
     """Compiles an MJCF model.
 
     Args:
-      xml: the whole scene; names of the entities below are those that they have in it.
+      xml: the whole scene, with the names that the entities below have in it.
       readings: the features.
       held: entities that must look untouched until something moves them.
       indicators: geoms that show readings.
@@ -317,7 +313,7 @@ def _find_held(model: mujoco.MjModel, frame: mjcf.Element) -> Held:
 
 
 def _addresses_of(model: mujoco.MjModel, reading: declarations.Reading) -> np.ndarray:
-    """Returns the addresses in `sensordata` of what makes up a reading."""
+    """Returns the addresses in `sensordata` of the values of a reading."""
     addresses = _addresses(model.sensor(sensor.full_identifier) for sensor in reading.sensors)
     return addresses if reading.measure is not None else addresses.reshape(reading.shape)
 

@@ -19,8 +19,8 @@ _FIRST, _MID, _LAST = (int(kind) for kind in dm_env.StepType)
 class BatchEnvironment:
     """Environments that share a task but no randomness: each has its own seed and episodes.
 
-    Environment `i` behaves, bit for bit, as `Environment` does with the seed `environment_seed(seed, i)`, whatever
-    the number of environments and threads.
+    Environment `i` behaves, bit for bit, as `Environment` does with the seed `environment_seed(seed, i)`, whatever the
+    number of environments and threads.
 
     Attributes:
       num_environments: number of environments.
@@ -118,18 +118,14 @@ class BatchEnvironment:
         """Starts new episodes.
 
         Args:
-          environments: which environments, sorted indices int [N]; all of them by default.
+          environments: sorted indices of environments, int [N]; all by default.
           episode: index of the episode to start, the same in each; by default the one after the current.
-          hidden: their hidden properties, [N, ...], for analysis; by default they are drawn.
-          nuisances: the values of their random variation, [N, number of nuisances] in [-1, 1], for analysis of tasks
-            with variation; by default they are drawn.
-
-        Returns:
-          As `step`.
+          hidden: their hidden properties, [N, ...], for analysis; drawn by default.
+          nuisances: their random variation, [N, number of nuisances] in [-1, 1], for analysis; drawn by default.
 
         Raises:
-          ValueError: for indices out of range, or if `hidden` or `nuisances` do not have the shape and the kind of what
-            would be drawn, or are out of their range; all episodes stay as they were.
+          ValueError: for indices out of range, or if `hidden` or `nuisances` do not have the shape, the type and the range
+            of drawn values; all episodes stay as they were.
           RuntimeError: if the batch is closed, or another thread is using it.
         """
         with self.in_use(environments) as chosen:
@@ -143,11 +139,10 @@ class BatchEnvironment:
 
         Args:
           actions: one action for each of the chosen environments, int [N].
-          environments: which environments to step, sorted indices int [N]; all of them by default.
+          environments: sorted indices of environments, int [N]; all by default.
 
         Returns:
-          A TimeStep whose fields are arrays with a leading axis [N]. Where an episode starts, the reward is 0 and the
-          discount 1.
+          A TimeStep of arrays with a leading axis [N]; a first step has reward 0 and discount 1.
 
         Raises:
           ValueError: if an action is not one of the action spec's; nothing has moved then.
@@ -180,9 +175,8 @@ class BatchEnvironment:
         """Returns images for people of all environments, uint8 [B, size, size, 3].
 
         Raises:
-          ValueError: if `size` is no positive number of pixels that can be drawn.
-          RuntimeError: if there is no episode to show, the batch is closed, another thread is using it, or no GL
-            backend works.
+          ValueError: if `size` is not a number of pixels that can be drawn.
+          RuntimeError: if no episode has begun, the batch is closed or used by another thread, or no GL backend works.
         """
         checks.integer("size", size, 1, rendering.LARGEST)
         with self.in_use() as chosen:
@@ -199,11 +193,7 @@ class BatchEnvironment:
             return images
 
     def close(self) -> None:
-        """Frees the simulations. Closing twice does nothing.
-
-        Raises:
-          RuntimeError: if another thread is using the batch.
-        """
+        """Frees the simulations. Closing twice does nothing."""
         with self._guard:
             self.simulations.close()
             self._close_renderer()
@@ -215,12 +205,7 @@ class BatchEnvironment:
 
     @contextlib.contextmanager
     def in_use(self, environments: Any = None) -> Iterator[np.ndarray]:
-        """Keeps other threads out; yields the indices of some environments, int64 [N], by default of all.
-
-        Raises:
-          ValueError: for indices out of range.
-          RuntimeError: if the batch is closed, or another thread is using it.
-        """
+        """Keeps other threads out; yields the indices of some environments, int64 [N], by default of all."""
         with self._guard:
             yield self._choose(environments)
 

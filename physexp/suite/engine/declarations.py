@@ -1,4 +1,4 @@
-"""What a task declares: its interactions, its readings, and what a replay may reveal."""
+"""Declarations of a task: its interactions, its readings, and the marks of replays."""
 
 from collections.abc import Callable, Mapping, Sequence
 import dataclasses
@@ -18,8 +18,8 @@ class Interaction:
     """An interaction action.
 
     Attributes:
-      name: what it does, in words, as in `poke block 2`.
-      control: what it sends to the actuators, float64 [nu].
+      name: its meaning, in words, as in `poke block 2`.
+      control: its control signals, float64 [nu].
       thing: name of the entity that it acts on.
       vector: the force (N) or velocity (m/s) to draw there, (3,).
     """
@@ -79,13 +79,13 @@ class Indicator:
 
 @dataclasses.dataclass(frozen=True)
 class Circumstances:
-    """How N episodes differ from the task as it is without variation.
+    """The random variation of N episodes.
 
     Attributes:
       fields: model fields.
-      qpos: coordinates at the start: addresses, int [K], and values, [N, K]; None for those of the model.
-      strength: factors on what is sent to the actuators, [N, 1] or [N, nu].
-      camera: how far the camera is displaced, m [N, 3].
+      qpos: initial coordinates: addresses, int [K], and values, [N, K]; None for those of the model.
+      strength: factors on the control signals, [N, 1] or [N, nu].
+      camera: displacements of the camera, m [N, 3].
     """
 
     fields: Fields = dataclasses.field(default_factory=dict)
@@ -96,7 +96,7 @@ class Circumstances:
 
 @dataclasses.dataclass(frozen=True)
 class Revealed:
-    """What a replay shows of a hidden property.
+    """The marks that a replay shows of a hidden property.
 
     Attributes:
       marks: texts beside things, by the thing's name.

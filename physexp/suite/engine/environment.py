@@ -28,13 +28,11 @@ class Environment(composer.Environment):
 
         Args:
           task: the task that it plays.
-          raise_exception_on_physics_error: raise when the simulation diverges, instead of ending that episode
-            with a warning.
-          flat_observation: observe one vector, `observations`, of all arrays sorted by name, as dm_control's own
-            suite does.
+          raise_exception_on_physics_error: raise if the simulation diverges, instead of ending the episode.
+          flat_observation: observe one vector, `observations`, of all arrays sorted by name, as in dm_control.
 
         Raises:
-          ValueError: for an argument that is neither true nor false.
+          ValueError: for an argument that is not a boolean.
         """
         self._guard = guard.Guard("environment")
         self._flat = checks.flag("flat_observation", flat_observation)
@@ -50,13 +48,10 @@ class Environment(composer.Environment):
         )
 
     def reset(self, hidden: Any = None) -> dm_env.TimeStep:
-        """Starts the next episode.
-
-        Args:
-          hidden: its hidden property, for analysis; by default it is drawn.
+        """Starts the next episode, for analysis with a given hidden property.
 
         Raises:
-          ValueError: if `hidden` does not have the shape and the kind of what would be drawn, or is out of its range.
+          ValueError: if `hidden` does not have the shape, the type and the range of a drawn value.
           RuntimeError: if the environment is closed, or another thread is using it.
         """
         with self._guard:
@@ -87,11 +82,7 @@ class Environment(composer.Environment):
         return type(described)((name, specs.Array(value.shape, value.dtype, name)) for name, value in blank.items())
 
     def render(self) -> np.ndarray:
-        """Returns an image of the scene for people, uint8 [480, 480, 3].
-
-        Raises:
-          RuntimeError: if the environment is closed, another thread is using it, or no GL backend works.
-        """
+        """Returns an image of the scene for people, uint8 [480, 480, 3]; raises RuntimeError if no GL backend works."""
         with self._guard:
             self._check_open()
             size, apparatus, physics = rendering.SIZE_FOR_PEOPLE, self._task.apparatus, self.physics
@@ -105,11 +96,7 @@ class Environment(composer.Environment):
             return image
 
     def close(self) -> None:
-        """Frees the simulations. Closing twice does nothing.
-
-        Raises:
-          RuntimeError: if another thread is using the environment.
-        """
+        """Frees the simulations. Closing twice does nothing."""
         with self._guard:
             for _, physics in self._compiled.values():
                 physics.free()

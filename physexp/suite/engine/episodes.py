@@ -9,17 +9,17 @@ from physexp.suite.engine import seeding
 
 
 class Ledger:
-    """Keeps, for N environments of a task, which episode each plays and how many steps it has taken.
+    """Keeps the current episode and the number of steps of N environments of a task.
 
     Attributes:
-      seeds: of the environments, int64 [N].
+      seeds: seeds of the environments, int64 [N].
       next_episodes: indices of the episodes that start next, int64 [N].
       answers: indices of the right labels, int64 [N].
-      structures: the compiled model that each episode needs, int64 [N].
-      nuisances: what episodes differ in beside what is hidden, in [-1, 1], float64 [N, number of nuisances].
+      structures: the compiled model of each episode, int64 [N].
+      nuisances: values of the random variation, in [-1, 1], float64 [N, number of nuisances].
       substeps: physics steps in a control step of each episode, int64 [N].
       steps: control steps taken, int64 [N].
-      touched: whether each of the task's held entities has moved, bool [N, number of held entities].
+      touched: whether each held entity has moved, bool [N, number of held entities].
       over: whether the episode has ended, or none has begun, bool [N].
     """
 
@@ -45,27 +45,22 @@ class Ledger:
 
     @property
     def hidden(self) -> np.ndarray:
-        """Returns the hidden properties of the current episodes, [N, ...].
-
-        Raises:
-          RuntimeError: if no episode has been started.
-        """
+        """The hidden properties of the current episodes, [N, ...]; raises RuntimeError before the first."""
         if self._hidden is None:
             raise RuntimeError("no episode has been started; call reset() first")
         return self._hidden
 
     def begin(self, rows: np.ndarray, hidden: Any = None, nuisances: Any = None, episode: int | None = None) -> None:
-        """Starts an episode of some environments; what is refused changes nothing.
+        """Starts an episode of some environments; a refused value changes nothing.
 
         Args:
-          rows: which, int [K].
-          hidden: their hidden properties, [K, ...]; by default those that follow from seed and episode.
-          nuisances: what they differ in beside, [K, number of nuisances]; by default the same.
-          episode: index of the episode, the same in each; by default that of the one that is next.
+          rows: the environments, int [K].
+          hidden: their hidden properties, [K, ...]; by default, drawn from seed and episode.
+          nuisances: their random variation, [K, number of nuisances]; by default, drawn as well.
+          episode: index of the episode, the same in each; by default, the next one.
 
         Raises:
-          ValueError: if `hidden` or `nuisances` do not have the shape and the kind of what would be drawn, or are out
-            of their range.
+          ValueError: if `hidden` or `nuisances` do not have the shape, the type and the range of drawn values.
         """
         indices = self.next_episodes[rows] if episode is None else np.full(len(rows), episode)
         drawn = self._task.draw(self.seeds[rows], indices)
@@ -94,22 +89,14 @@ class Ledger:
         return self._task.options.variation * drawn
 
     def judge(self, rows: np.ndarray, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Judges the control step under way of some environments.
-
-        Args:
-          rows: which, int [K].
-          actions: what they did, int [K].
-
-        Returns:
-          Rewards, float64 [K], and whether the episode ends, bool [K].
-        """
+        """Returns rewards, float64 [K], and whether episodes end, bool [K], after actions, int [K], of some rows."""
         rewards, last = self._task.rules.judge(actions, self.answers[rows], self.steps[rows])
         self.over[rows] = last
         return rewards, last
 
 
 def _checked(name: str, given: Any, drawn: np.ndarray, least: float, largest: float) -> np.ndarray:
-    """Returns what is given in place of what would be drawn, with values from the least to the largest."""
+    """Returns given values in place of drawn ones, if they have their shape, type and range."""
     values = np.asarray(given)
     if values.shape != drawn.shape or not np.can_cast(values.dtype, drawn.dtype, "same_kind"):
         raise ValueError(f"{name} is {checks.shown(given)}; give an array of shape {drawn.shape}, {drawn.dtype}")

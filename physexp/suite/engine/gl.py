@@ -32,8 +32,7 @@ _SOFTWARE = ("llvmpipe", "softpipe", "swrast", "software rasterizer")
 def prepare() -> None:
     """Chooses the backend, and imports mujoco and dm_control with it, or without GL if that fails.
 
-    Both read the environment variables of GL once, when they are imported. A variable that they cannot follow concerns
-    pixels alone: `make_context` names it.
+    Both read the environment variables once, at import. `make_context` names a variable that they cannot follow.
     """
     backend = choose_backend()
     try:
@@ -157,7 +156,7 @@ def draw(function: Callable[[], Any]) -> Any:
 
 
 def make_context(size: int) -> Any:
-    """Makes an off-screen GL context for images of `size` by `size` pixels; for the drawing thread.
+    """Makes an off-screen GL context for images of `size` by `size` pixels; only the drawing thread calls it.
 
     Raises:
       RuntimeError: if no GL backend works; the message names the environment variables and a remedy.
@@ -218,11 +217,7 @@ def gl_renderer_name() -> str:
 
 
 def check() -> None:
-    """Makes sure that images can be drawn here.
-
-    Raises:
-      RuntimeError: if no GL backend works; the message names the environment variables and a remedy.
-    """
+    """Raises RuntimeError with a remedy if images cannot be drawn here."""
     draw(_name)
 
 

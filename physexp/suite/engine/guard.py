@@ -6,16 +6,16 @@ from typing import NoReturn
 
 
 class Guard:
-    """A context manager for every use of a simulation; within one thread it may be nested.
+    """A context manager for all uses of a simulation by one thread; it may be nested.
 
-    While another thread is inside, it raises RuntimeError instead of waiting. A guard can be neither copied nor
-    pickled, and no object can that has one and reduces itself to it, since no simulation can.
+    While another thread is inside, it raises RuntimeError instead of waiting. An object with a guard can be neither
+    copied nor pickled.
     """
 
     def __init__(self, name: str, num_threads: int = 1):
-        """Makes a guard of what is called `name` in messages and simulates in so many threads.
+        """Makes a guard; `name` names the simulation in messages.
 
-        Where there are several, a process that was forked has none of them: there, too, it raises RuntimeError.
+        A process that was forked has no threads of its parent: with several, the guard raises RuntimeError there.
         """
         self._name = name
         self._process = os.getpid() if num_threads > 1 else None

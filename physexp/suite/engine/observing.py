@@ -86,14 +86,9 @@ class Observer:
         self._sense.look(apparatus, shown, starts.camera[rows], rows, observations)
 
     def add_noise(self, ledger: episodes.Ledger, rows: np.ndarray, observations: Mapping[str, np.ndarray]) -> None:
-        """Adds the noise of the current control step to the observations of some environments.
+        """Adds the noise of the current control step to the observations of some environments, int [N].
 
         It follows from seed, episode, step and reading alone: it is the same whatever is hidden.
-
-        Args:
-          ledger: the ledger of the environments.
-          rows: the environments, int [N].
-          observations: arrays with a leading axis that `rows` index; written to.
         """
         if not self._options.noise:
             return
@@ -104,6 +99,6 @@ class Observer:
             observations[name][rows] += part.reshape(len(part), *shape).astype(np.float32)
 
     def reveal(self, ledger: episodes.Ledger, rows: np.ndarray, observations: Mapping[str, np.ndarray]) -> None:
-        """Writes the right answers, where they are observed; arguments as for `add_noise`."""
+        """Writes the right answers of some environments, int [N], if they are observed."""
         if self._options.reveal:
             observations[ANSWER][rows] = ledger.answers[rows, None] == np.arange(self._num_labels)

@@ -83,14 +83,11 @@ class Options:
             )
 
     def check_step(self, shortest: float, meanwhile: str) -> None:
-        """Refuses a control step in which less happens than the question needs.
+        """Raises ValueError for a control step in which less happens than the question needs.
 
         Args:
-          shortest: the least, s.
-          meanwhile: what happens in it, in words.
-
-        Raises:
-          ValueError: if the control step is shorter.
+          shortest: lower limit, s.
+          meanwhile: the event that needs it, in words.
         """
         if self.control_timestep < shortest:
             raise ValueError(
@@ -115,11 +112,7 @@ class Options:
         return self.substeps - widest, self.substeps + widest
 
     def draw_substeps(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-        """Returns how many physics steps the control steps of some episodes have, int64 [N].
-
-        Args:
-          seeds, episodes: environment seeds and episode indices, int64 [N].
-        """
+        """Returns the physics steps in a control step of some episodes, int64 [N]."""
         fewest, most = self._substeps_range
         if fewest == most:
             return np.full(len(seeds), self.substeps)

@@ -1,4 +1,4 @@
-"""Priors of hidden properties, written once: what draws them and what an ideal experimenter knows of them."""
+"""Priors of hidden properties, written once: for drawing, and for ideal experimenters."""
 
 import dataclasses
 from typing import Any
@@ -55,14 +55,7 @@ class OddOneOut:
         return values
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-        """Returns the values of some episodes, float64 [N, K]; the largest two always differ.
-
-        Args:
-          seeds, episodes: environment seeds and episode indices, int64 [N].
-
-        Raises:
-          RuntimeError: if the largest two tie in every one of many draws.
-        """
+        """Returns the values of some episodes, float64 [N, K]; the largest two always differ."""
         count = self.num_things + 1
         values = self.from_uniforms(seeding.uniforms(seeds, episodes, count))
         for attempt in range(1, _MAX_DRAWS):

@@ -30,16 +30,13 @@ class Renderer:
     """
 
     def __init__(self, model: mujoco.MjModel, moving_geoms: np.ndarray, camera: str = "observer", size: int = SIZE):
-        """Makes a context and uploads the scene.
+        """Makes a context and uploads the scene; raises RuntimeError if no GL backend works.
 
         Args:
           model: a compiled model; its geoms in `UNDRAWN_GROUP` are not drawn.
           moving_geoms: the geoms whose poses differ between images, int [M]; they come after those that stand still.
           camera: name of the camera.
           size: edge of an image, pixels.
-
-        Raises:
-          RuntimeError: if no GL backend works; the message names a remedy.
         """
         self.size = size
         drawn = _with_buffer(model, size)
@@ -73,17 +70,14 @@ class Renderer:
         camera: np.ndarray | None = None,
         colors: np.ndarray | None = None,
     ) -> None:
-        """Draws one image for each pose of the scene.
+        """Draws one image for each pose of the scene; raises RuntimeError if the renderer is closed.
 
         Args:
           geom_xpos, geom_xmat: positions (m) and rotation matrices of the model's geoms, [N, number of geoms, 3 and 9].
-          rows: where each image goes, int [N].
+          rows: row of each image, int [N].
           images: uint8 [B, size, size, 3]; written to, straight from the frame buffer.
-          camera: how far the camera is displaced, m [N, 3]; by default not at all.
-          colors: of the model's geoms, red, green, blue and opacity in [0, 1], [number of geoms, 4]; from now on.
-
-        Raises:
-          RuntimeError: if the renderer is closed.
+          camera: displacements of the camera, m [N, 3]; none by default.
+          colors: colours of the model's geoms from now on, [number of geoms, 4] in [0, 1].
         """
         if self.context is None:
             raise RuntimeError("the renderer is closed")
@@ -129,11 +123,7 @@ _OPEN: weakref.WeakSet[Renderer] = weakref.WeakSet()
 
 @functools.cache
 def _close_at_exit() -> None:
-    """Has all renderers closed at exit, before the backend's own hook, after which no context can be freed.
-
-    The first renderer calls this after it has made its context, and the backend's hook with it: the last hook runs
-    first.
-    """
+    """Registers a hook that closes all renderers before the backend's own hook: the last hook runs first."""
     atexit.register(_close_all)
 
 
@@ -159,7 +149,7 @@ def _free(context: Any, buffers: Any) -> None:
 
 
 def _with_buffer(model: mujoco.MjModel, size: int) -> mujoco.MjModel:
-    """A copy of a model whose off-screen buffer is as large as the image: software GL clears the whole buffer."""
+    """Returns a copy of a model with a buffer as large as the image: software GL clears all of it."""
     drawn = copy.copy(model)
     drawn.vis.global_.offwidth = drawn.vis.global_.offheight = size
     return drawn
@@ -183,11 +173,7 @@ def _make_scene(model: mujoco.MjModel, camera: str) -> mujoco.MjvScene:
 
 
 def _views(scene: mujoco.MjvScene, field: str) -> np.ndarray:
-    """A field of a scene's geoms, [number of geoms, ...], as a view: written all at once.
-
-    A scene's geoms are one array of structs. MuJoCo's bindings give access to one geom at a time, which would take a
-    good part of the time of drawing so small an image.
-    """
+    """Returns a field of a scene's geoms, [number of geoms, ...], as a view: the bindings write one geom at a time."""
     first, second = (getattr(geom, field).ravel() for geom in scene.geoms[:2])
     stride = second.__array_interface__["data"][0] - first.__array_interface__["data"][0]
     return np.lib.stride_tricks.as_strided(first, (scene.ngeom, first.size), (stride, first.itemsize))

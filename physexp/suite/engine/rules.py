@@ -1,7 +1,6 @@
-"""The rules that every question shares (paper, Section 3), written once for one environment and for a batch.
+"""The rules that all questions share (paper, Section 3): interaction actions, numbered from 0, act on the world.
 
-An episode is a question. *Interaction* actions, numbered from 0, act on the world; the *labeling* actions that
-follow answer the question and end the episode. Running out of time counts as a wrong answer.
+The labeling actions that follow answer the question and end the episode. Running out of time is a wrong answer.
 """
 
 import dataclasses
@@ -33,11 +32,7 @@ class Rules:
         return self.num_interactions + self.num_labels
 
     def check_type(self, actions: Any, shape: tuple[int, ...]) -> np.ndarray:
-        """Returns `actions` as an array, if it holds integers in the given shape.
-
-        Raises:
-          ValueError: if it does not.
-        """
+        """Returns `actions` as an array; raises ValueError unless it holds integers in the given shape."""
         try:
             array = np.asarray(actions)
         except ValueError:
@@ -61,15 +56,12 @@ class Rules:
             )
 
     def judge(self, actions: np.ndarray, answers: np.ndarray, steps: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Rewards and endings of one control step.
+        """Returns rewards, float64 [N], and whether episodes end, bool [N].
 
         Args:
           actions: the actions taken, int [N].
           answers: indices of the right labels, int [N].
           steps: control steps taken in the episode, this one included, int [N].
-
-        Returns:
-          Rewards, float64 [N], and whether the episode ends, bool [N].
         """
         labeled = actions >= self.num_interactions
         last = labeled | (steps >= self.step_limit)

@@ -1,7 +1,7 @@
 """Seeds and draws: pure functions of integers, the same for one environment and for thousands.
 
-An episode's hidden property depends on `(environment seed, episode index)` alone, so any episode can be
-rebuilt without playing those before it, and a batch draws all its resets in one vectorised call.
+An episode depends on `(environment seed, episode index)` alone, so any episode can be rebuilt by itself, and a batch
+draws all its resets in one vectorized call.
 """
 
 from typing import Any
@@ -28,10 +28,10 @@ def _mix(x: np.ndarray) -> np.ndarray:
 
 
 def environment_seed(seed: int, index: int) -> int:
-    """Returns the seed of environment `index` in a batch seeded with `seed`: an integer in [0, 2**32).
+    """Returns the seed, in [0, 2**32), of environment `index` in a batch seeded with `seed`.
 
     Raises:
-      ValueError: if one of them is no integer in [0, 2**63).
+      ValueError: if one of them is not an integer in [0, 2**63).
     """
     seed = checks.integer("seed", seed, 0, LARGEST_SEED)
     index = checks.integer("index", index, 0, LARGEST_SEED)
@@ -45,50 +45,28 @@ def environment_seeds(seed: int, indices: np.ndarray) -> np.ndarray:
 
 
 def uniforms(seeds: np.ndarray, episodes: np.ndarray, count: int, attempt: int = 0) -> np.ndarray:
-    """Independent uniform numbers of some episodes.
+    """Returns independent uniform numbers in (0, 1) of some episodes, float64 [N, count].
 
     Args:
-      seeds: environment seeds, int64 [N].
-      episodes: episode indices, int64 [N].
+      seeds, episodes: environment seeds and episode indices, int64 [N].
       count: numbers per episode.
       attempt: 0, 1, ... for further, independent numbers of the same episodes.
-
-    Returns:
-      float64 [N, count], in the open interval (0, 1).
     """
     return _uniforms(_keys(seeds, episodes), count, attempt)
 
 
 def variations(seeds: np.ndarray, episodes: np.ndarray, count: int) -> np.ndarray:
-    """Independent numbers of some episodes in (-1, 1), float64 [N, count], independent of what `uniforms` returns.
-
-    Args:
-      seeds, episodes: as for `uniforms`.
-      count: numbers per episode.
-    """
+    """Returns numbers in (-1, 1), float64 [N, count], independent of those of `uniforms`; arguments as there."""
     return 2 * _uniforms(_mix(_keys(seeds, episodes) ^ _VARIATION), count) - 1
 
 
 def timings(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-    """A number of each of some episodes in (0, 1), float64 [N], independent of what the other functions return.
-
-    Args:
-      seeds, episodes: as for `uniforms`.
-    """
+    """Returns a number in (0, 1) of each episode, float64 [N], independent of all others; as `uniforms`."""
     return _uniforms(_mix(_keys(seeds, episodes) ^ _TIMING), 1)[:, 0]
 
 
 def normals(seeds: np.ndarray, episodes: np.ndarray, steps: np.ndarray, count: int) -> np.ndarray:
-    """Independent standard normal numbers of some control steps, independent of what the other functions return.
-
-    Args:
-      seeds, episodes: as for `uniforms`.
-      steps: control steps of the episodes, int64 [N].
-      count: numbers per step.
-
-    Returns:
-      float64 [N, count].
-    """
+    """Returns standard normal numbers, float64 [N, count], of control steps, int64 [N], independent of all others."""
     keys = _mix(_mix(_keys(seeds, episodes) ^ _NOISE) ^ steps.astype(np.uint64))
     return special.ndtri(_uniforms(keys, count))
 
@@ -106,14 +84,10 @@ def _uniforms(keys: np.ndarray, count: int, attempt: int = 0) -> np.ndarray:
 
 
 def seed_from(random: Any) -> int:
-    """The environment seed that a `random` argument stands for, as in dm_control's tasks.
-
-    Args:
-      random: an integer in [0, 2**63), a `numpy.random.RandomState` (one number is drawn from it), or None
-        for a seed from the operating system.
+    """Returns the environment seed that an argument `random` stands for, as in dm_control's tasks.
 
     Raises:
-      ValueError: if it is none of these.
+      ValueError: if it is not an integer in [0, 2**63), a `numpy.random.RandomState`, or None for a random seed.
     """
     if random is None:
         random = np.random.RandomState()

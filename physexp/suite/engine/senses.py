@@ -24,12 +24,7 @@ class Sense(abc.ABC):
 
     @abc.abstractmethod
     def blank(self, shapes: Mapping[str, tuple[int, ...]], size: int) -> dict[str, np.ndarray]:
-        """Returns arrays for the observations of `size` environments.
-
-        Args:
-          shapes: of the features, by name.
-          size: how many environments.
-        """
+        """Returns arrays for the observations of `size` environments, from the shapes of the features by name."""
 
     @abc.abstractmethod
     def look(
@@ -43,10 +38,10 @@ class Sense(abc.ABC):
         """Writes the observations.
 
         Args:
-          apparatus: what is looked at.
-          state: the fields, float64 [N, ...], for this sense to keep.
-          camera: how far the camera is displaced, m [N, 3].
-          rows: where the observations go, int [N].
+          apparatus: the compiled model.
+          state: the fields, float64 [N, ...], which the sense may keep.
+          camera: displacements of the camera, m [N, 3].
+          rows: rows of the observations, int [N].
           observations: arrays with a leading axis that `rows` index; written to.
         """
 

@@ -125,13 +125,7 @@ class Group:
         self._task.observer.look(self.apparatus, state, untouched, self._starts, rows, observations)
 
     def look(self, touched: np.ndarray, rows: np.ndarray, observations: Mapping[str, np.ndarray]) -> None:
-        """Writes what is observed now.
-
-        Args:
-          touched: whether each held entity has been touched, bool [number of rows, number of held entities].
-          rows: which environments, int.
-          observations: arrays with a leading axis that `rows` index; written to.
-        """
+        """Writes the current observations of rows, some of whose held entities, bool [K, ...], have been touched."""
         state = {field: values[rows] for field, values in self._looked_at.items()}
         self._measured[rows] = state["sensordata"]
         self._task.observer.look(self.apparatus, state, touched, self._starts, rows, observations)
@@ -175,8 +169,7 @@ class Group:
     def poses(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Returns positions, m, and rotations of the geoms, [number of rows, ngeom, 3 and 9].
 
-        They are computed anew, since a reset or a restored state does not change them by itself. Sensors are not: this
-        stage measures some of them alone, so the indicators show the last readings.
+        They are computed anew, since a reset changes only coordinates. Sensors are not: indicators show last readings.
         """
         fields = [self._batch.bind(field) for field in ("geom_xpos", "geom_xmat")]  # Written to by what is called next.
         self._batch.forward(ids=rows, stage=mujoco.mjtStage.mjSTAGE_POS)

@@ -63,11 +63,7 @@ class Snapshot:
 
 
 def take(batch: batch_lib.BatchEnvironment, environments: np.ndarray | None = None) -> Snapshot:
-    """Returns a snapshot of the episodes of some environments.
-
-    Args:
-      batch: the environments.
-      environments: sorted indices, int [N]; all of them by default.
+    """Returns a snapshot of the episodes of some environments, sorted indices int [N], or of all.
 
     Raises:
       ValueError: for indices out of range.
@@ -116,10 +112,6 @@ def view(batch: batch_lib.BatchEnvironment, field: str, environment: int) -> np.
     """Returns a field of `MjData` in one environment, as it is after a step; it may be written to.
 
     An episode that was written to cannot be rebuilt from its seed and actions.
-
-    Raises:
-      ValueError: for an index out of range.
-      RuntimeError: if the batch is closed, or another thread is using it.
     """
     index = checks.integer("environment", environment, 0, batch.num_environments - 1)
     with batch.in_use(np.array([index])) as chosen:

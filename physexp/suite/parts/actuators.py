@@ -58,12 +58,7 @@ class FistActuator:
     """Sets the velocity of the fist."""
 
     def __init__(self, friction: float = material.FRICTION, distance: float = FIST_DISTANCE):
-        """Builds a fist.
-
-        Args:
-          friction: its coefficient of friction.
-          distance: from the tower's axis, at the start, m.
-        """
+        """Builds a fist at a distance from the tower's axis, m."""
         self._distance, reach = distance, _FIST_REACH
         self.fist = fist.Fist([distance - reach, distance + reach], [-reach, reach], friction)
 
@@ -78,7 +73,7 @@ class FistActuator:
         }
 
     def start(self, model: Any, displacements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Returns where the fist starts: addresses of its coordinates, int [2], and their values, m [N, 2].
+        """Returns the addresses of the coordinates of the fist, int [2], and their initial values, m [N, 2].
 
         Args:
           model: a compiled model with the fist.

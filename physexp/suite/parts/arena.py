@@ -76,14 +76,7 @@ class Laboratory(composer.Arena):
     def add_scenery(
         self, name: str, half_size: Sequence[float], pos: Sequence[float], rgba: Sequence[float]
     ) -> mjcf.Element:
-        """Adds a box that is seen and touches nothing; returns its geom.
-
-        Args:
-          name: of the geom.
-          half_size: half its edges, m (3,).
-          pos: of its centre, m (3,).
-          rgba: its colour and opacity.
-        """
+        """Adds a box, by half its edges and its centre, m (3,), that is seen and touches nothing; returns its geom."""
         return self.mjcf_model.worldbody.add(
             "geom", name=name, type="box", size=half_size, pos=pos, rgba=rgba, contype=0, conaffinity=0
         )
@@ -93,13 +86,9 @@ class Laboratory(composer.Arena):
         self.add_scenery("cover", half_size, [x, 0, half_size[2]], COVER_RGBA)
 
     def add_walls(self, distance: float, height: float) -> None:
-        """Adds four walls and a ceiling that are not drawn, so that nothing leaves the view.
+        """Adds four walls and a ceiling, at a distance and a height, m, that are not drawn and keep all things in view.
 
         They are boxes, not planes: the broad phase skips a box that is far away, which a plane never is.
-
-        Args:
-          distance: of the walls from the centre, m.
-          height: of the ceiling above the floor, m.
         """
         half, side = 0.25, distance + 0.5
         boxes = [

@@ -23,13 +23,7 @@ class Fist(composer.Entity):
         friction: float = material.FRICTION,
         name: str = "fist",
     ) -> None:
-        """Builds the fist.
-
-        Args:
-          x_range, y_range: limits of its displacement from where it is attached, m (2,).
-          friction: coefficient of friction.
-          name: name of the MJCF model.
-        """
+        """Builds a fist with limits of its displacement from where it is attached, m (2,)."""
         self._root = mjcf.RootElement(model=name)
         body = self._root.worldbody.add("body", name="body")
         self.joints = []

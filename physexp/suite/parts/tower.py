@@ -45,14 +45,7 @@ class Tower(composer.Entity):
         friction: float = material.FRICTION,
         name: str = "tower",
     ) -> None:
-        """Builds the tower.
-
-        Args:
-          pattern: where it is glued, four booleans from the lowest joint up.
-          half_size: half the edge of a cube, m.
-          friction: of the cubes.
-          name: name of the MJCF model.
-        """
+        """Builds a tower that is glued at some of its four joints, from the lowest up."""
         self._root = mjcf.RootElement(model=name)
         heights = [(2 * k + 1) * half_size for k in range(NUM_BLOCKS)]  # Of the cubes' centres.
         self.blocks = []
@@ -77,12 +70,9 @@ class Tower(composer.Entity):
         return self._root
 
     def add_pushers(self, world_site: mjcf.Element) -> None:
-        """Adds two force actuators a block, along the world's x and y, that act at the block's centre (N).
+        """Adds two force actuators a block (N), along the axes of a site that is fixed in the world.
 
-        They follow the block as it moves, so a glued block passes on the force and the torque that goes with it.
-
-        Args:
-          world_site: a site fixed in the world, whose axes give the directions.
+        They act at the block's centre and follow it, so a glued block passes on the force and its torque.
         """
         for k, cube in enumerate(self.blocks):
             for axis, gear in (("x", [1, 0, 0, 0, 0, 0]), ("y", [0, 1, 0, 0, 0, 0])):
