@@ -213,7 +213,7 @@ def _fields(
         "dof_M0": (dofs, np.stack([total, weight], axis=1)),
         "dof_invweight0": (dofs, np.stack([1 / box, total / (box * weight)], axis=1)),
         "dof_damping": (dofs[1:], damping[:, None]),
-        "jnt_stiffness": (inner, stiffness[:, None]),
+        **apparatus_lib.stiffnesses(apparatus, joints[1:], stiffness[:, None]),
         "jnt_range": (inner, np.stack([-gap, gap], axis=1)[:, None]),
     }
 

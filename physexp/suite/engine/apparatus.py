@@ -210,6 +210,11 @@ def frictions(apparatus: Apparatus, joints: tuple[str, ...], newtons: np.ndarray
     return {"dof_frictionloss": (dofs, newtons)}
 
 
+def stiffnesses(apparatus: Apparatus, joints: tuple[str, ...], values: np.ndarray) -> declarations.Fields:
+    """Returns the model fields of springs, float64 [N, K], on slides (N/m) or hinges (N m/rad)."""
+    return {"jnt_stiffness": (np.array([apparatus.model.joint(joint).id for joint in joints]), values)}
+
+
 def gains(apparatus: Apparatus, actuators: tuple[str, ...], values: np.ndarray) -> declarations.Fields:
     """Returns the model fields of gains, float64 [N, K], of motors by their full names: N or N m at a control of 1."""
     model = apparatus.model

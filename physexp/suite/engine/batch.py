@@ -124,8 +124,8 @@ class BatchEnvironment:
           nuisances: their random variation, [N, number of nuisances] in [-1, 1], for analysis; drawn by default.
 
         Raises:
-          ValueError: for indices out of range, or if `hidden` or `nuisances` do not have the shape, the type and the range
-            of drawn values; all episodes stay as they were.
+          ValueError: for indices out of range, or if `hidden` or `nuisances` do not have the shape, the type and the
+            range of drawn values; all episodes stay as they were.
           RuntimeError: if the batch is closed, or another thread is using it.
         """
         with self.in_use(environments) as chosen:
