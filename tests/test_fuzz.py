@@ -1,7 +1,4 @@
-"""Any input ends in a normal result or in a ValueError, exit status 2 and one readable line; nothing is changed by it.
-
-Hypothesis prints the input that breaks this, and how to have it again.
-"""
+"""Any input gives a result or one readable line, and a refused input changes nothing."""
 
 import contextlib
 import io
@@ -14,15 +11,14 @@ from hypothesis import strategies as st
 import numpy as np
 import pytest
 
-from physexp import suite
+from physexp import cli, suite
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
-from physexp import cli
 from physexp.cli import parsing, printing
 
 FEATURES = suite.tagged("features")
 QUICKLY = hypothesis.settings(
-    max_examples=150, deadline=None, suppress_health_check=list(hypothesis.HealthCheck), print_blob=True
+    max_examples=100, deadline=None, suppress_health_check=list(hypothesis.HealthCheck), print_blob=True
 )
 
 anything = st.recursive(
@@ -121,19 +117,9 @@ def changed(fields: dict, path: list[str], value) -> dict:
     return {**fields, head: changed(fields[head], rest, value)} if head in fields else {**fields, head: value}
 
 
-paths = st.sampled_from(
-    [
-        ["format"],
-        ["train"],
-        ["train", "domain"],
-        ["train", "task_kwargs"],
-        ["train", "difficulty"],
-        ["train", "agent"],
-        ["train", "extra"],
-        *(["train", "agent", name] for name in CONFIG["agent"]),
-        ["train", "agent", "extra"],
-    ]
-)
+IN_TRAIN = [[], ["domain"], ["task_kwargs"], ["difficulty"], ["agent"], ["extra"], ["agent", "extra"]]
+IN_TRAIN += [["agent", name] for name in CONFIG["agent"]]
+paths = st.sampled_from([["format"], *(["train", *path] for path in IN_TRAIN)])
 
 
 @QUICKLY
@@ -162,42 +148,15 @@ def test_a_config_file_may_be_no_json(tmp_path_factory, content):
         _ = run.config
 
 
-def words():
-    """Words that a command line may have: names that are known, numbers, and noise; none that starts long work."""
-    known = [
-        "tasks",
-        "evaluate",
-        "ideal",
-        "replay",
-        "report",
-        "train",
-        "towers",
-        "which_is_heavier",
-        "features",
-        "fist_features",
-        "--json",
-        "--help",
-        "--episodes",
-        "--difficulty",
-        "--discount",
-        "--seed",
-        "--resume",
-        "--agent",
-        "ppo",
-        "belief",
-        "a3c",
-        "--num-workers",
-        "--run-dir",
-        "--control-timestep",
-        "--frames",
-    ]
-    return st.lists(st.sampled_from(known) | st.text(max_size=6) | numbers.map(str), max_size=5)
+KNOWN = """tasks evaluate ideal replay report train towers which_is_heavier features fist_features --json --help
+--episodes --difficulty --discount --seed --resume --agent ppo belief a3c --num-workers --run-dir --control-timestep --frames"""
+words = st.lists(st.sampled_from(KNOWN.split()) | st.text(max_size=6) | numbers.map(str), max_size=5)
 
 
 @QUICKLY
-@hypothesis.given(words())
+@hypothesis.given(words)
 def test_the_command_line_takes_anything(tmp_path_factory, arguments):
-    # What would run for long with good arguments is only parsed: everything up to there is the real thing.
+    # Good arguments could start a long run, so they are only parsed.
     folder = tmp_path_factory.mktemp("here")
     out, err = io.StringIO(), io.StringIO()
     with contextlib.chdir(folder), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
@@ -215,75 +174,35 @@ def test_the_command_line_takes_anything(tmp_path_factory, arguments):
 
 NONSENSE = """
 nothing
---nothing
-train
 train towers
-train towers features
 train which_is_heavier features --max-farmes 3
 train which_is_heavier features --frames 0
-train which_is_heavier features --frames many
-train which_is_heavier features --agent a3c --num-workers 0
 train which_is_heavier features --agent a3c --num-workers 1000000
-train which_is_heavier features --agent a3c --num-workers 9999
-train which_is_heavier features --agent a3c --envs-per-worker 1000000000000
-train which_is_heavier features --learning-rate nan
-train which_is_heavier features --learning-rate inf
-train which_is_heavier features --seed -1
 train which_is_heavier features --seed 99999999999999999999
 train which_is_heavier features --difficulty nan
-train which_is_heavier features --difficulty 0
-train which_is_heavier features --replay-every -1
 train which_is_heavier features --agent dqn
-train which_is_heavier features --agent ppo --clip -1
-train which_is_heavier features --agent ppo --cluster local
-train which_is_heavier features --cluster nonsense
+train which_is_heavier features --agent ppo --num-workers 2
 train which_is_heavier features --resume
 train towers fist_features --difficulty 3
-train towers fist_features --control-timestep 0
-train towers fist_features --control-timestep nan
 train towers fist_features --control-timestep 1e300
-evaluate
 evaluate nowhere
-evaluate towers/nothing
 evaluate towers/fist_features --episodes 0
-evaluate towers/fist_features --seed -1
-evaluate towers/fist_features --interaction clever
-replay towers/fist_features --episodes -3
 replay towers/fist_features --seed -5
 replay towers/fist_features --select best
-replay towers/fist_features --compare which_is_heavier/features
 play towers nothing
-play towers fist_features --difficulty 3
-play towers fist_features --seed -1
 publish nowhere
 ideal nothing
-ideal which_is_heavier --difficulty nan
-ideal which_is_heavier --difficulty 1e300
-ideal which_is_heavier --difficulty 0
 ideal which_is_heavier --discount 2
-ideal which_is_heavier --blocks 0
-ideal which_is_heavier --blocks 1000000
-ideal towers --resolution -1
 ideal towers --resolution nan
-ideal towers --discount nan
-ideal which_is_heavier --variation nan
-ideal which_is_heavier --noise 1e300
-ideal towers --noise 0.01 --resolution nan
-reproduce
 reproduce everything
 reproduce mass_gap --seeds 0
-reproduce mass_gap --seeds 1000000000000
-reproduce mass_gap --jobs 0
-reproduce mass_gap --jobs 1000000000000
-reproduce mass_gap --frames -3
 report --results-dir nowhere
 bench nothing
-doctor more
 """.strip().splitlines()
 
 
 @pytest.mark.parametrize("line", NONSENSE)
-def test_a_command_that_makes_no_sense_is_one_readable_line_and_makes_nothing(line, tmp_path, monkeypatch, capsys):
+def test_a_bad_command_gives_one_readable_line_and_makes_nothing(line, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "argv", ["physexp", *line.split()])
     monkeypatch.setattr(printing, "_PATIENCE", 0)  # Refused before any work that is announced.
