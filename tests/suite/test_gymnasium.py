@@ -171,34 +171,6 @@ def test_an_unknown_keyword_is_a_type_error_as_torchrl_expects(make):
         make(NAMES[0], frameskip=1)
 
 
-@pytest.mark.parametrize("name", ["physexp/towers-fist_features-v0", "physexp/which_is_heavier-pixels-v0"])
-def test_a_vector_environment_draws_what_each_environment_behind_it_draws(name, seed):
-    vector = gymnasium.make_vec(name, num_envs=3, vectorization_mode="vector_entry_point", render_mode="rgb_array")
-    singles = [
-        gymnasium.make(name, random=suite.environment_seed(seed, i), render_mode="rgb_array").unwrapped
-        for i in range(3)
-    ]
-    vector.reset(seed=seed)
-    for single in singles:
-        single.reset()
-    for step in range(4):
-        actions = np.array([0, 1, single.dm_env.task.num_interactions if step == 1 else 3])
-        vector.step(actions)
-        for single, action in zip(singles, actions, strict=True):
-            if single._playing:
-                single.step(int(action))
-            else:
-                single.reset()
-        images = vector.render()
-        assert isinstance(images, tuple) and len(images) == vector.num_envs
-        for image, single in zip(images, singles, strict=True):
-            np.testing.assert_array_equal(image, single.render())
-    assert vector.metadata["render_fps"] == singles[0].metadata["render_fps"] == 10
-    vector.close()
-    for single in singles:
-        single.close()
-
-
 def test_a_grid_has_the_images_row_by_row_and_black_where_there_is_none():
     vector = adapter.VectorEnvironment("which_is_heavier", "features", 3, random=0, render_mode="rgb_array_grid")
     vector.reset()

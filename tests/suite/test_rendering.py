@@ -1,8 +1,6 @@
 """Rendering: which GL backend draws, what happens without one, and how contexts come and go."""
 
-from concurrent import futures
 import ctypes.util
-import threading
 
 import interpreters
 import numpy as np
@@ -13,8 +11,6 @@ from physexp import suite
 from physexp.cli import doctor
 from physexp.suite import gymnasium
 from physexp.suite.engine import gl, rendering
-
-import mujoco  # isort: skip  # The suite chooses the GL backend, which mujoco looks at once.
 
 HEAVIER = ("which_is_heavier", "pixels")
 LIBRARIES = ("EGL", "OSMesa")
@@ -210,20 +206,6 @@ def test_pixels_are_drawn_whatever_was_imported_first_or_spelled_how(first, choi
 # Contexts.
 
 
-@pytest.fixture
-def contexts(monkeypatch):
-    """The threads in which GL contexts are made, one entry for each context."""
-    threads = []
-    make = mujoco.GLContext.__init__
-
-    def counting(self, *args, **kwargs):
-        threads.append(threading.get_ident())
-        make(self, *args, **kwargs)
-
-    monkeypatch.setattr(mujoco.GLContext, "__init__", counting)
-    return threads
-
-
 @needs_gl
 def test_no_context_is_made_before_the_first_image():
     """Not by importing, by playing with features, or by loading and reading the specs of pixel tasks."""
@@ -258,38 +240,6 @@ single.close(), batch.close()
         MUJOCO_GL=gl.choose_backend(),
     )
     assert found["counts"] == [0, 0, 0, 1, 2]
-
-
-@needs_gl
-def test_all_contexts_are_made_by_one_thread_that_makes_no_other(contexts):
-    def play():
-        batch = suite.load_batch(*HEAVIER, 2, {"random": 0})
-        batch.reset()
-        batch.render()
-        batch.close()
-        gl.check()
-        return threading.get_ident()
-
-    with futures.ThreadPoolExecutor(1) as pool:
-        callers = {play(), pool.submit(play).result()}
-    assert len(contexts) == 6 and len(set(contexts)) == 1
-    assert not callers & set(contexts)
-
-
-@needs_gl
-def test_a_closed_renderer_says_so_and_may_be_closed_again():
-    apparatus = suite.load_task(*HEAVIER).build_apparatus(0)
-    data = mujoco.MjData(apparatus.model)
-    mujoco.mj_forward(apparatus.model, data)
-    images = np.zeros((1, rendering.SIZE, rendering.SIZE, 3), np.uint8)
-    poses = (data.geom_xpos[None], data.geom_xmat[None], np.array([0]), images)
-    renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms)
-    renderer.render(*poses)
-    assert images.std() > 10, "nothing was drawn"
-    renderer.close()
-    renderer.close()
-    with pytest.raises(RuntimeError, match="the renderer is closed"):
-        renderer.render(*poses)
 
 
 FORGETFUL = {
@@ -334,18 +284,6 @@ def test_torch_takes_every_image_as_it_is():
 
 
 # What draws.
-
-
-@needs_gl
-def test_the_renderers_name_is_gls_own_and_what_the_doctor_shows():
-    from OpenGL import GL
-
-    context = mujoco.GLContext(8, 8)
-    context.make_current()
-    name = GL.glGetString(GL.GL_RENDERER).decode()
-    context.free()
-    gl.renderer_name.cache_clear()
-    assert name and doctor.examine()["gl_renderer"] == gl.renderer_name() == name
 
 
 def test_software_is_known_by_its_name():

@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-from sb3_contrib import RecurrentPPO
-from stable_baselines3.common import vec_env
 
 from physexp import suite
 from physexp.suite import stable_baselines
@@ -92,34 +90,3 @@ def test_rendering_lays_the_images_of_all_environments_side_by_side(seed):
         assert image.std() > 10
     assert vector.metadata["render_fps"] == 10
     vector.close()
-
-
-@pytest.mark.long
-def test_recurrent_ppo_of_sb3_contrib_learns_to_beat_chance(tmp_path, monkeypatch):
-    monkeypatch.setenv("SB3_LOGDIR", str(tmp_path))  # It would leave a folder among the system's temporary files.
-    batch = stable_baselines.VecEnv("which_is_heavier", "features", 64, random=0, difficulty=20.0)
-    vector = vec_env.VecNormalize(batch, norm_reward=False)  # Heights are tenths of a metre.
-    learner = RecurrentPPO(
-        "MultiInputLstmPolicy",
-        vector,
-        n_steps=16,
-        batch_size=512,
-        n_epochs=10,
-        learning_rate=3e-3,
-        ent_coef=0.05,
-        gamma=0.95,
-        gae_lambda=1.0,
-        seed=0,
-        policy_kwargs={"lstm_hidden_size": 32, "net_arch": []},
-    )
-    learner.learn(60_000)
-    observation, states, starts = vector.reset(), None, np.ones(64, bool)
-    verdicts = []
-    for _ in range(40):
-        actions, states = learner.predict(observation, states, starts)
-        observation, rewards, starts, _ = vector.step(actions)
-        verdicts += list(rewards[starts])
-    right, total = sum(verdict > 0 for verdict in verdicts), len(verdicts)
-    # Chance is a quarter right: 4 standard deviations above it, and half as much again, is no luck.
-    assert total > 100
-    assert right / total > 0.25 + 4 * np.sqrt(0.25 * 0.75 / total)

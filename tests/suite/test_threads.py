@@ -68,29 +68,6 @@ def test_a_second_thread_is_refused_in_one_line_and_the_first_goes_on(which, mon
         timestep, expected = environment.step(action), twin.step(action)
 
 
-def test_two_threads_that_step_one_environment_at_once_end_no_process():
-    """They take turns as it happens, or are refused."""
-    environment = suite.load(*TASK, {"random": 0})
-    environment.reset()
-    steps, refused = [], []
-
-    def play():
-        for i in range(300):
-            try:
-                steps.append(environment.step(i % 4))
-            except RuntimeError as error:
-                refused.append(str(error))
-
-    threads = [threading.Thread(target=play) for _ in range(2)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert len(steps) + len(refused) == 600 and len(steps) > 0
-    assert all(message.startswith("another thread") for message in refused)
-    assert environment.reset().first()
-
-
 @pytest.mark.parametrize("which", [0, 1], ids=["environment", "batch"])
 def test_a_copy_is_refused_with_what_to_do_instead(which):
     environment, _ = _environments()[which]

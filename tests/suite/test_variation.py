@@ -12,7 +12,6 @@ from scipy import stats
 
 from physexp import suite
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import seeding
 from physexp.suite.parts import tower
 
 every_varying_task = pytest.mark.parametrize("name", VARYING)
@@ -160,17 +159,6 @@ def test_images_are_those_of_a_displaced_camera_and_the_next_is_drawn_from_its_o
     differences = np.abs(images.astype(int) - plain).mean(axis=(1, 2, 3))
     assert differences.min() > 0 and differences.max() < 25
     batch.close()
-
-
-def test_numbers_of_variation_are_uniform_and_independent_of_what_is_hidden(seed):
-    episodes, seeds = np.arange(20_000), np.full(20_000, seed)
-    found, uniforms = seeding.variations(seeds, episodes, 3), seeding.uniforms(seeds, episodes, 3)
-    normals = seeding.normals(seeds, episodes, np.zeros(20_000, np.int64), 3)
-    assert stats.kstest(found.ravel(), "uniform", args=(-1, 2)).pvalue > P_VALUE
-    for others in (uniforms, normals):
-        for i in range(3):
-            for j in range(3):
-                assert stats.pearsonr(found[:, i], others[:, j]).pvalue > P_VALUE
 
 
 def test_variation_is_refused_where_nothing_varies():

@@ -1,7 +1,6 @@
 """Fixtures of the tests of images."""
 
 import images
-import numpy as np
 import pytest
 
 from physexp import suite
@@ -31,23 +30,6 @@ def load():
     yield load
     for environment in opened:
         environment.close()
-
-
-@pytest.fixture
-def poses_drawn(monkeypatch):
-    """For each call of a renderer, which draws as ever, positions [N, G, 3] and rotation matrices [N, G, 9], float32.
-
-    That is what MuJoCo draws with. In float64 the blocks' heights differ by rounding from one structure to another.
-    """
-    poses = []
-    render = rendering.Renderer.render
-
-    def recording(self, geom_xpos, geom_xmat, *args, **kwargs):
-        poses.append((geom_xpos.astype(np.float32), geom_xmat.astype(np.float32)))
-        return render(self, geom_xpos, geom_xmat, *args, **kwargs)
-
-    monkeypatch.setattr(rendering.Renderer, "render", recording)
-    return poses
 
 
 @pytest.fixture

@@ -2,10 +2,9 @@
 
 from concurrent import futures
 import ctypes.util
-import gc
 
 from episodes import SEED
-from images import FIST, HEAVIER, MARKS, every_pixel_task, image_of, load_single, play_episode
+from images import HEAVIER, MARKS, every_pixel_task, image_of, load_single, play_episode
 import interpreters
 import numpy as np
 import pytest
@@ -33,23 +32,6 @@ def test_environments_that_take_turns_each_see_their_own_state(load, domain_name
         np.testing.assert_array_equal(image_of(other.step(others[t])), expected_others[t + 1])
     assert len({image.tobytes() for image in expected}) > 1, "the images never changed"
     assert (expected[-1] != expected_others[-1]).any()
-
-
-@pytest.mark.parametrize("end", ["closed", "dropped"])
-@pytest.mark.parametrize("which", ["drawn first", "drawn last"])
-def test_when_one_environment_is_gone_the_others_and_new_ones_see_as_before(load, end, which):
-    actions = [0, 1, 2]
-    staying, random = load_single(*FIST), suite.environment_seed(SEED, 0)
-    expected = play_episode(staying, actions)
-    gone = suite.load(*FIST, {"random": random})
-    for env in (gone, staying) if which == "drawn first" else (staying, gone):
-        play_episode(env, actions)
-    if end == "closed":
-        gone.close()
-    del gone, env
-    gc.collect()
-    for env in (staying, load(*FIST, random)):
-        np.testing.assert_array_equal(play_episode(env, actions), expected)
 
 
 DISTURB = """
@@ -155,21 +137,6 @@ def test_any_thread_may_draw(load, size):
     for expected, *images in zip(play(), _in_another_thread(play), play(), strict=True):
         np.testing.assert_array_equal(images, [expected, expected])
     _in_another_thread(env.close)
-
-
-@pytest.mark.parametrize("size", [None, 2])
-def test_an_environment_may_be_closed_by_another_thread_than_the_one_that_drew(load, size):
-    neighbour = load_single(*HEAVIER)
-    expected = play_episode(neighbour, [0, 1])
-    env = load(*HEAVIER, 0, size)
-    action = 0 if size is None else [0] * size
-    _in_another_thread(lambda: (env.reset(), env.step(action)))
-    env.close()
-    with pytest.raises(RuntimeError, match="closed"):
-        env.step(action)
-    env = None
-    gc.collect()
-    np.testing.assert_array_equal(play_episode(neighbour, [0, 1]), expected)
 
 
 POOL = """

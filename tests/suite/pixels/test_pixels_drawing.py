@@ -59,28 +59,6 @@ def test_a_batch_draws_one_image_for_each_environment_that_interacts_and_one_fir
 
 
 @every_pixel_task
-def test_the_image_of_a_label_is_the_one_before(domain_name, task_name):
-    batch, (env, *_) = start_both(domain_name, task_name, 3)
-    for label in range(env.task.num_labels):
-        first = image_of(env.reset())
-        for t in range(3):
-            before = image_of(env.step(t))
-        assert (before != first).any()
-        answer = env.step(env.task.num_interactions + label)
-        assert answer.last()
-        np.testing.assert_array_equal(image_of(answer), before)
-        batch.reset(episode=0)
-        for t in range(2):
-            before = image_of(batch.step([t, 0, 1]))
-        answer = batch.step([batch.task.num_interactions + label, 1, 0])
-        np.testing.assert_array_equal(
-            answer.step_type, [dm_env.StepType.LAST, dm_env.StepType.MID, dm_env.StepType.MID]
-        )
-        np.testing.assert_array_equal(image_of(answer)[0], before[0])
-        assert (image_of(answer)[1:] != before[1:]).any(axis=(1, 2, 3)).all()
-
-
-@every_pixel_task
 def test_the_image_of_an_episode_that_diverges_is_the_one_before(domain_name, task_name):
     batch, singles = start_both(domain_name, task_name, 3)
     for _ in range(5):

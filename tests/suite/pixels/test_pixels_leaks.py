@@ -1,19 +1,15 @@
 """Images tell nothing of what is hidden before it is touched."""
 
 import dm_env
-from episodes import AWAY, EVERY_PATTERN, SEED, episode_with, plans_that_miss
+from episodes import EVERY_PATTERN, plans_that_miss
 from images import (
     FIST,
     HEAVIER,
     MARKS,
-    SEPARATE,
     SHAPE,
-    WHOLE,
     batch_of_patterns,
-    block_geoms,
     corners_of_blocks,
     image_of,
-    load_shared,
     load_single,
     model_of,
     poses_at_rest,
@@ -53,27 +49,6 @@ def test_the_images_of_an_episode_that_leaves_the_tower_alone_are_the_same_whate
     assert (steps.step_type == dm_env.StepType.LAST).all(), "the episodes were not played to their end"
     assert len({image.tobytes() for image in images[:3, 0]} | {first[0].tobytes()}) == 4, "the fist is not to be seen"
     assert not leaks, f"{len(leaks)} leaks (control step, what), the first: {leaks[:4]}"
-
-
-@pytest.mark.parametrize("control_timestep", [0.1, 0.005])
-def test_an_untouched_tower_is_drawn_to_the_last_bit_as_it_stood_at_first(poses_drawn, control_timestep):
-    """It settles by less than a micrometre, which pixels show only where an edge happens to be next to one's centre."""
-    model = model_of(*FIST)
-    rest, blocks = poses_at_rest(model)[0][0].astype(np.float32), block_geoms(model)
-    batch, chosen, _ = batch_of_patterns("fist_pixels", EVERY_PATTERN, control_timestep)
-    single = load_shared(*FIST, SEED, control_timestep=control_timestep)
-    for _ in range(5):
-        batch.step(np.full(16, AWAY), chosen)
-    for pattern in (SEPARATE, 6, WHOLE):
-        single.task.next_episode = episode_with(pattern, SEED)
-        single.reset()
-        for _ in range(5):
-            single.step(AWAY)
-    positions, rotations = (np.concatenate(values) for values in zip(*poses_drawn, strict=True))
-    assert len(positions) >= 16 * 5 + 3 * (1 + 5)
-    assert (positions[:, model.geom("fist/geom").id] != rest[model.geom("fist/geom").id]).any(), "nothing moved"
-    for shown, expected in ((positions, rest), (rotations, np.tile(np.eye(3).ravel(), (model.ngeom, 1)))):
-        assert (shown[:, blocks] == expected[blocks]).all()
 
 
 def test_a_poked_block_tells_nothing_of_the_others_which_stay_as_they_were():
