@@ -1,9 +1,8 @@
-"""The directive `command-line`: what `physexp --help` prints, for every command, when the pages are built."""
+"""The directive `command-line`: the help of every command, as it is when the pages are built."""
 
 import contextlib
 import io
 import os
-import re
 from unittest import mock
 
 from docutils import nodes
@@ -11,6 +10,7 @@ from sphinx.util.docutils import SphinxDirective
 
 from physexp import cli, suite
 from physexp.analysis.training import config
+from physexp.cli import commands
 
 WIDTH = 88  # Columns; more would not fit on a page.
 _VARIANTS = {
@@ -21,7 +21,7 @@ _VARIANTS = {
 
 
 def help_of(*arguments: str) -> str:
-    """Returns what `physexp ARGUMENTS --help` prints."""
+    """Returns the output of `physexp ARGUMENTS --help`."""
     printed = io.StringIO()
     with (
         mock.patch("sys.argv", ["physexp", *arguments, "--help"]),
@@ -33,17 +33,12 @@ def help_of(*arguments: str) -> str:
     return printed.getvalue()
 
 
-def commands() -> list[str]:
-    """Returns the names of all commands."""
-    return re.search(r"\{([\w,\s]+)\}", help_of())[1].replace("\n", "").replace(" ", "").split(",")
-
-
 class CommandLine(SphinxDirective):
     """A section for each command with its help."""
 
     def run(self) -> list[nodes.Node]:
         sections = []
-        for command in commands():
+        for command in commands.COMMANDS:
             section = nodes.section(ids=[f"physexp-{command}"])
             section += nodes.title(text=f"physexp {command}")
             for arguments in _VARIANTS.get(command, [[]]):
@@ -54,5 +49,6 @@ class CommandLine(SphinxDirective):
 
 
 def setup(app) -> dict:
+    """Adds the directive."""
     app.add_directive("command-line", CommandLine)
     return {"parallel_read_safe": True}

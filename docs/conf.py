@@ -13,6 +13,7 @@ release = importlib.metadata.version("physexp")
 
 extensions = [
     "command_help",
+    "from_code",
     "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
@@ -27,7 +28,7 @@ html_static_path = ["static"]
 html_css_files = ["page.css"]
 copybutton_exclude = ".linenos, .gp, .go"
 
-default_role = "py:obj"  # What stands in single backticks in a docstring is code, and a link where it has a page.
+default_role = "py:obj"  # Single backticks in a docstring are code, and a link if it has a page.
 myst_heading_anchors = 3
 suppress_warnings = ["misc.highlighting_failure"]
 

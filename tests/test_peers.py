@@ -1,4 +1,4 @@
-"""Learners of other projects, the examples of docs/how_to.md, train on our tasks, and what they learn is scored."""
+"""Learners of other projects, the examples of docs/how_to.md, train on our tasks and are scored."""
 
 import importlib
 import json
@@ -13,41 +13,41 @@ from physexp import suite
 from physexp.analysis.score import player, protocol, scoring, targets
 
 EXAMPLES = Path(__file__).parents[1] / "docs" / "examples"
+FRAMES = 1024
 PEERS = ["recurrent_ppo", "skrl_ppo"]
 (STRINGS,) = protocol.named(["strings/features"])
 
 
 @pytest.fixture(scope="module", autouse=True)
 def here(tmp_path_factory):
-    """A folder where each has trained on a task of pucks for some hundred steps; it is the current one."""
+    """Trains each peer for some hundred steps in a folder, which becomes the current one."""
     with pytest.MonkeyPatch.context() as patch:
         patch.syspath_prepend(str(EXAMPLES))
         patch.chdir(tmp_path_factory.mktemp("peers"))
         for peer in PEERS:
-            importlib.import_module(peer).train(STRINGS.name, frames=1024)
+            importlib.import_module(peer).train(STRINGS.name, frames=FRAMES)
         yield
 
 
 @pytest.mark.parametrize("peer", PEERS)
-def test_a_peer_keeps_what_it_has_learned_and_how_long_it_took(peer):
+def test_a_peer_keeps_its_network_and_the_facts_of_its_training(peer):
     facts = json.loads(Path(f"runs/{peer}/strings-features.json").read_text())
-    assert facts["frames"] == 1024 and facts["seconds"] > 0
-    assert facts["command"].startswith(f"python {peer}.py strings/features --frames 1024 ")
+    assert facts["frames"] == FRAMES and facts["seconds"] > 0
+    assert facts["command"].startswith(f"python {peer}.py strings/features --frames {FRAMES} ")
     assert facts["curve"][-1].items() <= facts.items()
     assert all(-1 <= row["return"] <= 1 for row in facts["curve"])
 
 
-@pytest.mark.parametrize("peer", PEERS)
-def test_training_ends_when_its_time_is_over(peer):
-    module = importlib.import_module(peer)
+def test_training_ends_when_its_time_is_over():
+    module = importlib.import_module("skrl_ppo")
     module.train("threshold/features", frames=10**9, minutes=0.02)
-    facts = json.loads(Path(f"runs/{peer}/threshold-features.json").read_text())
+    facts = json.loads(Path("runs/skrl_ppo/threshold-features.json").read_text())
     assert facts["seconds"] >= 1.2 and facts["frames"] < 10**9
     assert module.path_of(*protocol.named(["threshold/features"])).exists()
 
 
 @pytest.mark.parametrize("peer", PEERS)
-def test_what_a_peer_has_learned_is_scored_and_other_tasks_say_how_to_train(peer):
+def test_a_trained_peer_is_scored_and_other_tasks_say_how_to_train(peer):
     found = scoring.score(targets.find(f"{peer}:make"), [STRINGS], 5, Path(f"scored_{peer}"))
     assert found["complete"] and found["tasks"]["strings/features"]["episodes"] == 5
     with pytest.raises(player.PlayerError, match=rf"balance-features\.\w+ is missing; train it: python {peer}.py b"):
@@ -55,7 +55,7 @@ def test_what_a_peer_has_learned_is_scored_and_other_tasks_say_how_to_train(peer
 
 
 @pytest.mark.parametrize("peer", PEERS)
-def test_a_policy_remembers_within_an_episode_and_nothing_of_the_one_before(peer):
+def test_a_policy_remembers_within_one_episode_alone(peer):
     policy = importlib.import_module(peer).make(STRINGS)
     observation = suite.load("strings", "features", task_kwargs={"random": 0}).reset().observation
     _, first = policy(observation, None)
@@ -65,7 +65,7 @@ def test_a_policy_remembers_within_an_episode_and_nothing_of_the_one_before(peer
     assert not np.array_equal(np.asarray(first), np.asarray(second))
 
 
-def test_the_network_of_skrl_says_the_same_of_sequences_in_which_episodes_end_as_step_by_step():
+def test_the_network_of_skrl_is_the_same_in_sequences_and_step_by_step():
     torch.manual_seed(fresh_seed())
     length, count = 16, 3
     policy = importlib.import_module("skrl_ppo").Policy(STRINGS, count)
