@@ -149,7 +149,8 @@ def test_a_config_file_may_be_no_json(tmp_path_factory, content):
 
 
 KNOWN = """tasks evaluate ideal replay report train towers which_is_heavier features fist_features --json --help
---episodes --difficulty --discount --seed --resume --agent ppo belief a3c --num-workers --run-dir --control-timestep --frames"""
+--episodes --difficulty --discount --seed --resume --agent ppo belief a3c --num-workers --run-dir
+--control-timestep --frames"""
 words = st.lists(st.sampled_from(KNOWN.split()) | st.text(max_size=6) | numbers.map(str), max_size=5)
 
 

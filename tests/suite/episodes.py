@@ -1,4 +1,4 @@
-"""What tests of the suite share: a seed for a module, towers with patterns of glue, and actions to play."""
+"""Shared by tests of the suite: a seed for a module, towers with patterns of glue, and actions to play."""
 
 import functools
 import os

@@ -50,7 +50,7 @@ def test_the_beam_tilts_to_the_heavier_pan_whatever_was_there_before(seed, contr
 
 @pytest.mark.parametrize("domain_name, task_name", TASKS)
 def test_observations_tell_nothing_but_places_and_tilt(seed, domain_name, task_name):
-    """Whatever the blocks weigh and whatever happened before, what is seen follows from these two."""
+    """Observations follow from these two, for all weights and all histories."""
     rng = np.random.default_rng(seed)
     weights = np.tile(_hardest(), (2, 1))
     batch = suite.load_batch(domain_name, task_name, len(weights), {"random": seed})

@@ -191,7 +191,7 @@ def test_every_pattern_of_glue_is_played_alike_in_a_batch_and_alone(seed):
 
 @every_feature_task
 def test_episodes_go_on_from_a_snapshot_in_several_ways(seed, name):
-    """What follows is, to the bit, what follows in environments that have played the same actions in one go."""
+    """They equal, to the bit, environments that have played the same actions in one go."""
     rng = np.random.default_rng(seed)
     batch, singles = _load_both(name, seed, 3)
     batch.reset()

@@ -43,7 +43,7 @@ def test_importing_starts_no_thread_or_process_and_opens_no_context(module):
     assert (found["children"], found["threads"], found["contexts"]) == (0, 1, 0)
 
 
-def test_importing_the_suite_imports_neither_torch_nor_what_learns_and_plots():
+def test_importing_the_suite_imports_no_torch_and_no_plots():
     found, _ = interpreters.run(f"{LOOK_AROUND}\nimport physexp.suite\nfound.update(look_around())")
     unwanted = {"torch", "matplotlib", "pandas", "pyarrow", "rerun", "gymnasium", "ray", "tensorboard"}
     assert not unwanted & set(found["loaded"])

@@ -94,7 +94,7 @@ def _positions(kit, data) -> np.ndarray:
 
 
 @pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
-def test_a_plain_awake_tower_settles_by_less_than_a_tenth_of_the_touch_tolerance(task_name):
+def test_a_plain_tower_settles_by_less_than_the_touch_tolerance(task_name):
     settled = {}
     for pattern, (kit, data) in enumerate(_plain(task_name)):
         worst = 0.0
@@ -138,7 +138,7 @@ def test_a_pushed_tower_moves_as_a_plain_awake_one(seed):
             np.testing.assert_allclose(_positions(kit, data), positions[pattern], rtol=0, atol=1e-6)
 
 
-def test_a_tower_at_rest_feels_every_contact_from_the_first_physics_step_on():
+def test_a_tower_at_rest_feels_every_contact_from_the_start():
     """Each joint that is not glued, and the floor, has its four contact points: nothing falls before it is carried."""
     missing = {}
     for pattern, (kit, data) in enumerate(_plain("direct_features")):

@@ -28,7 +28,7 @@ def _played(domain, task, seed, size, noise, hidden=None, episode=0):
 
 
 @every_noisy_task
-def test_noise_is_normal_and_new_in_every_reading_step_episode_and_environment(seed, domain, task):
+def test_noise_is_normal_and_new_in_every_reading_and_step(seed, domain, task):
     differences = [
         (_played(domain, task, seed, 50, NOISE, episode=e) - _played(domain, task, seed, 50, 0.0, episode=e)).ravel()
         for e in (0, 1)

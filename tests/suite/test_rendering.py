@@ -16,7 +16,7 @@ HEAVIER = ("which_is_heavier", "pixels")
 LIBRARIES = ("EGL", "OSMesa")
 PACKAGES = ("libegl1", "libgl1-mesa-dri", "libosmesa6")  # Debian's.
 NO_DISPLAY = {"DISPLAY": None, "WAYLAND_DISPLAY": None}
-# What draws is not what is tested here, but where it is said.
+# The renderer itself is not tested here.
 pytestmark = pytest.mark.filterwarnings("ignore:PIXELS ARE DRAWN BY THE PROCESSOR")
 
 needs_gl = pytest.mark.skipif(
@@ -127,7 +127,7 @@ except OSError:
 """
 
 
-def test_without_gl_libraries_features_are_played_and_pixels_say_what_to_install():
+def test_without_gl_libraries_pixels_say_what_to_install():
     found, stderr = interpreters.run(
         f"""
 {HIDE_GL}
@@ -146,7 +146,7 @@ found["played_again"] = play_features()
     assert stderr == ""
 
 
-def test_with_a_gl_library_but_no_driver_features_are_played_and_pixels_say_what_to_install(tmp_path):
+def test_without_a_gl_driver_pixels_say_what_to_install(tmp_path):
     """As on a machine that has libegl1 without libgl1-mesa-dri."""
     _needs_library("EGL")
     found, _ = interpreters.run(
@@ -283,7 +283,7 @@ def test_torch_takes_every_image_as_it_is():
     wrapped.close(), vector.close()
 
 
-# What draws.
+# The renderer.
 
 
 def test_software_is_known_by_its_name():

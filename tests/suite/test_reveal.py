@@ -27,7 +27,7 @@ def _played(name, seed, **task_kwargs):
 
 
 @every_feature_task
-def test_the_right_answer_is_observed_from_the_first_step_on_and_all_else_is_the_same_to_the_bit(name, seed):
+def test_the_answer_is_observed_and_all_else_is_the_same(name, seed):
     (plain, answers), (revealing, same) = _played(name, seed), _played(name, seed, reveal=True)
     np.testing.assert_array_equal(answers, same)
     num_labels = load_task(name).num_labels

@@ -16,7 +16,7 @@ WAIT = 4
 
 
 def _places(batch) -> np.ndarray:
-    """Where boxes and weights are, m [N, 2]."""
+    """Positions of boxes and weights, m [N, 2]."""
     return np.array([snapshots.view(batch, "qpos", row) for row in range(len(batch.correct_answers))])
 
 
@@ -89,7 +89,7 @@ def test_only_who_waits_sees_the_box_and_to_a_mark(seed, difficulty, mark):
 
 @pytest.mark.parametrize("domain_name, task_name", TASKS)
 def test_observations_tell_nothing_but_the_push_and_the_place(seed, domain_name, task_name):
-    """Whatever is in the box and whatever happened before, what is seen follows from these two."""
+    """Observations follow from these two, for all contents and all histories."""
     rng = np.random.default_rng(seed)
     contents = np.tile(ALL, 4)
     batch = suite.load_batch(domain_name, task_name, len(contents), {"random": seed, "difficulty": 1})

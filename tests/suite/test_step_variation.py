@@ -12,7 +12,7 @@ from physexp.suite.engine import seeding
 TOWER = ("towers", "fist_features")
 
 
-def test_control_steps_are_any_multiple_of_the_physics_step_in_the_range_and_independent_of_all_else(seed):
+def test_control_steps_are_drawn_from_their_range(seed):
     options = suite.load_task(*TOWER, {"random": seed, "step_variation": 0.5}).options
     episodes, seeds = np.arange(20_000), np.full(20_000, seed)
     found = options.draw_substeps(seeds, episodes)
@@ -24,7 +24,7 @@ def test_control_steps_are_any_multiple_of_the_physics_step_in_the_range_and_ind
         assert stats.pearsonr(found, others).pvalue > P_VALUE
 
 
-def test_in_an_episode_all_control_steps_last_as_long_as_the_environment_says(seed):
+def test_all_control_steps_of_an_episode_are_equally_long(seed):
     environment = suite.load(*TOWER, {"random": seed, "step_variation": 0.5})
     lengths = set()
     for _ in range(6):

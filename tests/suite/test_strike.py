@@ -14,7 +14,7 @@ ALL = np.arange(len(strike.PUCKS))
 
 
 def _positions(batch) -> np.ndarray:
-    """Where the pucks are, m [N]."""
+    """Positions of the pucks, m [N]."""
     return np.array([snapshots.view(batch, "qpos", row)[0] for row in range(len(batch.correct_answers))])
 
 
@@ -101,7 +101,7 @@ def test_what_is_read_is_the_poke_and_the_last_gate_that_was_passed(seed, diffic
 
 @pytest.mark.parametrize("domain_name, task_name", TASKS)
 def test_observations_tell_nothing_but_the_poke_and_the_gate(seed, domain_name, task_name):
-    """Whatever the puck and whatever happened before, what is seen follows from these two, though the puck moves."""
+    """Observations follow from these two, for all pucks and all histories, though the puck moves."""
     rng = np.random.default_rng(seed)
     pucks = np.tile(ALL, 2)
     batch = suite.load_batch(domain_name, task_name, len(pucks), {"random": seed})

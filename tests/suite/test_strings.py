@@ -20,7 +20,7 @@ def _extremes() -> np.ndarray:
 
 
 def _moved(slacks: np.ndarray, clamped: int, pulled: int) -> np.ndarray:
-    """Which pucks a pull moves, bool [3], by the square of the matrix of what is joined, without the clamped one."""
+    """Which pucks a pull moves, bool [3], by the square of the matrix of joints, without the clamped puck."""
     joined = np.eye(3)
     for slack, (i, j) in zip(slacks, ((0, 1), (0, 2), (1, 2)), strict=True):
         joined[i, j] = joined[j, i] = slack > 0
@@ -38,7 +38,7 @@ class Player:
         self.clamped = np.full(len(slacks), -1)
 
     def step(self):
-        """Returns what is observed, and which pucks were pulled and are expected to be away, bool [N, 3]."""
+        """Returns the observation, the pulled pucks, and the pucks that should be away, bool [N, 3]."""
         actions = self._rng.integers(6, size=len(self.clamped))
         moved = actions - 3
         self.clamped = np.where(moved < 0, self.clamped, np.where(self.clamped == moved, -1, moved))
@@ -50,7 +50,7 @@ class Player:
 
 
 @pytest.mark.parametrize("control_timestep", [0.1, 0.11, 0.25])
-def test_a_pull_moves_what_is_joined_past_no_clamp_whatever_was_done_before(seed, control_timestep):
+def test_a_pull_moves_all_joined_pucks_past_no_clamp(seed, control_timestep):
     rng = np.random.default_rng(seed)
     drawn = strings.draw_slacks(*rng.integers(2**31, size=(2, 100)), 1)
     slacks = np.concatenate([np.repeat(_extremes(), 8, axis=0), drawn])
@@ -66,7 +66,7 @@ def test_a_pull_moves_what_is_joined_past_no_clamp_whatever_was_done_before(seed
 
 @pytest.mark.parametrize("domain_name, task_name", TASKS)
 def test_observations_tell_nothing_but_what_is_pulled_clamped_and_away(seed, domain_name, task_name):
-    """Whatever the slacks and whatever happened before, what is seen follows from these three."""
+    """Observations follow from these three, for all slacks and all histories."""
     rng = np.random.default_rng(seed)
     slacks = np.repeat(
         _extremes(), 12, axis=0

@@ -50,7 +50,7 @@ def test_a_block_pushed_in_vain_for_a_whole_episode_stays_on_its_stop():
 
 @pytest.mark.parametrize("domain_name, task_name", TASKS)
 def test_observations_tell_nothing_but_the_push_and_whether_the_block_slid(seed, domain_name, task_name):
-    """Whatever friction is and whatever happened before, what is seen follows from these two."""
+    """Observations follow from these two, for all frictions and all histories."""
     rng = np.random.default_rng(seed)
     frictions = _edges_of_intervals()
     batch = suite.load_batch(domain_name, task_name, len(frictions), {"random": seed})

@@ -35,7 +35,7 @@ def _glued(pattern: int, lower: int, upper: int) -> bool:
 
 @pytest.mark.parametrize("kind", ["features", "pixels"])
 @pytest.mark.parametrize("actuator, num_interactions", [("direct", 5 * 4), ("fist", 4)])
-def test_blocks_or_a_fist_go_in_four_directions_and_one_to_five_bodies_are_named(actuator, num_interactions, kind):
+def test_numbers_of_actions_and_steps_are_those_of_the_paper(actuator, num_interactions, kind):
     rules = suite.load_task("towers", f"{actuator}_{kind}").rules
     # 2.6 s in steps of 0.1 s.
     assert (rules.num_interactions, rules.num_labels, rules.step_limit) == (num_interactions, 5, 26)
@@ -65,7 +65,7 @@ OTHER = {"cube_size": 0.095, "sliding_friction": 0.45}
 
 
 @pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
-def test_towers_of_other_cubes_are_columns_of_them_and_glued_ones_keep_their_distance(task_name):
+def test_towers_of_other_cubes_are_glued_columns_too(task_name):
     edge = OTHER["cube_size"]
     batch = suite.load_batch("towers", task_name, 16, {"random": 0, **OTHER})
     positions = [batch.reset(hidden=np.arange(16)).observation["positions"]]
@@ -146,8 +146,8 @@ def test_a_tower_of_several_bodies_comes_apart_when_the_fist_hits_it():
 @pytest.mark.parametrize("task_name", ["direct_features", "fist_features"])
 def test_nothing_leaves_the_room_or_sinks_into_its_floor(task_name):
     # The walls are 0.56 m from the tower's middle, and a cube's centre is at least half an edge, 0.05 m, from what the
-    # cube touches. What hits it at speed v goes v * 5 ms further before the next physics step feels it, and then as far
-    # as a critically damped contact of time constant 10 ms gives, v * 10 ms / e. A cube of 1 kg that 50 N have pushed
+    # cube touches. A cube that hits it at speed v goes v * 5 ms further before the next physics step feels it, and then
+    # as far as a critically damped contact of time constant 10 ms gives, v * 10 ms / e. A cube of 1 kg that 50 N have pushed
     # from wall to wall, 1.02 m, comes at sqrt(2 * 50 * 1.02) = 10.1 m/s; one that fell from the ceiling, 0.6 m,
     # at 3.4 m/s.
     give = 0.005 + 0.01 / np.e  # s
@@ -180,7 +180,7 @@ def test_a_push_moves_its_own_block_in_its_own_direction():
 
 
 @pytest.mark.parametrize("cube_size, distance", [(EDGE, 0.16), (0.12, 0.17), (0.08, 0.2)])
-def test_the_fist_may_start_nearer_and_is_then_in_contact_after_one_step_but_not_before(cube_size, distance):
+def test_a_fist_that_starts_nearer_touches_in_the_first_step(cube_size, distance):
     options = {"random": 0, "cube_size": cube_size, "fist_distance": distance}
     batch = suite.load_batch("towers", "fist_features", 16, options)
     first = batch.reset(hidden=EVERY_PATTERN).observation

@@ -54,7 +54,7 @@ def test_towers_vary_by_as_much_as_is_said(seed):
 
 
 def _varied(task_name, nuisances, structure=0):
-    """What a tower is simulated with, a model of it with the fields that follow from nuisances, and what else does."""
+    """Returns the apparatus of a tower, a model with the fields of some nuisances, and their circumstances."""
     task = suite.load_task("towers", task_name)
     kit = task.build_apparatus(structure)
     found = task.circumstances(kit, np.array([nuisances], float))
@@ -93,7 +93,7 @@ def test_friction_is_between_what_is_said(value, friction):
 
 @pytest.mark.parametrize("task_name", TOWERS)
 def test_a_varied_tower_stands_still_until_it_is_touched(seed, task_name):
-    """Where the tower is turned its contacts are others; they settle by less than what counts as a touch."""
+    """The contacts of a turned tower differ; they settle by less than the touch tolerance."""
     rng = np.random.default_rng(seed)
     task = suite.load_task("towers", task_name)
     for structure in range(task.num_structures):
@@ -145,7 +145,7 @@ def test_the_fist_is_as_fast_and_pokes_are_as_strong_as_is_said(seed):
 @pytest.mark.parametrize(
     "domain, task", [("which_is_heavier", "pixels"), ("towers", "fist_pixels"), ("strings", "pixels")]
 )
-def test_images_are_those_of_a_displaced_camera_and_the_next_is_drawn_from_its_own(seed, domain, task):
+def test_images_are_those_of_a_displaced_camera(seed, domain, task):
     batch = suite.load_batch(domain, task, 8, {"random": seed, "variation": 1.0})
     corners = np.array(list(itertools.product([-1.0, 1.0], repeat=3)))  # Of where cameras are.
     nuisances = np.tile(corners, batch.task.num_nuisances)[:, : batch.task.num_nuisances]

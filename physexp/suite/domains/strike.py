@@ -27,7 +27,7 @@ GATES = {1: 5, 2: 10, 3: 15}  # By difficulty.
 
 _GRAVITY = 9.81  # m/s^2
 _FRICTIONS = np.geomspace(0.1, 0.4, 5)  # Coefficients.
-_PLACES = np.geomspace(RATIO**-0.75, RATIO**0.75, 4)  # Where the right strike takes the puck, in goal distances.
+_PLACES = np.geomspace(RATIO**-0.75, RATIO**0.75, 4)  # Reach of the right strike, in goal distances.
 PUCKS = tuple(itertools.product(range(len(STRIKES)), _FRICTIONS, _PLACES))
 """All pucks that there may be, equally likely, by the right strike, the friction, and where that strike takes it."""
 

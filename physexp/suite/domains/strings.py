@@ -107,7 +107,7 @@ class Strings(contract.Task):
         rails = [_add_puck(room, k) for k in range(NUM_PUCKS)]
         self._bands = tuple(_add_band(root, rails, pair).full_identifier for pair in PAIRS)
         positions = [root.sensor.add("jointpos", name=f"position_{k}", joint=rail) for k, rail in enumerate(rails)]
-        # In the order of `drive`. What presses the clamp on a puck does not push it along its rail.
+        # In the order of `drive`. The force that presses a clamp on a puck does not push it along its rail.
         pulls = _add_actuators(root, "handle", rails, "motor")
         presses = _add_actuators(root, "clamp", rails, "motor", gear=[0.0])
         _add_actuators(root, "brake", rails, "damper", kv=_BRAKE, ctrlrange=[0, 1])

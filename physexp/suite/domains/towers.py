@@ -25,7 +25,7 @@ _GIVE = 0.04  # m: a wall is soft, and the fastest block's centre passes it by l
 
 POSITION_VARIATION = 0.01  # m, of the tower, along x and y
 YAW_VARIATION = np.deg2rad(10)
-FRICTIONS = (0.25, 0.4)  # Where variation is full; without, it is between the two.
+FRICTIONS = (0.25, 0.4)  # Range with full variation; the default is between the two.
 MASS_VARIATION = 0.2  # Share of the cubes' mass, the same for all of them.
 
 # How much nearer fist and tower may start with full variation: by the places of both, and by the tower's yaw, which

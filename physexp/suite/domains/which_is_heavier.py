@@ -27,7 +27,7 @@ DAMPING = 5.0  # N s/m
 POKE_FORCE = 20.0  # N
 FLOOR, CEILING = -0.01, 0.4  # m, displacements from rest at which the rail ends
 
-FORCE_VARIATION, SPACING_VARIATION = 0.1, 0.1  # Shares of what they are without.
+FORCE_VARIATION, SPACING_VARIATION = 0.1, 0.1  # Shares of their values without variation.
 
 _ROOM = dict(mat_size=[0.36, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.28], fovy=14.5)
 

@@ -97,7 +97,7 @@ class Apparatus:
     moving_geoms: np.ndarray
     _measures: Mapping[str, declarations.Measure]
     _indicators: tuple[tuple[int, np.ndarray, declarations.Indicator], ...]  # Geoms, their places, and what they show.
-    # What `dofs` has found: names are looked up once, since every reset asks.
+    # Results of `dofs`: names are looked up once, since every reset asks.
     _dofs: dict[tuple[str, ...], tuple[np.ndarray, np.ndarray]] = dataclasses.field(default_factory=dict, init=False)
 
     def starts(self, circumstances: declarations.Circumstances, size: int) -> Starts:

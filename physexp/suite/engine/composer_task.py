@@ -127,7 +127,7 @@ class ComposerTask(composer.Task):
         """Returns the last observation: composer may ask many times, and it is made once for each control step."""
         return self._seen[name][0].copy()
 
-    # What composer calls.
+    # Methods that composer calls.
 
     @property
     def root_entity(self) -> composer.Arena:

@@ -15,7 +15,7 @@ LARGEST_SEED = 2**63 - 1
 LAST_EPISODE = 2**62 - 1  # Far enough from the largest int64 that counting on never overflows.
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
-# What tells numbers for one purpose from those for another.
+# Keys that separate numbers for one purpose from those for another.
 _NOISE, _VARIATION, _TIMING = np.uint64(0x6E6F697365), np.uint64(0x76617279), np.uint64(0x74696D65)
 
 

@@ -95,7 +95,7 @@ class Group:
         self._batch = Batch(apparatus.model, size, num_threads)
         self._batch.reset(stage=mujoco.mjtStage.mjSTAGE_NONE)
         self._rest = self._batch.state[0].copy()
-        # Where all episodes start alike, one start is enough, and so is one look at it.
+        # If all episodes start alike, one initial state and one first observation are enough.
         self._are_alike = not task.options.variation
         nowhere = np.zeros(size, np.intp)
         self._starts = apparatus.start.repeated(size) if self._are_alike else apparatus.start.of(nowhere)

@@ -1,4 +1,4 @@
-"""What the tests of images share: environments that are built once, and where things are in an image."""
+"""Shared by tests of images: environments that are built once, and the places of things in an image."""
 
 import functools
 import itertools
@@ -21,7 +21,7 @@ PIXEL_TASKS = [HEAVIER, FIST, ("sealed_box", "pixels")]
 every_pixel_task = pytest.mark.parametrize("domain_name, task_name", PIXEL_TASKS)
 MARKS = [
     pytest.mark.usefixtures("seed"),
-    pytest.mark.filterwarnings("ignore:PIXELS ARE DRAWN BY THE PROCESSOR"),  # What draws is not what is tested here.
+    pytest.mark.filterwarnings("ignore:PIXELS ARE DRAWN BY THE PROCESSOR"),  # Tested elsewhere.
 ]
 
 EDGE = 84  # pixels, of an image
@@ -93,7 +93,7 @@ def batch_of_patterns(task_name, patterns, control_timestep=0.1):
     return batch, chosen, np.concatenate(first)
 
 
-# Where things are, and where that is in an image.
+# Poses of things, and their places in an image.
 
 
 def model_of(domain_name, task_name):

@@ -30,7 +30,7 @@ def test_a_batch_is_its_single_environments(seed, domain_name, task_name):
 
 
 @every_pixel_task
-def test_an_image_does_not_depend_on_how_many_environments_or_threads_there_are(load, seed, domain_name, task_name):
+def test_images_do_not_depend_on_numbers_of_environments_and_threads(load, seed, domain_name, task_name):
     rng = np.random.default_rng(seed)
     batches = [load(domain_name, task_name, seed, 1), load_shared(domain_name, task_name, seed, 3)]
     batches.append(load(domain_name, task_name, seed, 5, num_threads=2))

@@ -10,9 +10,7 @@ pytestmark = MARKS
 
 
 @every_pixel_task
-def test_an_environment_draws_once_at_a_reset_and_in_each_step_and_never_for_a_label(
-    load, drawn, domain_name, task_name
-):
+def test_an_environment_draws_once_a_step_and_never_for_a_label(load, drawn, domain_name, task_name):
     env = load(domain_name, task_name, 0)
     assert drawn == []
     expected = 0
@@ -26,15 +24,13 @@ def test_an_environment_draws_once_at_a_reset_and_in_each_step_and_never_for_a_l
             assert drawn == [1] * expected
         assert env.step(env.task.num_interactions).last()
         assert drawn == [1] * expected
-        assert env.step(0).first()  # Whatever the action.
+        assert env.step(0).first()  # With any action.
         expected += 1
         assert drawn == [1] * expected
 
 
 @every_pixel_task
-def test_a_batch_draws_one_image_for_each_environment_that_interacts_and_one_first_image_for_each_structure(
-    load, drawn, domain_name, task_name
-):
+def test_a_batch_draws_one_image_for_each_interaction(load, drawn, domain_name, task_name):
     size = 6
     batch = load(domain_name, task_name, 3, size)
     batch.reset(episode=0)

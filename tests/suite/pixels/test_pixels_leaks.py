@@ -1,4 +1,4 @@
-"""Images tell nothing of what is hidden before it is touched."""
+"""Images tell nothing of the hidden property before a touch."""
 
 import dm_env
 from episodes import EVERY_PATTERN, plans_that_miss
@@ -27,7 +27,7 @@ pytestmark = MARKS
     [(0.1, 26, EVERY_PATTERN, 2), (0.01, 260, np.array([0, 6, 15]), 0)],
     ids=["0.1 s", "0.01 s"],
 )
-def test_the_images_of_an_episode_that_leaves_the_tower_alone_are_the_same_whatever_the_glue(
+def test_images_of_an_untouched_tower_are_the_same_for_every_glue(
     seed, control_timestep, step_limit, patterns, num_random
 ):
     plans = plans_that_miss(np.random.default_rng(seed), step_limit, control_timestep, num_random)

@@ -1,4 +1,4 @@
-"""Whatever is done, the blocks and the fist stay in view."""
+"""The blocks and the fist stay in view under all actions."""
 
 from images import (
     CORNERS,
