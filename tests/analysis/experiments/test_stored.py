@@ -1,4 +1,4 @@
-"""What experiments do with stored data of which something is missing or damaged."""
+"""Experiments whose stored data are incomplete or damaged."""
 
 import dataclasses
 import json
@@ -9,6 +9,7 @@ import made_data
 import numpy as np
 import pytest
 
+from physexp.analysis.data import results as results_lib
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions, generalization, ideal_gap, laboratory, timing
 
 RESULTS = blocks.ROOT / "results"
@@ -43,9 +44,10 @@ def test_a_domain_that_is_new_in_the_laboratory_is_solved_and_the_others_are_kep
 def test_the_ideal_that_learning_is_measured_by_is_searched_for_if_it_is_not_there(name, results, monkeypatch):
     pushes = conditions.towers("direct", "features")
     monkeypatch.setattr(conditions, "TOWERS", (pushes,))
-    run = results.run(conditions.with_belief(pushes, answers_revealed=True))
-    run.path.parent.mkdir()
-    run.path.symlink_to(RESULTS / "runs" / run.path.name)
+    mine = conditions.with_belief(pushes, answers_revealed=True).id
+    for table in ("runs", "curves"):
+        rows = results_lib.read(RESULTS, table, filters=[("condition", "==", mine), ("training_seed", "==", 0)])
+        results_lib.append(results.path, table, rows)
     EXPERIMENTS[name].prepare(results, print)
     frame = EXPERIMENTS[name].load(results)
     assert set(frame.condition) == {"D-F"}
@@ -99,13 +101,15 @@ def test_an_agent_that_has_not_played_all_tests_yet_is_left_out():
     assert len(others) == len(generalization.find_claims(frame))
 
 
-def test_damaged_episodes_are_told_and_not_taken_for_those_of_an_untrained_agent(results):
+def test_damaged_episodes_are_an_error_and_not_a_missing_agent(results):
     shutil.copytree(RESULTS / "ideal", results.path / "ideal")
-    name = "evaluation/which_is_heavier-features-difficulty10-discount0.95-seed0.parquet"
-    content = bytearray((RESULTS / "episodes" / name).read_bytes())
+    condition = conditions.BY_LABEL["10-F"]
+    mine = [("condition", "==", condition.id), ("training_seed", "==", 0), ("trial", "==", "evaluation")]
+    for table in ("evaluations", "episodes"):
+        results_lib.append(results.path, table, results_lib.read(RESULTS, table, filters=mine))
+    damaged = results.path / "tables" / "episodes" / f"{condition.id}.parquet"
+    content = bytearray(damaged.read_bytes())
     content[len(content) // 2] ^= 1
-    damaged = results.path / "episodes" / name
-    damaged.parent.mkdir(parents=True)
     damaged.write_bytes(content)
-    with pytest.raises(ValueError, match=str(damaged)):
+    with pytest.raises(ValueError, match="episodes has a damaged file"):
         ideal_gap.load(results)
