@@ -147,8 +147,8 @@ def test_a_tower_of_several_bodies_comes_apart_when_the_fist_hits_it():
 def test_nothing_leaves_the_room_or_sinks_into_its_floor(task_name):
     # The walls are 0.56 m from the tower's middle, and a cube's centre is at least half an edge, 0.05 m, from what the
     # cube touches. A cube that hits it at speed v goes v * 5 ms further before the next physics step feels it, and then
-    # as far as a critically damped contact of time constant 10 ms gives, v * 10 ms / e. A cube of 1 kg that 50 N have pushed
-    # from wall to wall, 1.02 m, comes at sqrt(2 * 50 * 1.02) = 10.1 m/s; one that fell from the ceiling, 0.6 m,
+    # as far as a critically damped contact of time constant 10 ms gives, v * 10 ms / e. A cube of 1 kg that 50 N have
+    # pushed from wall to wall, 1.02 m, comes at sqrt(2 * 50 * 1.02) = 10.1 m/s; one that fell from the ceiling, 0.6 m,
     # at 3.4 m/s.
     give = 0.005 + 0.01 / np.e  # s
     _, positions = _random_episodes(task_name)
