@@ -6,13 +6,15 @@ import mujoco
 import numpy as np
 
 from physexp.analysis.data import readings
-from physexp.suite.engine import contract
+from physexp.suite.engine import composer_task
 
 Film = tuple[np.ndarray, np.ndarray, np.ndarray]
 """Positions, m [F, K, 3], rotations, [F, K, 3, 3], and whether the observations determine the positions, bool [K]."""
 
 
-def film(task: contract.Task, geoms: np.ndarray, observations: Mapping[str, np.ndarray], ends: Sequence[int]) -> Film:
+def film(
+    task: composer_task.ComposerTask, geoms: np.ndarray, observations: Mapping[str, np.ndarray], ends: Sequence[int]
+) -> Film:
     """Returns the poses of K geoms in all frames up to the last observation.
 
     Each reading moves from one observation to the next by the clock, slowly at both ends. Readings alone place geoms:
@@ -33,7 +35,7 @@ def film(task: contract.Task, geoms: np.ndarray, observations: Mapping[str, np.n
     return positions[:, geoms], rotations[:, geoms], are_placed[geoms]
 
 
-def _placed(task: contract.Task, shown: Mapping[str, np.ndarray], size: int) -> Film:
+def _placed(task: composer_task.ComposerTask, shown: Mapping[str, np.ndarray], size: int) -> Film:
     """Returns the poses of all geoms from the readings of joints and positions, [size, S] by name."""
     model, start = task.apparatus.model, task.apparatus.start.shown
     joints, displacements = {}, {}
@@ -81,7 +83,7 @@ def _joints_of(model: mujoco.MjModel, body: int) -> set[int]:
 
 
 def _indicate(
-    task: contract.Task, shown: Mapping[str, np.ndarray], positions: np.ndarray, are_placed: np.ndarray
+    task: composer_task.ComposerTask, shown: Mapping[str, np.ndarray], positions: np.ndarray, are_placed: np.ndarray
 ) -> None:
     """Writes the positions of indicators, and whether their readings are observed."""
     start = task.apparatus.start.shown
