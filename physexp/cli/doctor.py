@@ -1,4 +1,4 @@
-"""Examines this machine: what it offers, what is missing, and what to do about it."""
+"""Examines this machine: versions, hardware and extras, each with advice if something is missing."""
 
 from collections.abc import Iterator
 import importlib
@@ -7,37 +7,40 @@ import os
 from pathlib import Path
 import platform
 import shutil
+from typing import Any
 
-from packaging import requirements
+from packaging import requirements, specifiers
 
 from physexp import extras
 from physexp.agents import processes
 
 OK, MISSING, BROKEN = "ok", "missing", "broken"
-"""Verdicts, which mean fine; some commands or some speed need it; the environments themselves do not work."""
+"""Verdicts: fine; some commands or some speed need it; the environments themselves do not work."""
 
-# The suite imports mujoco and dm_control, whatever the environment variables of GL say.
+# The suite imports mujoco and dm_control with the environment variables of GL set aside.
 _CORE = ("numpy", "scipy", "physexp.suite", "torch", "pyarrow", "rerun")
-_PYTHON = ((3, 11), (3, 12))  # The first and the last that are tested.
 _MEMORY = 2.0  # GiB: two workers that train the towers from pixels take 1.2.
 _DISK = 1.0  # GiB: a run from pixels takes some hundredths of it, its replays more.
 
 
-def examine() -> dict:
-    """Facts about this machine by name, and `checks`, a list of verdicts with what to do.
+def examine() -> dict[str, Any]:
+    """Returns facts about this machine by name, and `checks`.
 
-    A check has `check`, its name; `verdict`, one of `OK`, `MISSING` and `BROKEN`; `found`; and `advice`, which is empty
-    where all is well. If the core is broken, there are no facts but those that need none of it.
+    A check has the keys `check`, its name; `verdict`, one of `OK`, `MISSING` and `BROKEN`; `found`; and `advice`, which
+    is empty if the verdict is `OK`. If the core is broken, facts that need it are left out.
     """
     checks = list(_core())
-    facts = {"python": platform.python_version(), "machine": f"{platform.system()} {platform.machine()}"}
-    if not any(check["verdict"] == BROKEN for check in checks):
+    facts: dict[str, Any] = {
+        "python": platform.python_version(),
+        "machine": f"{platform.system()} {platform.machine()}",
+    }
+    if all(check["verdict"] != BROKEN for check in checks):
         facts |= _facts()
         checks += _hardware(facts)
     return {**facts, "checks": checks + list(_extras())}
 
 
-def _facts() -> dict:
+def _facts() -> dict[str, Any]:
     import torch
 
     from physexp.analysis.data import provenance
@@ -54,22 +57,25 @@ def _facts() -> dict:
     }
 
 
-def _check(name: str, found: object, verdict: str = OK, advice: str = "") -> dict:
-    return {"check": name, "verdict": verdict, "found": str(found), "advice": advice}
+def _check(name: str, found: object, advice: str = "", verdict: str = MISSING) -> dict[str, str]:
+    return {"check": name, "verdict": verdict if advice else OK, "found": str(found), "advice": advice}
 
 
-def _core() -> Iterator[dict]:
-    """Whether Python and the libraries are of versions that fit, can be imported, and play an episode."""
-    first, last = (".".join(map(str, version)) for version in _PYTHON)
-    fits = _PYTHON[0] <= tuple(map(int, platform.python_version_tuple()[:2])) <= _PYTHON[1]
-    yield _check("python", platform.python_version(), *(() if fits else (MISSING, f"tested with {first} to {last}")))
-    yield from _versions(extra="")
+def _core() -> Iterator[dict[str, str]]:
+    """Yields whether Python and the libraries fit, can be imported and play an episode."""
+    try:
+        wanted = importlib.metadata.metadata("physexp")["Requires-Python"]
+    except importlib.metadata.PackageNotFoundError:
+        yield _check("versions", "unknown: physexp is not installed", f"pip install -e {Path(__file__).parents[2]}")
+    else:
+        fits = specifiers.SpecifierSet(wanted).contains(platform.python_version())
+        yield _check("python", platform.python_version(), "" if fits else f"install Python {wanted}")
+        yield from map(_version, _requirements(extra=""))
     for module in _CORE:
         try:
             importlib.import_module(module)
-        except Exception as error:  # The user is to read the broken library's own words.
-            advice = "install physexp anew, into an environment of its own"
-            yield _check(f"import {module}", _in_a_line(error), BROKEN, advice)
+        except Exception as error:  # Any error of a broken library is shown to the user.
+            yield _check(f"import {module}", _in_a_line(error), "install physexp into a new environment", BROKEN)
             return
     try:
         from physexp import suite
@@ -81,80 +87,58 @@ def _core() -> Iterator[dict]:
                 environment.step(0)
                 environment.close()
     except Exception as error:
-        yield _check("environments", _in_a_line(error), BROKEN, "install physexp anew, with the versions above")
+        yield _check("environments", _in_a_line(error), "install physexp anew, with the versions above", BROKEN)
     else:
         yield _check("environments", "every task plays from features")
 
 
-def _versions(extra: str) -> Iterator[dict]:
-    """Whether the libraries that are installed, of the core or of an extra, are of versions that fit."""
-    try:
-        lines = importlib.metadata.requires("physexp") or ()
-    except importlib.metadata.PackageNotFoundError:
-        if not extra:
-            tree = Path(__file__).parents[2]
-            yield _check("versions", "unknown: physexp is not installed", MISSING, f"pip install -e {tree}")
-        return
-    for line in lines:
+def _requirements(extra: str) -> Iterator[requirements.Requirement]:
+    """Yields the libraries of the core, or of an extra alone."""
+    for line in importlib.metadata.requires("physexp") or ():
         wanted = requirements.Requirement(line)
-        belongs = (
-            wanted.marker is None
-            if not extra
-            else wanted.marker is not None and wanted.marker.evaluate({"extra": extra})
-        )
-        if not belongs or wanted.name == "physexp":
-            continue
-        try:
-            found = importlib.metadata.version(wanted.name)
-        except importlib.metadata.PackageNotFoundError:
-            if not extra:
-                yield _check(wanted.name, "not installed", BROKEN, f"pip install '{wanted.name}{wanted.specifier}'")
-            continue
-        if wanted.specifier.contains(found, prereleases=True):
-            yield _check(wanted.name, found)
-        else:
-            yield _check(wanted.name, found, MISSING, f"pip install '{wanted.name}{wanted.specifier}'")
+        if wanted.name != "physexp" and (wanted.marker.evaluate({"extra": extra}) if wanted.marker else not extra):
+            yield wanted
 
 
-def _hardware(facts: dict) -> Iterator[dict]:
+def _version(wanted: requirements.Requirement) -> dict[str, str]:
+    """Returns whether a library is installed in a version that fits."""
+    install = f"pip install '{wanted.name}{wanted.specifier}'"
+    try:
+        found = importlib.metadata.version(wanted.name)
+    except importlib.metadata.PackageNotFoundError:
+        return _check(wanted.name, "not installed", install, BROKEN)
+    return _check(wanted.name, found, "" if wanted.specifier.contains(found, prereleases=True) else install)
+
+
+def _hardware(facts: dict[str, Any]) -> Iterator[dict[str, str]]:
     from physexp.suite.engine import gl
 
-    backend, renderer = facts["gl_backend"], facts["gl_renderer"]
+    renderer, processors, threads = facts["gl_renderer"], facts["processors"], facts["omp_num_threads"]
     if renderer.startswith("none"):
         found, _, advice = renderer.rpartition("; ")
-        yield _check("OpenGL", found, MISSING, advice)
-    elif gl.is_software(renderer) and gl.gpu_is_present():
-        yield _check(
-            "OpenGL",
-            f"{backend}: {renderer}",
-            MISSING,
-            "pixels are drawn by the processor: install the GPU's EGL driver",
-        )
+        yield _check("OpenGL", found, advice)
     else:
-        yield _check("OpenGL", f"{backend}: {renderer}")
+        is_slow = gl.is_software(renderer) and gl.gpu_is_present()
+        advice = "pixels are drawn by the processor: install the GPU's EGL driver" if is_slow else ""
+        yield _check("OpenGL", f"{facts['gl_backend']}: {renderer}", advice)
     if facts["gpu"] == "none" and gl.gpu_is_present():
-        yield _check("GPU", "torch sees none", MISSING, "there is one: install its driver and a CUDA build of torch")
+        yield _check("GPU", "torch sees none", "there is one: install its driver and a CUDA build of torch")
     else:
         yield _check("GPU", facts["gpu"] if facts["gpu"] != "none" else "none; no task needs one")
-    yield _at_least("processors", facts["processors"], 2, "", "training is slower; give --num-workers 1")
-    yield _at_least(
-        "free memory", _available_memory(), _MEMORY, " GiB", "close other programs, or train with --num-workers 1"
-    )
+    yield _at_least("processors", processors, 2, "", "training is slower; give --num-workers 1")
+    advice = "close other programs, or train with --num-workers 1"
+    yield _at_least("free memory", _available_memory(), _MEMORY, " GiB", advice)
     disk = shutil.disk_usage(".").free / 2**30
     yield _at_least("free disk space here", disk, _DISK, " GiB", "make room, or train elsewhere with --run-dir")
-    threads = facts["omp_num_threads"]
-    too_many = threads.isdecimal() and int(threads) > facts["processors"]
-    yield _check("OMP_NUM_THREADS", threads, *((MISSING, "more than processors: unset it") if too_many else ()))
-    if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"):
-        yield _check("display", os.environ.get("WAYLAND_DISPLAY") or os.environ["DISPLAY"])
-    else:
-        yield _check(
-            "display", "none", MISSING, "only --view needs one; copy replays to a machine that has one, or --web"
-        )
+    too_many = threads.isdecimal() and int(threads) > processors
+    yield _check("OMP_NUM_THREADS", threads, "more than processors: unset it" if too_many else "")
+    display = os.environ.get("WAYLAND_DISPLAY") or os.environ.get("DISPLAY")
+    advice = "only --view needs one; copy replays to a machine that has one, or give --web"
+    yield _check("display", display or "none", "" if display else advice)
 
 
 def _available_memory() -> float:
-    """Returns the memory that programs can have, GiB; on Linux without what other programs have now."""
+    """Returns the memory that programs can have, GiB; on Linux without the memory in use."""
     path, most = Path("/proc/meminfo"), processes.memory()
     if path.exists():
         kibibytes = dict(line.split()[:2] for line in path.read_text(encoding="utf-8").splitlines())
@@ -162,25 +146,21 @@ def _available_memory() -> float:
     return most / 2**30
 
 
-def _at_least(name: str, value: float, least: float, unit: str, advice: str) -> dict:
-    found = f"{value:.3g}{unit}"
-    return (
-        _check(name, found) if value >= least else _check(name, found, MISSING, f"less than {least:g}{unit}: {advice}")
-    )
+def _at_least(name: str, value: float, minimum: float, unit: str, advice: str) -> dict[str, str]:
+    return _check(name, f"{value:.3g}{unit}", "" if value >= minimum else f"less than {minimum:g}{unit}: {advice}")
 
 
-def _extras() -> Iterator[dict]:
-    """Which extras are installed, in versions that fit."""
+def _extras() -> Iterator[dict[str, str]]:
+    """Yields whether extras are installed in versions that fit."""
     for extra in dict.fromkeys(extras.EXTRAS.values()):
-        modules = [module for module, bringer in extras.EXTRAS.items() if bringer == extra]
+        missing = extras.find_missing(module for module, name in extras.EXTRAS.items() if name == extra)
         install = f"pip install 'physexp[{extra}]'"
-        if missing := extras.find_missing(modules):
-            yield _check(f"extra {extra}", f"without {', '.join(missing)}", MISSING, install)
+        if missing:
+            yield _check(f"extra {extra}", f"without {', '.join(missing)}", install)
             continue
-        versions = list(_versions(extra))
-        found = ", ".join(f"{check['check']} {check['found']}" for check in versions) or "installed"
-        fits = all(check["verdict"] == OK for check in versions)
-        yield _check(f"extra {extra}", found, *(() if fits else (MISSING, install)))
+        versions = [_version(wanted) for wanted in _requirements(extra)]
+        found = ", ".join(f"{check['check']} {check['found']}" for check in versions)
+        yield _check(f"extra {extra}", found, "" if all(check["verdict"] == OK for check in versions) else install)
 
 
 def _in_a_line(error: Exception) -> str:
