@@ -1,4 +1,4 @@
-"""Actors that are scored: baselines that look at nothing, the ideal, trained networks, and users' policies."""
+"""Actors that are scored: baselines that observe nothing, the ideal, trained networks, and users' policies."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -10,15 +10,17 @@ from physexp.analysis.score import episodes, protocol
 
 
 class Policy(core.Actor):
-    """Plays a policy in Gymnasium's manner: of an observation and a state, None at first, to an action and a state."""
+    """Plays a policy: a function of an observation and a state, None at first, that returns an action and a state."""
 
     def __init__(self, policy: Callable[[Any, Any], tuple[int, Any]]):
         self._policy, self._state = policy, None
 
     def observe_first(self, timestep):
+        """Forgets the state."""
         self._state = None
 
     def select_action(self, observation):
+        """Returns the action of the policy; raises TypeError if it does not return an action and a state."""
         returned = self._policy(observation, self._state)
         if not isinstance(returned, (tuple, list)) or len(returned) != 2:
             raise TypeError(f"a policy returns an action and the next state; this one has returned {returned!r:.100}")
@@ -26,56 +28,32 @@ class Policy(core.Actor):
         return action
 
     def observe(self, action, next_timestep):
-        """Does nothing: the policy sees the next observation when it is asked."""
+        """Does nothing: the policy gets the next observation with the next call."""
 
 
-class _Baseline(core.Actor):
-    """An experimenter that looks at nothing."""
+class Baseline(core.Actor):
+    """Chooses actions without observations."""
 
-    def __init__(self, asked: protocol.Question, first: int = 0):
-        self._asked, self._number = asked, first - 1
+    def __init__(self, choose: Callable[[np.random.Generator], int], first: int):
+        """Makes an actor.
+
+        Args:
+          choose: returns an action, from random numbers whose seed is the index of the episode.
+          first: the index of the first episode.
+        """
+        self._choose, self._number = choose, first - 1
 
     def observe_first(self, timestep):
+        """Seeds the random numbers."""
         self._number += 1
-
-    def observe(self, action, next_timestep):
-        """Does nothing."""
-
-
-class Random(_Baseline):
-    """Draws every action, interactions and answers alike; the index of an episode is the seed."""
-
-    def observe_first(self, timestep):
-        super().observe_first(timestep)
         self._generator = np.random.default_rng(self._number)
 
     def select_action(self, observation):
-        return int(self._generator.integers(self._asked.num_actions))
+        """Returns the next action."""
+        return self._choose(self._generator)
 
-
-class AtOnce(_Baseline):
-    """Gives the likeliest answer at once."""
-
-    def __init__(self, asked, first=0):
-        super().__init__(asked, first)
-        hidden = protocol.drawn(asked, 1)[0]
-        nothing = episodes.Episode(hidden, np.zeros(0, np.int64), np.zeros(0), [])
-        self._label = int(protocol.ideal(asked).beliefs(nothing)[0].argmax())
-
-    def select_action(self, observation):
-        return self._asked.num_interactions + self._label
-
-
-class Silent(_Baseline):
-    """Never answers."""
-
-    def select_action(self, observation):
-        return 0
-
-
-def ideal(asked: protocol.Question, first: int = 0) -> core.Actor:
-    """Returns the ideal experimenter of a task, which plays each episode as if it were the first."""
-    return protocol.ideal(asked).actor()
+    def observe(self, action, next_timestep):
+        """Does nothing."""
 
 
 class Network(core.Actor):
@@ -85,6 +63,7 @@ class Network(core.Actor):
         self._network, self._greedy, self._number = network, greedy, first - 1
 
     def observe_first(self, timestep):
+        """Begins the next episode."""
         from physexp.agents import acting
 
         self._number += 1
@@ -92,16 +71,28 @@ class Network(core.Actor):
         self._actor.observe_first(timestep)
 
     def select_action(self, observation):
+        """Returns the network's action."""
         return self._actor.select_action(observation)
 
     def observe(self, action, next_timestep):
+        """Notes an action and the time step that followed."""
         self._actor.observe(action, next_timestep)
 
 
-BASELINES: Mapping[str, Callable[..., core.Actor]] = {
-    "random": Random,
-    "at_once": AtOnce,
-    "silent": Silent,
-    "ideal": ideal,
+def _random(asked: protocol.Question, first: int) -> core.Actor:
+    return Baseline(lambda generator: int(generator.integers(asked.num_actions)), first)
+
+
+def _at_once(asked: protocol.Question, first: int) -> core.Actor:
+    unplayed = episodes.Episode(protocol.drawn(asked, 1)[0], np.zeros(0, np.int64), np.zeros(0), [])
+    likeliest = int(protocol.ideal(asked).beliefs(unplayed)[0].argmax())
+    return Baseline(lambda generator: asked.num_interactions + likeliest, first)
+
+
+BASELINES: Mapping[str, Callable[[protocol.Question, int], core.Actor]] = {
+    "random": _random,
+    "at_once": _at_once,
+    "silent": lambda asked, first: Baseline(lambda generator: 0, first),
+    "ideal": lambda asked, first: protocol.ideal(asked).actor(),
 }
-"""Experimenters that every task has, each made from a task and the index of the first episode that it plays."""
+"""Experimenters for every task: random actions, the likeliest answer at once, no answer, and the ideal experimenter."""

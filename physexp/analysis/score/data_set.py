@@ -29,23 +29,23 @@ class DataSet:
         """Makes an empty one.
 
         Args:
-          folder: of all data sets.
+          folder: the folder of all data sets.
           of: the steps of a task.
-          target: who plays, as a word.
+          target: the name of the player, one word.
         """
         asked = of.asked
-        self._is_judged = of.judged_by is not None
+        self._is_judged = of.is_judged
         self._observed = asked.observation_spec
         name = f"{asked.domain}-{asked.task}"
         identity = f"physexp/{name}/{target}-v0"
-        path = folder.resolve() / identity / "data"  # Of a relative path, Minari finds no sizes.
+        path = folder.resolve() / identity / "data"  # Minari finds no sizes below a relative path.
         path.mkdir(parents=True)
         self._storage = MinariStorage.new(
             path,
             observation_space=adapters.observation_space(asked.observation_spec),
             action_space=gymnasium.spaces.Discrete(asked.num_actions),
             env_spec=gymnasium.spec(environments.environment_id(asked.domain, asked.task)),
-            jpeg_encoding=False,  # Which would change images.
+            jpeg_encoding=False,  # It would change images.
         )
         self._storage.update_metadata(
             {

@@ -1,6 +1,7 @@
 """Plays a target and writes whole trajectories, as tables of steps and as data sets of Minari."""
 
 from collections.abc import Callable, Sequence
+import itertools
 import json
 from pathlib import Path
 import shutil
@@ -19,11 +20,11 @@ TABLE = "steps.parquet"
 """The folder of a task's tables."""
 
 MINARI = "minari"
-"""The folder, among the exported files, that is to be `MINARI_DATASETS_PATH`."""
+"""The folder among the exported files for `MINARI_DATASETS_PATH`."""
 
 SEED = 3_000_003  # Of the environments, apart from those of training, of evaluation and of the score.
 _MAX_EPISODES = 100_000  # Of each task.
-_ROWS = 2**12  # Of a part, at least, if it is not the last: so much is held in memory.
+_ROWS = 2**12  # Of a part, but for the last; they are held in memory.
 
 
 def export(
@@ -43,8 +44,12 @@ def export(
     episodes until then are written, too.
 
     Args:
-      target, questions, num_episodes, folder, timeout: as for `scoring.score`.
+      target: as `targets.find` returns it.
+      questions: the tasks.
+      num_episodes: of each of them.
+      folder: for all files; it is made, is empty, or holds some of these very episodes.
       seed: of the environments; not the score's.
+      timeout: for each call of a user's function, s.
       as_minari: write a data set of Minari for each task, too.
       show: called with the number of episodes that have been played.
 
@@ -66,12 +71,12 @@ def export(
     facts["agent"] = target.describe(names)
     defining = {**facts, "tasks": names, "versions": provenance.versions()}
     with playing.session(folder, target, timeout, defining) as session:
-        shutil.rmtree(folder / MINARI, ignore_errors=True)  # Of a session that was interrupted.
-        for asked, episode in session.play(questions, num_episodes, seed):
-            writers[asked].add(episode)
-            show(session.num_played)
-        for writer in writers.values():
-            writer.write()
+        shutil.rmtree(folder / MINARI, ignore_errors=True)  # Of an interrupted session.
+        for asked, its in itertools.groupby(session.play(questions, num_episodes, seed), lambda one: one[0]):
+            for _, episode in its:
+                writers[asked].add(episode)
+                show(session.num_played)
+            writers[asked].write()
         written = {
             **facts,
             **{"complete": not session.problem, "problem": session.problem},
@@ -87,20 +92,12 @@ class _Writer:
     """Writes the episodes of a task, part by part."""
 
     def __init__(self, folder: Path, asked: protocol.Question, seed: int, minari_name: str | None):
-        """Prepares to write.
-
-        Args:
-          folder: of all exported files.
-          asked: the task.
-          seed: of the environments.
-          minari_name: of the data set of Minari; None for none.
-        """
         self.asked, self.num_episodes = asked, 0
         self._steps = steps.Steps(asked, suite.environment_seed(seed, 0))
         self._folder = folder / f"{asked.domain}-{asked.task}" / TABLE
         self._pending: list[dict[str, np.ndarray]] = []
-        self._num_parts = 0
-        self._num_right, self._num_steps, self._returned = 0, 0, 0.0
+        self._num_pending, self._num_parts = 0, 0
+        self._num_right, self._num_steps, self._return = 0, 0, 0.0
         self._minari_folder, self._minari_name = folder / MINARI, minari_name
         self._data_set: Any = None
 
@@ -108,23 +105,24 @@ class _Writer:
         """Adds the next episode."""
         count = len(episode.actions)
         self._pending.append(self._steps.rows(self.num_episodes, episode))
+        self._num_pending += count
         self.num_episodes += 1
         self._num_steps += count
         self._num_right += bool(episode.rewards[-1] > 0)
-        self._returned += float(self.asked.discount ** np.arange(count) @ episode.rewards)
-        if sum(len(rows["step"]) for rows in self._pending) >= _ROWS:
+        self._return += float(self.asked.discount ** np.arange(count) @ episode.rewards)
+        if self._num_pending >= _ROWS:
             self.write()
 
     def write(self) -> None:
-        """Writes the episodes that were added since as a part."""
+        """Writes the pending episodes as a part."""
         if not self._pending:
             return
         table = self._steps.table(self._pending)
         if not self._num_parts:
-            shutil.rmtree(self._folder, ignore_errors=True)  # Of a session that was ended.
+            shutil.rmtree(self._folder, ignore_errors=True)  # Of an interrupted session.
             self._folder.mkdir(parents=True)
         tables.write(self._folder / f"part-{self._num_parts:05d}.parquet", table, compression="zstd")
-        self._pending = []
+        self._pending, self._num_pending = [], 0
         self._num_parts += 1
         if self._minari_name is not None:
             from physexp.analysis.score import data_set
@@ -135,18 +133,14 @@ class _Writer:
     def facts(self) -> dict[str, Any]:
         """Returns the task's question, the meanings of its columns, and means of its episodes."""
         asked = self.asked
+        names = ("question", "discount", "step_limit", "num_interactions", "action_names", "label_names")
         return {
             "episodes": self.num_episodes,
             "steps": self._num_steps,
             "success_rate": self._num_right / self.num_episodes,
-            "mean_return": self._returned / self.num_episodes,
-            "judged": self._steps.judged_by is not None,
-            "question": asked.question,
-            "discount": asked.discount,
-            "step_limit": asked.step_limit,
-            "num_interactions": asked.num_interactions,
-            "action_names": list(asked.action_names),
-            "label_names": list(asked.label_names),
+            "mean_return": self._return / self.num_episodes,
+            "judged": self._steps.is_judged,
+            **{name: getattr(asked, name) for name in names},
             "observations": {
                 name: {"shape": list(spec.shape), "dtype": spec.dtype.name}
                 for name, spec in asked.observation_spec.items()

@@ -6,10 +6,7 @@ Tasks are judged side by side, in processes of their own: the search for values 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent import futures
 import dataclasses
-import functools
 import multiprocessing
-
-import numpy as np
 
 from physexp.agents import processes
 from physexp.analysis.ideal import base as ideal_base
@@ -25,7 +22,7 @@ class Judge:
     def __init__(self, solution: ideal_base.Solution):
         """Takes the ideal experimenter."""
         self._solution = solution
-        self._cached = functools.lru_cache(_CACHED)(self._judge)
+        self._cache: dict[tuple[bytes, bytes], ideal_base.Judgement] = {}
 
     def __call__(self, episode: episodes.Episode) -> mistakes.Actions:
         """Returns the judgement of each action of an episode; raises ValueError if it cannot be known."""
@@ -33,13 +30,12 @@ class Judge:
 
     def judgement(self, episode: episodes.Episode) -> ideal_base.Judgement:
         """Returns the beliefs in an episode and the values of all actions; raises ValueError if they are unknown."""
-        hidden = np.asarray(episode.hidden)
-        return self._cached(hidden.dtype.str, hidden.shape, hidden.tobytes(), tuple(episode.actions.tolist()))
-
-    def _judge(self, dtype: str, shape: tuple[int, ...], hidden: bytes, actions: tuple[int, ...]):
-        taken = np.array(actions, np.int64)
-        episode = episodes.Episode(np.frombuffer(hidden, dtype).reshape(shape), taken, np.zeros(len(taken)), [])
-        return self._solution.judge(episode)
+        key = episode.hidden.tobytes(), episode.actions.tobytes()
+        if key not in self._cache:
+            if len(self._cache) == _CACHED:
+                self._cache.clear()
+            self._cache[key] = self._solution.judge(episode)
+        return self._cache[key]
 
 
 @dataclasses.dataclass(frozen=True)

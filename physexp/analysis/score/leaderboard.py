@@ -165,8 +165,11 @@ def _number(score: float) -> str:
 def draw(rows: Sequence[Row]):
     """Draws the score of each row, with its interval, and those of the domains that it plays."""
     figure, axes = plots.new(width=7.2, height=max(2.2, 0.75 + 0.3 * len(rows)))
-    names = list(rows[0].domains)
-    heights = np.linspace(0.3, -0.3, len(names))  # One below the other, so that equal scores are all seen.
+    looks = {
+        domain: dict(marker=_MARKERS[number % len(_MARKERS)], color=_COLORS[number % len(_COLORS)], markersize=3.5)
+        for number, domain in enumerate(rows[0].domains)
+    }
+    heights = np.linspace(0.3, -0.3, len(looks))  # One below the other, so that equal scores are all seen.
     places = np.arange(len(rows))[::-1]
     for place, row in zip(places, rows, strict=True):
         axes.axhline(place, color="0.93", linewidth=0.7, zorder=0)
@@ -174,22 +177,11 @@ def draw(rows: Sequence[Row]):
         axes.plot(ends, [place] * 2, color="black", linewidth=9, alpha=0.3, solid_capstyle="butt")
         score = max(drawing.LOWEST, row.whole["score"])
         axes.plot(score, place, "|", color="black", markersize=15, markeredgewidth=2)
-    for number, domain in enumerate(names):
-        shown = [
-            (row.domains[domain]["score"], place)
-            for row, place in zip(rows, places, strict=True)
-            if row.played[domain][0]
-        ]
-        axes.plot(
-            [max(drawing.LOWEST, score) for score, _ in shown],
-            [place + heights[number] for _, place in shown],
-            _MARKERS[number % len(_MARKERS)],
-            color=_COLORS[number % len(_COLORS)],
-            markersize=3.5,
-            zorder=3,
-            linestyle="none",
-            label=drawing.words(domain),
-        )
+        for (domain, look), height in zip(looks.items(), heights, strict=True):
+            if row.played[domain][0]:
+                axes.plot(max(drawing.LOWEST, row.domains[domain]["score"]), place + height, zorder=3, **look)
+    for domain, look in looks.items():
+        axes.plot([], [], linestyle="none", label=drawing.words(domain), **look)
     axes.set_yticks(places, [plots.literal(text.plain(row.name)) for row in rows])
     axes.tick_params(axis="y", length=0)
     axes.set(xlim=(drawing.LOWEST - 0.03, 1.04), ylim=(-0.7, len(rows) - 0.3))

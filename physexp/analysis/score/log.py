@@ -1,4 +1,4 @@
-"""The log of a score: every action that was played, a row each, and what the ideal experimenter says of it."""
+"""The log of a score: a row for each action, with its evaluation against the ideal experimenter."""
 
 from collections.abc import Iterable, Mapping
 import hashlib
@@ -15,7 +15,7 @@ from physexp.analysis.score import episodes, protocol
 
 FILE = "actions.parquet"
 
-PLAYED = pyarrow.schema(
+TAKEN = pyarrow.schema(
     [
         ("domain", pyarrow.string()),
         ("task", pyarrow.string()),
@@ -24,20 +24,22 @@ PLAYED = pyarrow.schema(
         ("step", pyarrow.int32()),
         ("action", pyarrow.int32()),
         ("reward", pyarrow.float64()),
-        ("observation", pyarrow.uint64()),  # A digest of what was observed before the action.
     ]
 )
+"""Columns of each action."""
+
+PLAYED = pyarrow.schema([*TAKEN, ("observation", pyarrow.uint64())])  # A digest of the observation before the action.
 """Columns that are the same to the bit whenever the actions are played again."""
 
 JUDGED = pyarrow.schema(
     [
-        ("value", pyarrow.float64()),  # What was known before the action was worth: V.
-        ("worth", pyarrow.float64()),  # What the action was worth then: Q.
-        ("answering", pyarrow.float64()),  # What the best answer was worth then.
-        ("tells", pyarrow.bool_()),  # Whether the action could change what was known of the answer.
-        ("bits", pyarrow.float64()),  # Of information about the answer that it brought.
+        ("value", pyarrow.float64()),  # V, the value of the situation before the action.
+        ("worth", pyarrow.float64()),  # Q, the value of the action.
+        ("answering", pyarrow.float64()),  # The value of the best answer.
+        ("tells", pyarrow.bool_()),  # Whether the action could change the belief in the answer.
+        ("bits", pyarrow.float64()),  # Information about the answer from the action.
         ("regret", pyarrow.float64()),  # V - Q.
-        ("mistake", pyarrow.dictionary(pyarrow.int32(), pyarrow.string())),  # Its kind; null where there is none.
+        ("mistake", pyarrow.dictionary(pyarrow.int32(), pyarrow.string())),  # Its kind; null for none.
     ]
 )
 """Columns that follow from those, in floating point."""
@@ -51,7 +53,7 @@ _NO_REGRET = 1e-9  # Less is an error of floating-point numbers.
 
 
 def digest(observation: Mapping[str, np.ndarray]) -> int:
-    """Returns 64 bits that depend on the names, types, shapes and bytes of what is observed."""
+    """Returns 64 bits that depend on the names, types, shapes and bytes of an observation."""
     hashed = hashlib.blake2b(digest_size=8)
     for name in sorted(observation):
         array = observation[name]
@@ -59,67 +61,46 @@ def digest(observation: Mapping[str, np.ndarray]) -> int:
     return int.from_bytes(hashed.digest(), "little")
 
 
-def rows(
-    asked: protocol.Question, seed: int, number: int, episode: episodes.Episode, actions: mistakes.Actions
-) -> dict[str, Any]:
-    """Returns all columns of one episode, T rows.
-
-    Args:
-      asked, seed, number, episode: as for `played`.
-      actions: the judgement of its actions.
-    """
-    return {**played(asked, seed, number, episode), **judged(asked, episode.actions, actions)}
-
-
-def played(asked: protocol.Question, seed: int, number: int, episode: episodes.Episode) -> dict[str, Any]:
-    """Returns the columns `PLAYED` of one episode, T rows.
-
-    Args:
-      asked: the task.
-      seed: of the environment.
-      number: the episode's index.
-      episode: what was played.
-    """
+def taken(asked: protocol.Question, seed: int, number: int, episode: episodes.Episode) -> dict[str, Any]:
+    """Returns the columns `TAKEN` of the episode of an index in the environment of a seed, T rows."""
     count = len(episode.actions)
+    keys = {"domain": asked.domain, "task": asked.task, "seed": seed, "episode": number}
     return {
-        "domain": np.full(count, asked.domain),
-        "task": np.full(count, asked.task),
-        "seed": np.full(count, seed),
-        "episode": np.full(count, number),
+        **{name: np.full(count, value) for name, value in keys.items()},
         "step": np.arange(count),
         "action": episode.actions,
         "reward": episode.rewards,
-        "observation": np.array([digest(seen.observation) for seen in episode.timesteps[:-1]], np.uint64),
     }
 
 
+def played(asked: protocol.Question, number: int, episode: episodes.Episode) -> dict[str, Any]:
+    """Returns the columns `PLAYED` of the episode of an index, T rows."""
+    digests = np.array([digest(before.observation) for before in episode.timesteps[:-1]], np.uint64)
+    return {**taken(asked, protocol.ENVIRONMENT_SEED, number, episode), "observation": digests}
+
+
 def judged(asked: protocol.Question, actions: np.ndarray, found: mistakes.Actions) -> dict[str, Any]:
-    """Returns the columns `JUDGED` of the actions of one episode, T rows."""
-    fields = dict(zip(ACTIONS, vars(found).values(), strict=True))
-    return {**fields, "regret": found.value - found.worth, "mistake": _kinds(asked, actions, found)}
-
-
-def _kinds(asked: protocol.Question, actions: np.ndarray, judged: mistakes.Actions) -> np.ndarray:
-    """Returns of which kind each action of an episode is, or is most, object [T]; None for no mistake."""
+    """Returns the columns `JUDGED` of the actions of one episode, T rows, from their judgement."""
     are_last = np.arange(len(actions)) == len(actions) - 1
-    costs = mistakes.costs(judged, actions >= asked.num_interactions, are_last)
+    costs = mistakes.costs(found, actions >= asked.num_interactions, are_last)
     kinds, table = np.array(list(costs), object), np.array(list(costs.values()))
-    found = kinds[table.argmax(axis=0)]
-    found[table.max(axis=0) <= _NO_REGRET] = None
-    return found
+    costliest = kinds[table.argmax(axis=0)]
+    costliest[table.max(axis=0) <= _NO_REGRET] = None
+    fields = dict(zip(ACTIONS, vars(found).values(), strict=True))
+    return {**fields, "regret": found.value - found.worth, "mistake": costliest}
 
 
-def table(played: Iterable[Mapping[str, Any]]) -> pyarrow.Table:
-    """Returns the table of what `rows` returned for some episodes, at least one."""
-    columns = list(played)
+def table(rows: Iterable[Mapping[str, Any]]) -> pyarrow.Table:
+    """Returns the table of the columns of some episodes, at least one."""
+    columns = list(rows)
     joined = {name: np.concatenate([part[name] for part in columns]) for name in SCHEMA.names}
     return pyarrow.table({name: pyarrow.array(joined[name]).cast(SCHEMA.field(name).type) for name in joined}, SCHEMA)
 
 
 def write(folder: Path, found: pyarrow.Table) -> None:
-    """Writes the log of a folder. Only words get dictionaries: those of digests and numbers would save nothing."""
-    words = [field.name for field in SCHEMA if not pyarrow.types.is_primitive(field.type)]
-    tables.write(folder / FILE, found, compression="zstd", compression_level=19, use_dictionary=words)
+    """Writes the log of a folder; only text has dictionaries, which would enlarge digests and numbers."""
+    texts = [field.name for field in SCHEMA if not pyarrow.types.is_primitive(field.type)]
+    tables.write(folder / FILE, found, compression="zstd", compression_level=19, use_dictionary=texts)
 
 
 def read(folder: Path) -> pyarrow.Table:
@@ -127,7 +108,7 @@ def read(folder: Path) -> pyarrow.Table:
 
     Raises:
       OSError: if there is none.
-      ValueError: if it is damaged; it names the file.
+      ValueError: if it is damaged; the line names the file.
     """
     return untrusted.read_table(folder / FILE, SCHEMA)
 
@@ -135,13 +116,17 @@ def read(folder: Path) -> pyarrow.Table:
 def of_task(found: pyarrow.Table, asked: protocol.Question) -> dict[str, np.ndarray]:
     """Returns the columns of one task's rows, in their order."""
     is_its = compute.and_(compute.equal(found["domain"], asked.domain), compute.equal(found["task"], asked.task))
-    its = found.filter(is_its)
-    kinds = np.array(its["mistake"].to_pylist(), object)  # A dictionary without words has no array.
-    return {name: kinds if name == "mistake" else its[name].to_numpy() for name in its.column_names}
+    return as_columns(found.filter(is_its))
+
+
+def as_columns(found: pyarrow.Table) -> dict[str, np.ndarray]:
+    """Returns the columns of a log as arrays."""
+    kinds = np.array(found["mistake"].to_pylist(), object)  # A dictionary without words has no array.
+    return {name: kinds if name == "mistake" else found[name].to_numpy() for name in found.column_names}
 
 
 def split(columns: Mapping[str, np.ndarray]) -> list[dict[str, np.ndarray]]:
-    """Returns the columns of each episode of a task; an episode begins with step 0."""
+    """Returns the columns of each episode; an episode begins with step 0."""
     starts = np.flatnonzero(columns["step"] == 0)
     bounds = [0, *starts[1:], len(columns["step"])] if len(starts) else []
     return [{name: values[a:b] for name, values in columns.items()} for a, b in zip(bounds, bounds[1:], strict=False)]

@@ -30,12 +30,7 @@ class Player:
     """The process of a user's agent; a context that ends it, and all that it has started."""
 
     def __init__(self, name: str, timeout: float):
-        """Prepares a process.
-
-        Args:
-          name: the function, `module:function`.
-          timeout: for each call of the agent, s.
-        """
+        """Takes the function, `module:function`, and the limit of each call, s."""
         self.name, self._timeout = name, timeout
         self._process: Any = None
 
@@ -51,31 +46,14 @@ class Player:
         self._ours.close()
 
     def make(self, asked: protocol.Question, first: int) -> core.Actor:
-        """Returns the agent's actor for a task.
-
-        Args:
-          asked: the task.
-          first: the index of the first episode that it will play.
-
-        Raises:
-          PlayerError: if the agent fails, now or later.
-        """
+        """Returns the agent's actor for a task and its first episode; raises PlayerError if the agent fails."""
         if self._process is None:
             self._start()
         self.call(f"({asked.name}, before the first episode)", asked, self._timeout + _START_SECONDS)
         return _Actor(self, asked, first)
 
     def call(self, place: str, message: Any, timeout: float | None = None) -> dict[str, Any]:
-        """Sends a message; returns the answer.
-
-        Args:
-          place: the task, episode and step, for errors.
-          message: what is sent.
-          timeout: s; by default that of the player.
-
-        Raises:
-          PlayerError: if the agent fails.
-        """
+        """Sends a message and returns the answer; raises PlayerError, with the place, if the agent fails."""
         timeout = timeout or self._timeout
         try:
             answer = dict(json.loads(self._exchange(pickle.dumps(message), time.monotonic() + timeout)))
@@ -129,6 +107,7 @@ class _Actor(core.Actor):
 
     def __init__(self, player: Player, asked: protocol.Question, first: int):
         self._player, self._asked, self._number = player, asked, first - 1
+        self._message: tuple[int | None, dm_env.TimeStep]
 
     def observe_first(self, timestep):
         self._number, self._step, self._message = self._number + 1, 0, (None, timestep)

@@ -1,6 +1,6 @@
 """The protocol of the score: the tasks, their instances and episodes, and the ideal experimenters to compare with.
 
-Everybody plays the same instances: episode e of a task is that of index e in the environment of one seed.
+All targets play the same instances: episode e of a task is the one with index e in the environment of one seed.
 """
 
 from collections.abc import Mapping, Sequence
@@ -23,19 +23,19 @@ MAX_EPISODES = 10_000
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Question:
-    """The facts of a task that an agent has before it plays: those of the documentation, and none of an episode.
+    """The description of a task that an agent gets before it plays.
 
     Attributes:
       domain, task: as for `suite.load`.
-      question: what is asked, in words.
-      observation_spec: specs of what is observed, by name.
-      observation_meanings: what each observation says, in words, by name.
+      question: the question in words.
+      observation_spec: specs of the observations, by name.
+      observation_meanings: descriptions of the observations, by name.
       action_spec: the spec of an action.
-      num_interactions: how many of the actions are interactions; they come first, answers after them.
-      label_names: the answers, in words.
-      action_names: what each action does or says, in words.
-      step_limit: actions in an episode at most; the last one in time should be an answer.
-      discount: gamma: what counts is the reward times gamma to the power of the actions before the last.
+      num_interactions: the number of interactions; they are the first actions, and answers follow.
+      label_names: descriptions of the answers.
+      action_names: descriptions of all actions.
+      step_limit: the maximum number of actions in an episode; the last one in time should be an answer.
+      discount: gamma; an episode counts gamma to the power of (number of actions - 1), times its reward.
     """
 
     domain: str
@@ -57,17 +57,13 @@ class Question:
 
     @property
     def num_actions(self) -> int:
-        """How many actions there are."""
+        """The number of actions."""
         return self.action_spec.num_values
 
 
 @functools.cache
 def question(domain: str, task: str) -> Question:
-    """Returns the question of a task.
-
-    Raises:
-      ValueError: for an unknown name; it lists those that there are.
-    """
+    """Returns the question of a task; raises ValueError for an unknown name and lists the known ones."""
     played = suite.load_task(domain, task)
     return Question(
         domain=domain,
@@ -85,11 +81,7 @@ def question(domain: str, task: str) -> Question:
 
 
 def ideal(asked: Question) -> ideal_base.Solution:
-    """Returns the ideal experimenter that agents are compared with.
-
-    Raises:
-      ValueError: if none is known.
-    """
+    """Returns the ideal experimenter of a task; raises ValueError if none is known."""
     known = domains.find(asked.domain)
     if known.ideal is None:
         raise ValueError(
@@ -111,11 +103,7 @@ def drawn(asked: Question, num_episodes: int) -> np.ndarray:
 
 
 def named(names: Sequence[str]) -> tuple[Question, ...]:
-    """Returns the questions of tasks, given as `domain/task`, each once.
-
-    Raises:
-      ValueError: for an unknown name; it lists those that there are.
-    """
+    """Returns the questions of tasks, `domain/task`, each once; raises ValueError for an unknown name."""
     known = {f"{domain}/{task}": (domain, task) for domain, task in suite.ALL_TASKS}
     unknown = [name for name in names if name not in known]
     if unknown:
@@ -124,11 +112,11 @@ def named(names: Sequence[str]) -> tuple[Question, ...]:
 
 
 def observing(kind: str) -> tuple[Question, ...]:
-    """Returns the questions of all tasks that have a score and observe `features`, `pixels`, or, for `all`, either."""
+    """Returns the questions of all tasks with a score that observe `features`, `pixels`, or, for `all`, either."""
     names = suite.ALL_TASKS if kind == "all" else suite.tagged(kind)
     return tuple(question(domain, task) for domain, task in names if is_judged(domain))
 
 
 def is_judged(domain: str) -> bool:
-    """Returns whether an ideal experimenter says what actions are worth in the tasks of a domain."""
+    """Returns whether an ideal experimenter evaluates actions in the tasks of a domain."""
     return domains.find(domain).ideal is not None

@@ -1,9 +1,9 @@
-"""From the log to the score: the share of the ideal's return, where the rest of it went, and over all domains.
+"""Computes scores from the log: of each task, where the rest was lost, and over all domains.
 
 A task's score is 0 for the better of answering at once and never answering, and 1 for the optimum. Over domains it is
-the interquartile mean with a stratified bootstrap (Agarwal et al., 2021). Their `rliable` draws again from the runs of
-an algorithm, and trims single ones; here one agent plays, its episodes are drawn again, within each task, and domains
-are trimmed, which is scipy's trimmed mean.
+the interquartile mean with a stratified bootstrap (Agarwal et al., 2021). Their `rliable` resamples the runs of an
+algorithm and trims single ones; here a single agent plays, the episodes of each task are resampled, and domains are
+trimmed.
 """
 
 from collections.abc import Mapping, Sequence
@@ -18,12 +18,12 @@ from physexp.analysis.score import log, protocol, reference
 from physexp.suite.engine import rules
 
 _RESAMPLES = 2_000
-_CUT = 0.25  # Of the domains, on either side of the interquartile mean.
+_TRIMMED = 0.25  # Share of the domains on either side of the interquartile mean.
 
 
 @dataclasses.dataclass(frozen=True)
 class TaskScore:
-    """What an agent earned on one task, from N episodes.
+    """The score of an agent on one task, from N episodes.
 
     Attributes:
       asked: the task.
@@ -32,10 +32,10 @@ class TaskScore:
       costs: of each episode by kind of mistake, as shares of ideal - floor, float64 [N] each.
       raw: scores of the returns, float64 [N].
       length: actions in each episode, int64 [N].
-      right, silent: how each ended, bool [N].
+      right, silent: whether each episode ended with the right answer, or without one, bool [N].
       gains: bits of information about the answer from the first interaction, the second and so on, means over the
         episodes, float64 [K].
-      known: how the ideal experimenter fares; None where it is not known.
+      known: statistics of the ideal experimenter, where they are known.
     """
 
     asked: protocol.Question
@@ -52,11 +52,11 @@ class TaskScore:
 
     @property
     def scores(self) -> np.ndarray:
-        """Returns the score of each episode, without luck, float64 [N]."""
+        """The score of each episode, without luck, float64 [N]."""
         return 1 - np.sum(list(self.costs.values()), axis=0)
 
-    def figures(self, seed: int) -> dict[str, Any]:
-        """Returns figures by name; the score and the mistakes sum to 1, the score and the luck to the raw score."""
+    def metrics(self, seed: int) -> dict[str, Any]:
+        """Returns metrics by name; the score and the mistakes sum to 1, the score and the luck to the raw score."""
         interactions = self.length - ~self.silent
         known = self.known
         return {
@@ -89,8 +89,8 @@ def of_task(
 
     Args:
       asked: the task.
-      columns: of the log, of its rows alone: whole episodes, one after the other.
-      known: how the ideal experimenter fares in as many episodes, where that is known.
+      columns: the log's columns of its rows: whole episodes, one after the other.
+      known: statistics of the ideal experimenter over the same number of episodes, where they are known.
     """
     first = columns["step"] == 0
     index = np.cumsum(first) - 1
@@ -103,8 +103,7 @@ def of_task(
     def discounted(values: np.ndarray) -> np.ndarray:
         return np.bincount(index, factors * values)
 
-    judged = mistakes.Actions(*(columns[name] for name in log.ACTIONS))
-    costs = mistakes.costs(judged, are_answers, last)
+    costs = mistakes.costs(mistakes.Actions(*(columns[name] for name in log.ACTIONS)), are_answers, last)
     return TaskScore(
         asked=asked,
         ideal=ideal,
@@ -121,8 +120,8 @@ def of_task(
 
 
 def summary(found: Sequence[TaskScore]) -> dict[str, Any]:
-    """Returns the figures of all tasks, at least one, of their domains, and over the domains."""
-    tasks = {one.asked.name: one.figures(seed) for seed, one in enumerate(found)}
+    """Returns the metrics of all tasks, at least one, of their domains, and over the domains."""
+    tasks = {one.asked.name: one.metrics(seed) for seed, one in enumerate(found)}
     return {"tasks": tasks, **over(found, [one.asked for one in found])}
 
 
@@ -130,37 +129,30 @@ def over(found: Sequence[TaskScore], questions: Sequence[protocol.Question]) -> 
     """Returns scores and intervals of the `domains` of some tasks, and of the `whole`.
 
     Args:
-      found: the scores of those that were played.
-      questions: the tasks, at least one; one that was not played counts as 0, which is what anybody has.
+      found: the scores of the tasks that were played.
+      questions: all tasks, at least one; the score of a task that was not played is 0.
     """
-    nothing = 0.0, np.zeros(_RESAMPLES)
     played = {one.asked.name: (one.scores.mean(), _resampled(one.scores, seed)) for seed, one in enumerate(found)}
-    means: dict[str, list[float]] = {}
-    again: dict[str, list[np.ndarray]] = {}
+    of_tasks: dict[str, list[tuple[float, np.ndarray]]] = {}
     for asked in questions:
-        mean, drawn = played.get(asked.name, nothing)
-        means.setdefault(asked.domain, []).append(mean)
-        again.setdefault(asked.domain, []).append(drawn)
-    of_domains = np.array([np.mean(parts) for parts in means.values()])
-    resampled = np.array([np.mean(parts, axis=0) for parts in again.values()])
+        of_tasks.setdefault(asked.domain, []).append(played.get(asked.name, (0.0, np.zeros(_RESAMPLES))))
+    means = {name: np.mean([mean for mean, _ in parts]) for name, parts in of_tasks.items()}
+    resampled = {name: np.mean([drawn for _, drawn in parts], axis=0) for name, parts in of_tasks.items()}
     return {
-        "domains": {
-            name: {"score": float(score), "interval": _interval(drawn)}
-            for name, score, drawn in zip(means, of_domains, resampled, strict=True)
-        },
+        "domains": {name: {"score": float(means[name]), "interval": _interval(resampled[name])} for name in of_tasks},
         "whole": {
-            "score": float(stats.trim_mean(of_domains, _CUT)),
-            "interval": _interval(stats.trim_mean(resampled, _CUT, axis=0)),
+            "score": float(stats.trim_mean(list(means.values()), _TRIMMED)),
+            "interval": _interval(stats.trim_mean(list(resampled.values()), _TRIMMED, axis=0)),
         },
     }
 
 
 def _resampled(values: np.ndarray, seed: int) -> np.ndarray:
-    """Returns means of values, [N], drawn again with replacement, float64 [_RESAMPLES]."""
+    """Returns bootstrap means of values, [N], float64 [_RESAMPLES]."""
     generator = np.random.default_rng(seed)
     return np.array([values[generator.integers(len(values), size=len(values))].mean() for _ in range(_RESAMPLES)])
 
 
 def _interval(means: np.ndarray) -> list[float]:
-    """Returns the ends of the 95 % interval of what was drawn again."""
+    """Returns the ends of the 95 % interval of bootstrap means."""
     return [float(end) for end in np.quantile(means, [0.025, 0.975])]

@@ -17,21 +17,22 @@ from physexp.analysis.data import provenance, untrusted
 from physexp.analysis.score import episodes, judging, log, playing, protocol, reference, scores, targets
 
 FILE = "score.json"
-_KINDS = {
-    "target": str,
-    "greedy": bool,
-    "complete": bool,
-    "problem": str,
-    "seconds": int | float,
-    "commit": str,
-    **dict.fromkeys(("versions", "agent", "protocol", "tasks", "domains", "whole"), dict),
-}
-_KINDS_OF_AGENT = {
+_TRAINED = {
     **dict.fromkeys(("algorithm", "command", "commit"), str | None),
     **dict.fromkeys(("frames", "seed"), int | None),
     "seconds": int | float | None,
     "agents": dict | None,
 }
+_KINDS = {
+    **dict.fromkeys(("target", "problem", "commit"), str),
+    **dict.fromkeys(("greedy", "complete"), bool),
+    "seconds": int | float,
+    "protocol": {"seed": int, "episodes": int, "tasks": list},
+    "agent": _TRAINED,
+    **dict.fromkeys(("versions", "tasks", "domains", "whole"), dict),
+}
+"""The types of the fields of `score.json`, which may come from strangers."""
+
 _MAX_SECONDS = 1e6  # Of a call; the system's own limit is little larger.
 
 
@@ -94,9 +95,9 @@ _Played = Mapping[protocol.Question, Sequence[tuple[Mapping[str, Any], episodes.
 def _play(
     session: playing.Session, questions: Sequence[protocol.Question], num_episodes: int, show: Callable[[], None]
 ) -> _Played:
-    found = defaultdict(list)
+    found: dict[protocol.Question, list[tuple[dict[str, Any], episodes.Episode]]] = defaultdict(list)
     for asked, episode in session.play(questions, num_episodes, protocol.SEED):
-        columns = log.played(asked, protocol.ENVIRONMENT_SEED, len(found[asked]), episode)
+        columns = log.played(asked, len(found[asked]), episode)
         found[asked].append((columns, dataclasses.replace(episode, timesteps=[])))
         show()
     return found
@@ -146,7 +147,7 @@ def read(folder: Path) -> dict[str, Any]:
 
     Raises:
       OSError: if it cannot be read.
-      ValueError: if there is none, or it is not what was written.
+      ValueError: if there is none, or it is faulty.
     """
     path = folder / FILE
     if not path.exists():
@@ -156,22 +157,22 @@ def read(folder: Path) -> dict[str, Any]:
     version = found.get("version") if isinstance(found, dict) else None
     if version != protocol.VERSION:
         raise ValueError(f"{path} is of protocol {version!r}; this version of physexp plays {protocol.VERSION}")
-    _check_kinds(path, found, _KINDS)
-    _check_kinds(path, found["protocol"], {"seed": int, "episodes": int, "tasks": list})
+    agents = found["agent"].get("agents") if isinstance(found.get("agent"), dict) else None
+    members = dict.fromkeys(agents, _TRAINED) if isinstance(agents, dict) else dict | None
+    _check_kinds(path, found, {**_KINDS, "agent": {**_TRAINED, "agents": members}})
     if not all(isinstance(name, str) for name in found["protocol"]["tasks"]):
-        raise ValueError(f"{path} is not what was written: tasks is {found['protocol']['tasks']!r}; score again")
-    _check_kinds(path, found["agent"], _KINDS_OF_AGENT)
-    for name, agent in (found["agent"].get("agents") or {}).items():
-        _check_kinds(path, {name: agent}, {name: dict})
-        _check_kinds(path, agent, _KINDS_OF_AGENT)
+        raise ValueError(f"{path} is faulty: tasks is {found['protocol']['tasks']!r}; score again")
     return found
 
 
 def _check_kinds(path: Path, fields: Mapping[str, Any], kinds: Mapping[str, Any]) -> None:
-    """Refuses a field of another type: raises ValueError."""
+    """Refuses a field of another type."""
     for name, kind in kinds.items():
-        if not isinstance(fields.get(name), kind):
-            raise ValueError(f"{path} is not what was written: {name} is {fields.get(name)!r}; score again")
+        value = fields.get(name)
+        if not isinstance(value, dict if isinstance(kind, dict) else kind):
+            raise ValueError(f"{path} is faulty: {name} is {value!r}; score again")
+        if isinstance(kind, dict):
+            _check_kinds(path, value, kind)
 
 
 def check(num_episodes: int, maximum: int, timeout: float) -> None:

@@ -1,4 +1,4 @@
-"""The table of steps: a row for each action, with what was observed before and after it, and what is hidden."""
+"""The table of steps: a row for each action, with the observations before and after it, and the hidden property."""
 
 from collections.abc import Mapping, Sequence
 
@@ -6,28 +6,18 @@ import numpy as np
 import pyarrow
 
 from physexp import suite
-from physexp.analysis.score import episodes, judging, protocol
+from physexp.analysis.score import episodes, judging, log, protocol
 
-_KEYS = pyarrow.schema(
+_KEYS, _TAKEN = list(log.TAKEN)[:5], list(log.TAKEN)[5:]
+_ENDED = pyarrow.schema(
     [
-        ("domain", pyarrow.string()),
-        ("task", pyarrow.string()),
-        ("seed", pyarrow.int64()),  # Of the environment: with `episode`, it rebuilds the episode.
-        ("episode", pyarrow.int64()),
-        ("step", pyarrow.int32()),
-    ]
-)
-_TAKEN = pyarrow.schema(
-    [
-        ("action", pyarrow.int32()),
-        ("reward", pyarrow.float64()),
         ("terminated", pyarrow.bool_()),
         ("truncated", pyarrow.bool_()),  # The simulation has diverged: the episode has no outcome.
     ]
 )
 
 OBSERVED, NEXT = "observation_", "next_"
-"""What the names of columns with observations begin with, and of those after the action."""
+"""Prefixes of columns: those with observations, and those after the action."""
 
 
 class Steps:
@@ -35,52 +25,45 @@ class Steps:
 
     Attributes:
       asked: the task.
-      judged_by: the ideal experimenter that says what actions are worth; None where none is known.
-      schema: names and types of the columns; what is an array is a list, its last index the fastest.
+      is_judged: whether an ideal experimenter gives beliefs and values.
+      schema: names and types of the columns; arrays are lists, their last index the fastest.
     """
 
     def __init__(self, asked: protocol.Question, environment_seed: int):
         """Describes the columns of a task, played with a seed of the environment."""
         self.asked, self._seed = asked, environment_seed
         self._task = suite.load_task(asked.domain, asked.task)
-        self.judged_by = protocol.ideal(asked) if protocol.is_judged(asked.domain) else None
-        self._judge = None if self.judged_by is None else judging.Judge(self.judged_by)
+        self.is_judged = protocol.is_judged(asked.domain)
+        self._judge = judging.Judge(protocol.ideal(asked)) if self.is_judged else None
         hidden = protocol.drawn(asked, 1)[0]
-        self.schema = pyarrow.schema([*_KEYS, *self._observed(""), *_TAKEN, *self._observed(NEXT)])
-        self.schema = self.schema.append(pyarrow.field("hidden", _type(hidden.dtype, hidden.shape)))
-        self.schema = self.schema.append(pyarrow.field("answer", pyarrow.int32()))  # The right label.
-        if self.judged_by is not None:
-            for name, length in (
-                ("belief", len(asked.label_names)),
-                (f"{NEXT}belief", len(asked.label_names)),
-                ("values", asked.num_actions),
-            ):
-                self.schema = self.schema.append(pyarrow.field(name, _type(np.dtype(float), (length,))))
+        num_labels = len(asked.label_names)
+        judged = {"belief": num_labels, f"{NEXT}belief": num_labels, "values": asked.num_actions}
+        self.schema = pyarrow.schema(
+            [
+                *_KEYS,
+                *self._observed(""),
+                *_TAKEN,
+                *_ENDED,
+                *self._observed(NEXT),
+                pyarrow.field("hidden", _type(hidden.dtype, hidden.shape)),
+                pyarrow.field("answer", pyarrow.int32()),  # The right label.
+                *(pyarrow.field(name, _type(np.dtype(float), (n,))) for name, n in judged.items() if self.is_judged),
+            ]
+        )
 
     def _observed(self, prefix: str) -> list[pyarrow.Field]:
+        specs = self.asked.observation_spec
         return [
-            pyarrow.field(f"{prefix}{OBSERVED}{name}", _type(spec.dtype, spec.shape))
-            for name, spec in self.asked.observation_spec.items()
+            pyarrow.field(f"{prefix}{OBSERVED}{name}", _type(spec.dtype, spec.shape)) for name, spec in specs.items()
         ]
 
     def rows(self, number: int, episode: episodes.Episode) -> dict[str, np.ndarray]:
-        """Returns the columns of an episode of T actions, arrays [T, ...].
-
-        Args:
-          number: its index.
-          episode: the played one.
-        """
+        """Returns the columns of the episode of an index, with T actions, arrays [T, ...]."""
         count = len(episode.actions)
         last = np.arange(count) == count - 1
         is_lost = last & (episode.rewards == 0)  # Every other end is right or wrong.
         found = {
-            "domain": np.full(count, self.asked.domain),
-            "task": np.full(count, self.asked.task),
-            "seed": np.full(count, self._seed),
-            "episode": np.full(count, number),
-            "step": np.arange(count),
-            "action": episode.actions,
-            "reward": episode.rewards,
+            **log.taken(self.asked, self._seed, number, episode),
             "terminated": last & ~is_lost,
             "truncated": is_lost,
             "hidden": np.repeat(episode.hidden[None], count, axis=0),
@@ -94,15 +77,13 @@ class Steps:
             found |= {"belief": judged.beliefs[:-1], f"{NEXT}belief": judged.beliefs[1:], "values": judged.values}
         return found
 
-    def table(self, played: Sequence[Mapping[str, np.ndarray]]) -> pyarrow.Table:
-        """Returns the table of what `rows` returned for some episodes, at least one."""
-        return pyarrow.table(
-            {
-                field.name: _column(np.concatenate([rows[field.name] for rows in played]), field.type)
-                for field in self.schema
-            },
-            self.schema,
-        )
+    def table(self, rows: Sequence[Mapping[str, np.ndarray]]) -> pyarrow.Table:
+        """Returns the table of the columns of some episodes, at least one."""
+        columns = {
+            field.name: _column(np.concatenate([part[field.name] for part in rows]), field.type)
+            for field in self.schema
+        }
+        return pyarrow.table(columns, self.schema)
 
 
 def array(column: pyarrow.ChunkedArray) -> np.ndarray:

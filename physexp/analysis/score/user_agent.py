@@ -3,7 +3,6 @@
 It answers in lines of JSON, so that nothing of the actor's runs in the process that scores it.
 """
 
-from collections.abc import Callable
 import importlib
 import inspect
 import json
@@ -44,15 +43,7 @@ def refuse_here() -> None:
 
 
 def make_actor(name: str, asked: protocol.Question) -> core.Actor:
-    """Returns an actor for a task from a user's function, which is a policy or makes an actor or a policy.
-
-    Args:
-      name: `module:function`.
-      asked: the task.
-
-    Raises:
-      TargetError: if there is no such function, or it is neither.
-    """
+    """Returns an actor for a task from a user's function, `module:function`; raises TargetError if it makes none."""
     module, _, attribute = name.partition(":")
     if (here := str(Path.cwd())) not in sys.path:
         sys.path.insert(0, here)
@@ -62,11 +53,19 @@ def make_actor(name: str, asked: protocol.Question) -> core.Actor:
         raise TargetError(f"{error}; start where it is, or install it") from None
     except AttributeError:
         raise TargetError(f"{module} has no {attribute}; name a function that it has") from None
-    count = _num_parameters(function) if callable(function) else 0
+    count = _num_parameters(function)
+    if count == 1:
+        made = function(asked)
+        if all(callable(getattr(made, method, None)) for method in _METHODS):
+            return made
+        if callable(made):
+            return actors.Policy(made)
+        raise TargetError(
+            f"it returned {type(made).__name__}; return an actor, with {', '.join(_METHODS)}, or a policy, a function "
+            "of an observation and a state"
+        )
     if count == 2:
         return actors.Policy(function)
-    if count == 1:
-        return _as_actor(function(asked))
     what = f"has {count} parameters without a default" if callable(function) else "is no function"
     raise TargetError(
         f"{attribute} {what}; give a function of a question, which returns an actor or a policy, or a policy, a "
@@ -75,12 +74,7 @@ def make_actor(name: str, asked: protocol.Question) -> core.Actor:
 
 
 def serve(connection: socket.socket, name: str) -> None:
-    """Answers messages until the process is killed.
-
-    Args:
-      connection: to the process that scores.
-      name: `module:function`.
-    """
+    """Answers messages on a connection until the process is killed, with actors of `module:function`."""
     global _is_here
     _is_here = True
     os.setsid()  # The stop signals of the scoring program's group do not reach it, and its own group ends as one.
@@ -96,8 +90,12 @@ def serve(connection: socket.socket, name: str) -> None:
             match pickle.load(messages):
                 case protocol.Question() as asked:
                     actor = make_actor(name, asked)
+                case None, timestep:
+                    actor.observe_first(timestep)
+                    answer["action"] = _plain(actor.select_action(timestep.observation))
                 case action, timestep:
-                    _show(actor, action, timestep)
+                    actor.observe(action, timestep)
+                    actor.update()
                     if not timestep.last():
                         answer["action"] = _plain(actor.select_action(timestep.observation))
         except Exception as error:  # The scoring program reports it.
@@ -105,30 +103,13 @@ def serve(connection: socket.socket, name: str) -> None:
         connection.sendall(json.dumps(answer).encode() + b"\n")
 
 
-def _show(actor: core.Actor, action: int | None, timestep) -> None:
-    if action is None:
-        actor.observe_first(timestep)
-    else:
-        actor.observe(action, timestep)
-        actor.update()
-
-
-def _num_parameters(function: Callable[..., Any]) -> int:
-    """Returns the number of arguments that a function must be given."""
+def _num_parameters(function: Any) -> int:
+    """Returns the number of arguments that a function must be given; 0 for anything else."""
+    if not callable(function):
+        return 0
     parameters = inspect.signature(function).parameters.values()
     optional = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
     return sum(one.default is one.empty and one.kind not in optional for one in parameters)
-
-
-def _as_actor(made: Any) -> core.Actor:
-    if all(callable(getattr(made, method, None)) for method in _METHODS):
-        return made
-    if callable(made):
-        return actors.Policy(made)
-    raise TargetError(
-        f"it returned {type(made).__name__}; return an actor, with {', '.join(_METHODS)}, or a policy, a function "
-        "of an observation and a state"
-    )
 
 
 def _end_with_parent() -> None:
@@ -159,5 +140,6 @@ def _described(error: Exception) -> str:
 
 def _is_of_a_library(path: str) -> bool:
     """Returns whether a source file is Python's, an installed library's, or this package's."""
-    folders = (*map(sysconfig.get_path, ("stdlib", "purelib", "platlib")), Path(physexp.__file__).parent)
+    libraries = [sysconfig.get_path(name) for name in ("stdlib", "purelib", "platlib")]
+    folders = [*libraries, str(Path(physexp.__file__).parent)]
     return path.startswith("<") or any(Path(path).is_relative_to(folder) for folder in folders)

@@ -9,8 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyarrow
-from pyarrow import compute
 
 import physexp
 from physexp.analysis.data import provenance
@@ -31,29 +29,34 @@ def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dic
       ValueError: if anything differs; the line names it.
     """
     written, found = scoring.read(folder), log.read(folder)
-    questions = protocol.named(written["protocol"]["tasks"])
     path = folder / log.FILE
-    _check_order(path, found, [asked.name for asked in questions])
-    columns = {asked.name: log.of_task(found, asked) for asked in questions}
-    counts = [int((columns[asked.name]["step"] == 0).sum()) for asked in questions]
-    _check_counts(folder, written, questions, counts)
-    done = 0
-    for asked in questions:
+    if written["protocol"]["seed"] != protocol.SEED:
+        raise ValueError(f"{folder / scoring.FILE}: seed is {written['protocol']['seed']} instead of {protocol.SEED}")
+    logged = log.split(log.as_columns(found))
+    questions = protocol.named(written["protocol"]["tasks"])
+    counts = _counts(path, len(logged), written, len(questions))
+    left = enumerate(logged, 1)
+    for asked, count in zip(questions, counts, strict=True):
         environment, judge = protocol.load(asked), judging.Judge(protocol.ideal(asked))
-        for number, logged in enumerate(log.split(columns[asked.name])):
+        for number, (done, columns) in zip(range(count), left, strict=False):
             place = f"{path}: {asked.name}, episode {number}"
             try:
-                episode = episodes.replay(environment, logged["action"].tolist(), number)
+                episode = episodes.replay(environment, columns["action"].tolist(), number)
             except ValueError as error:
                 raise ValueError(f"{place}: {error}") from None
-            _compare(place, logged, log.rows(asked, protocol.ENVIRONMENT_SEED, number, episode, judge(episode)))
-            done += 1
+            judged = log.judged(asked, episode.actions, judge(episode))
+            _compare(place, columns, {**log.played(asked, number, episode), **judged})
             show(done)
         environment.close()
     ideals = {asked.name: reference.of(asked, count) for asked, count in zip(questions, counts, strict=True) if count}
     again = scoring.metrics(found, questions, ideals)
     _compare_metrics(folder / scoring.FILE, {name: written[name] for name in again}, again)
-    return {"episodes": done, "actions": len(found), "target": written["target"], "score": written["whole"]["score"]}
+    return {
+        "episodes": len(logged),
+        "actions": len(found),
+        "target": written["target"],
+        "score": written["whole"]["score"],
+    }
 
 
 def verify_once(folder: Path) -> None:
@@ -84,28 +87,13 @@ def _digest(parts: Sequence[bytes]) -> str:
     return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
 
 
-def _check_order(path: Path, found: pyarrow.Table, wanted: Sequence[str]) -> None:
-    """Refuses rows of other tasks, and tasks in another order."""
-    names = compute.binary_join_element_wise(found["domain"], found["task"], "/").combine_chunks()
-    runs = compute.run_end_encode(names)
-    starts = [0, *runs.run_ends.to_pylist()]
-    for start, its, name in zip(starts, runs.values, [*wanted, "no further task"], strict=False):
-        if its.as_py() != name:
-            raise ValueError(f"{path}: row {start} is of {its}, where {name} is expected; put back what was played")
-
-
-def _check_counts(
-    folder: Path, written: Mapping[str, Any], questions: Sequence[protocol.Question], counts: Sequence[int]
-) -> None:
-    """Refuses another number of episodes than the score declares; after an early end, the last ones may be missing."""
-    asked_for = written["protocol"]["episodes"]
-    if written["protocol"]["seed"] != protocol.SEED:
-        raise ValueError(f"{folder / scoring.FILE}: seed is {written['protocol']['seed']} instead of {protocol.SEED}")
-    reached = max((number for number, count in enumerate(counts) if count), default=0)
-    for number, (asked, count) in enumerate(zip(questions, counts, strict=True)):
-        may_be_less = not written["complete"] and number >= reached
-        if count > asked_for or (count < asked_for and not may_be_less):
-            raise ValueError(f"{folder / log.FILE}: {asked.name} has {count} episodes instead of {asked_for}")
+def _counts(path: Path, num_episodes: int, written: Mapping[str, Any], num_tasks: int) -> list[int]:
+    """Returns the number of episodes of each task; after an early end, the last ones are missing."""
+    each = written["protocol"]["episodes"]
+    expected = num_tasks * each
+    if not 0 < num_episodes <= expected or (num_episodes < expected and written["complete"]):
+        raise ValueError(f"{path} has {num_episodes} episodes instead of {expected}")
+    return [min(each, max(0, num_episodes - task * each)) for task in range(num_tasks)]
 
 
 def _compare(place: str, logged: Mapping[str, np.ndarray], again: Mapping[str, np.ndarray]) -> None:
