@@ -1,11 +1,10 @@
-"""Text of others reaches terminals and pages as text alone."""
+"""Text from others reaches terminals and pages as text alone."""
 
 import html
 import json
 import shutil
 
 import commands
-import pytest
 
 from physexp.analysis.data import text
 from physexp.analysis.score import protocol, scoring, targets
@@ -14,17 +13,15 @@ HOSTILE = "mine; score 0.9990\x1b[8m\n\r\x9b2K\u202e\udcff"
 SHOWN = r"mine; score 0.9990\x1b[8m\n\r\x9b2K\u202e\udcff"
 
 
-def test_text_is_one_printable_line_that_keeps_letters_of_all_languages():
+def test_plain_text_is_one_printable_line_with_letters_of_all_languages():
     assert text.plain(HOSTILE) == SHOWN
     assert text.plain("Größe 4 μm, 物理") == "Größe 4 μm, 物理"
 
 
-@pytest.mark.parametrize(
-    "given", ["<script>", "[x](y)", "a | b", "**a** `b` ~c~ _d_", "![i](u)", "<!-- &amp; -->", "$x$", "www.a.b"]
-)
-def test_markup_in_a_page_is_text(given):
-    escaped = text.escaped(given)
-    assert not set(escaped) & set("<>[]|*`~_$") and "www." not in escaped and html.unescape(escaped) == given
+def test_markup_in_a_page_is_text():
+    for given in ("<script>", "[x](y)", "a | b", "**a** `b` ~c~ _d_", "![i](u)", "<!-- &amp; -->", "$x$", "www.a.b"):
+        escaped = text.escaped(given)
+        assert not set(escaped) & set("<>[]|*`~_$") and "www." not in escaped and html.unescape(escaped) == given
 
 
 def test_commands_show_escape_sequences_of_a_file_as_text(tmp_path):

@@ -1,4 +1,4 @@
-"""Agents that tests score: the text of a module that is put where scoring is started."""
+"""Agents for tests: the text of a module for the folder in which a score starts."""
 
 from pathlib import Path
 import shutil
@@ -79,10 +79,6 @@ _MODULE = textwrap.dedent(
         return policy
 
 
-    def exits(question):
-        return _after_two_episodes(lambda: sys.exit(7))
-
-
     def dies(question):
         return _after_two_episodes(lambda: os.kill(os.getpid(), signal.SIGKILL))
 
@@ -122,7 +118,7 @@ _MODULE = textwrap.dedent(
         subprocess.Popen([sys.executable, "-c", textwrap.dedent(_PROGRAM)])
         while not Path("program").exists():
             time.sleep(0.01)
-        ends = {"hang": _hang, "die": lambda: os._exit(3), "return": lambda: 8}
+        ends = {"hang": _hang, "return": lambda: 8}
         return _after_two_episodes(ends[os.environ["END"]])
 
 
@@ -140,10 +136,6 @@ _MODULE = textwrap.dedent(
 
     def chooses_too_much(question):
         return _after_two_episodes(lambda: question.action_spec.num_values)
-
-
-    def chooses_nothing(question):
-        return _after_two_episodes(lambda: None)
 
 
     def makes_nothing(question):
@@ -168,7 +160,7 @@ _MODULE = textwrap.dedent(
 
 
     class Told:
-        """An actor that writes down what it is told, and answers at once."""
+        """An actor that writes down all calls, and answers at last."""
 
         def __init__(self, question):
             print("made for", question.name)

@@ -1,7 +1,6 @@
-"""Anything that acts is scored; a failure is one line, and the episodes before are kept."""
+"""All targets are scored; a failure is one line, and the episodes before it are kept."""
 
 from concurrent import futures
-import contextlib
 import json
 import multiprocessing
 import os
@@ -19,7 +18,6 @@ import pytest
 import waiting
 
 from physexp import suite
-from physexp.agents import pretrained
 from physexp.analysis.score import episodes, judging, log, player, playing, protocol, scoring, targets, verifying
 
 THRESHOLD = protocol.named(["threshold/features"])
@@ -52,22 +50,22 @@ def failure_of(target, **options):
 
 
 def test_the_policy_of_the_documentation_is_as_good_as_the_ideal():
-    figures = score("halving:policy")["tasks"]["threshold/features"]
-    # Eight levels, alike likely, and three pushes halve them three times; each loses a twentieth of what comes after.
-    assert figures["score"] == figures["raw_score"] == 1
-    assert figures["ideal"] == pytest.approx(0.95**3)
-    assert figures["mean_interactions"] == figures["ideal_interactions"] == 3
-    assert figures["bits_per_interaction"] == pytest.approx(1)
-    assert figures["success_rate"] == 1
+    metrics = score("halving:policy")["tasks"]["threshold/features"]
+    # Eight levels, alike likely, and three pushes halve them three times; each costs a twentieth of the later reward.
+    assert metrics["score"] == metrics["raw_score"] == 1
+    assert metrics["ideal"] == pytest.approx(0.95**3)
+    assert metrics["mean_interactions"] == metrics["ideal_interactions"] == 3
+    assert metrics["bits_per_interaction"] == pytest.approx(1)
+    assert metrics["success_rate"] == 1
 
 
-def test_who_reads_and_writes_words_is_scored(monkeypatch):
+def test_a_program_that_reads_and_writes_text_is_scored(monkeypatch):
     monkeypatch.setenv("EXPERIMENTER", f"{sys.executable} reads.py")
-    figures = score("in_words:make", count=2)["tasks"]["threshold/features"]
-    assert figures["score"] == 1 and figures["mean_interactions"] == 3
+    metrics = score("in_words:make", count=2)["tasks"]["threshold/features"]
+    assert metrics["score"] == 1 and metrics["mean_interactions"] == 3
 
 
-def test_an_actor_is_told_what_a_dm_env_environment_tells_and_what_it_prints_is_no_output(capfd):
+def test_an_actor_gets_every_time_step_and_its_prints_are_no_output(capfd):
     score("made:Told", count=1)
     seen = "asked ['slid', 'strength']"
     assert Path("told").read_text() == (f"first None None; {seen}; saw 0 1.0; updated; {seen}; saw 8 0.0")
@@ -78,44 +76,30 @@ def test_an_actor_is_told_what_a_dm_env_environment_tells_and_what_it_prints_is_
 @pytest.mark.parametrize(
     ("target", "said"),
     [
-        ("made:raises", r"failed: KeyError: 'no such thing', made.py:\d+ \(threshold/features, episode 2, step 0\)"),
-        ("made:opens_what_is_not_there", r"failed: FileNotFoundError: .*, made.py:\d+ \(threshold/features"),
+        ("made:opens_what_is_not_there", r"failed: FileNotFoundError: .*, made.py:\d+ \(threshold/features, episode 2"),
         ("made:returns_no_pair", r"failed: TypeError: a policy returns an action and the next state; .* returned 3 \("),
-        ("made:exits", r"ended its process, exit code 7 \(threshold/features, episode 2, step 0\)"),
         ("made:dies", r"ended its process, exit code -9 \(threshold/features, episode 2, step 0\)"),
         ("made:chooses_text", r"chose 'push', which is no action \(.* step 0\); return an integer from 0 to 15"),
         ("made:chooses_a_truth", "chose True, which is no action"),
         ("made:chooses_too_much", "chose 16, which is no action"),
-        ("made:chooses_nothing", "chose None, which is no action"),
-    ],
-)
-def test_an_agent_that_fails_is_told_in_one_line_and_what_was_played_is_kept(target, said):
-    failure = failure_of(target)
-    assert failure.startswith(f"{target} ") and re.search(said, failure), failure
-
-
-def test_an_agent_that_hangs_is_ended():
-    said = failure_of("made:hangs", timeout=2.0)
-    assert said.startswith("made:hangs did nothing within 2 s (threshold/features, episode 2, step 0)")
-    assert not [child for child in multiprocessing.active_children() if child.name.startswith("actor")]
-
-
-@pytest.mark.parametrize(
-    ("target", "said"),
-    [
+        ("made:hangs", r"did nothing within 2 s \(threshold/features, episode 2, step 0\)"),
         ("made:answers_half", r"did nothing within 2 s \(threshold/features, episode 2, step 0\)"),
         ("made:answers_ahead", r"failed: it wrote to the connection of its process \(.* step 0\)"),
     ],
 )
-def test_an_agent_that_writes_to_the_connection_is_ended(target, said):
-    assert re.search(said, failure_of(target, timeout=2.0))
+def test_a_failing_agent_gives_one_line_and_earlier_episodes_are_kept(target, said):
+    failure = failure_of(target, timeout=2.0)
+    assert failure.startswith(f"{target} ") and re.search(said, failure), failure
+    assert not [child for child in multiprocessing.active_children() if child.name.startswith("actor")]
 
 
-@pytest.mark.parametrize("end", ["hang", "die", "return"])
-def test_programs_of_an_agent_are_as_usual_and_end_with_it(end, monkeypatch):
+@pytest.mark.parametrize("end", ["hang", "return"])
+def test_programs_of_an_agent_inherit_no_mask_and_end_with_it(end, monkeypatch):
     monkeypatch.setenv("END", end)
-    with contextlib.nullcontext() if end == "return" else pytest.raises(player.PlayerError):
+    if end == "return":
         score("made:starts_a_program", timeout=5.0)
+    else:
+        failure_of("made:starts_a_program", timeout=5.0)
     number, blocked, *handlers = json.loads(Path("program").read_text())
     assert not blocked and handlers == ["default_int_handler", 0, 0]  # Python's own, and the system's.
     waiting.wait_until(lambda: not psutil.pid_exists(number), "the end of the program")
@@ -123,11 +107,16 @@ def test_programs_of_an_agent_are_as_usual_and_end_with_it(end, monkeypatch):
 
 def test_programs_of_an_agent_end_when_the_score_is_killed(here, monkeypatch):
     monkeypatch.setenv("END", "hang")
-    words = ["score", "made:starts_a_program", "--tasks", "threshold/features"]
+    words = ["score", "made:starts_a_program", "--tasks", "threshold/features", "--output", "kept"]
     with commands.start(*words, cwd=here) as process:
         waiting.wait_until((here / "hanging").exists, "the third episode", pid=process.pid)
+        refused = commands.run(*words, cwd=here)
         process.kill()
         process.wait()
+    assert (refused.returncode, refused.stderr) == (
+        2,
+        "physexp: kept is in use by another process; give another --output\n",
+    )
     number, *_ = json.loads(Path("program").read_text())
     waiting.wait_until(lambda: not psutil.pid_exists(number), "the end of the program")
 
@@ -154,15 +143,6 @@ def test_a_function_with_a_default_makes_actors():
     assert score("made:makes_with_a_default", count=1)["tasks"]["threshold/features"]["score"] == 1
 
 
-def test_an_agent_whose_process_is_killed_is_told():
-    def kill(done):
-        for process in multiprocessing.active_children():
-            if done == 1 and process.name.startswith("actor"):  # Two have been played, and none judged.
-                process.kill()
-
-    assert "ended its process, exit code -9" in failure_of("halving:policy", show=kill)
-
-
 @pytest.mark.parametrize(
     ("target", "said"),
     [
@@ -173,80 +153,14 @@ def test_an_agent_whose_process_is_killed_is_told():
         ("made:makes_nothing", "it returned int; return an actor, with select_action, observe_first, observe, update"),
     ],
 )
-def test_what_cannot_play_is_told_before_anything_is_played(target, said):
+def test_a_function_that_cannot_play_fails_before_the_first_episode(target, said):
     with pytest.raises(player.PlayerError, match="before the first episode") as error:
         score(target)
     assert str(error.value).startswith(f"{target} failed: {said}")
     assert not Path("scored").exists(), "so that it can be tried again"
 
 
-def test_what_is_no_target_is_refused_with_what_there_is():
-    with pytest.raises(ValueError, match="fly holds no run.*DOMAIN/TASK.*random, at_once, silent, ideal, .*rule"):
-        targets.find("fly")
-    with pytest.raises(
-        ValueError, match=r"difficulty3 was trained with difficulty 3, and the score plays tasks without options: train"
-    ):
-        targets.find("which_is_heavier-features-difficulty3")
-
-
-def facts(name):
-    target = targets.find(name)
-    return target.describe([asked.name for asked in target.questions])
-
-
-def test_targets_play_the_tasks_that_they_can():
-    def names(target):
-        return [asked.name for asked in targets.find(target).questions]
-
-    assert targets.find("random").questions is targets.find("made:raises").questions is None
-    card = str(pretrained.FOLDER / "threshold-features.safetensors")
-    assert names("threshold/features") == names("threshold-features") == names(card) == ["threshold/features"]
-    assert facts(card) == facts("threshold-features") == facts("threshold/features")
-    assert names("which_is_heavier-features-difficulty5") == ["which_is_heavier/features"]
-    assert names("rule") == names("lookup") == ["towers/direct_features", "towers/fist_features"]
-
-
-def test_agents_that_come_with_the_package_are_a_team_of_which_each_plays_its_own_task():
-    def names(target, observations="features"):
-        return [asked.name for asked in targets.find(target).choose([], observations)]
-
-    assert names("a3c") == ["towers/direct_features", "towers/fist_features", "which_is_heavier/features"]
-    assert {"threshold/features", "strike/features"} < set(names("shipped"))
-    assert "threshold/pixels" in names("shipped", "pixels") and "threshold/features" not in names("shipped", "pixels")
-    assert names("threshold/features,strings/features") == ["threshold/features", "strings/features"]
-
-
-@pytest.mark.parametrize(
-    ("target", "said"),
-    [
-        ("threshold/features,threshold-features", "both threshold/features and threshold-features play threshold/"),
-        ("threshold/features,random", "random is no trained agent; a team is of trained agents, so give it alone"),
-        ("rule,threshold/features", "rule is no trained agent; a team is of trained agents, so give it alone"),
-        ("threshold/features,fly", "fly holds no run"),
-    ],
-)
-def test_a_team_whose_tasks_nobody_or_two_play_is_refused(target, said):
-    with pytest.raises(ValueError, match=said):
-        targets.find(target)
-
-
-@pytest.mark.parametrize(
-    ("target", "name"),
-    [
-        ("threshold/features", "threshold_features"),
-        ("../x", "x"),
-        (".", "here"),
-        ("+++", "target"),
-        (240 * "a", 60 * "a"),
-    ],
-)
-def test_files_of_a_target_have_a_name_of_letters(target, name, tmp_path, monkeypatch):
-    (tmp_path / "here").mkdir()
-    monkeypatch.chdir(tmp_path / "here")
-    assert targets.file_name(target) == name
-
-
-def test_a_team_scores_what_its_agents_score_alone():
+def test_a_team_scores_like_its_agents_alone():
     team = score("threshold/features,strings/features", BOTH, folder="team")
     for asked in BOTH:
         alone = score(asked.name, [asked], folder=asked.domain)
@@ -256,7 +170,7 @@ def test_a_team_scores_what_its_agents_score_alone():
 
 
 @pytest.mark.parametrize("target", ["random", "threshold/features"])
-def test_a_target_plays_the_same_again_and_no_episode_depends_on_how_many_there_are(target):
+def test_a_target_plays_the_same_again_for_any_number_of_episodes(target):
     score(target, folder="once")
     score(target, folder="again")
     score(target, folder="fewer", count=2)
@@ -266,28 +180,17 @@ def test_a_target_plays_the_same_again_and_no_episode_depends_on_how_many_there_
     assert log.read(Path("once")).slice(0, len(fewer)).equals(fewer)
 
 
-def test_a_trained_agent_is_scored_with_what_it_was_trained_with():
-    found = score("threshold/features", count=20)
-    assert found["agent"]["frames"] == 60_024 and found["agent"]["command"].startswith("physexp train threshold")
-    assert found["tasks"]["threshold/features"]["score"] > 0.9  # A wrong answer of 20 costs 2 / 20 / 1.3 = 0.07.
-
-
-def test_a_run_is_scored_as_the_agent_it_has_trained(untrained):
-    with pytest.raises(ValueError, match="was trained with difficulty 10, and the score plays tasks without options"):
-        targets.find(str(untrained.path))
-
-
 def test_the_log_has_a_row_for_each_action_and_rebuilds_each_instance():
     score("random", BOTH)
     rows = log.read(Path("scored")).to_pandas()
     for (domain, task, seed, episode), played in rows.groupby(["domain", "task", "seed", "episode"], sort=False):
-        environment = suite.load(domain, task, {"random": seed})
-        environment.task.next_episode = episode
-        timestep = environment.reset()
+        environment = suite.load_batch(domain, task, 1, {"random": protocol.SEED})
+        assert seed == suite.environment_seed(protocol.SEED, 0)
+        timestep = environment.reset(episode=episode)
         for row in played.itertuples():
-            assert row.observation == log.digest(timestep.observation)
-            timestep = environment.step(row.action)
-            assert row.reward == timestep.reward
+            assert row.observation == log.digest({name: value[0] for name, value in timestep.observation.items()})
+            timestep = environment.step(np.array([row.action]))
+            assert row.reward == timestep.reward[0]
         assert timestep.last()
     made = rows.mistake.notna()
     np.testing.assert_allclose(rows.regret, rows.value - rows.worth, atol=1e-12)
@@ -302,6 +205,9 @@ def test_the_command_scores_and_verifies(here):
     head, line, folder = done.stdout.splitlines()
     assert head.split()[:2] == ["task", "score"] and folder == "scores/halving_policy"
     assert line.split() == ["threshold/features", "1.0000", "1.0000", "to", "1.0000", "1.0000", "3.0000", "nothing"]
+    assert commands.run(*words, cwd=here).stdout.splitlines()[-1] == "scores/halving_policy-2"
+    refused = commands.run(*words, "--output", folder, cwd=here)
+    assert refused.stderr == f"physexp: {folder} exists and is not empty; give another --output\n"
     done = commands.run("verify", folder, cwd=here)
     assert done.stdout == "OK: 3 episodes were played so, by halving:policy; score 1.0000\n"
     done = commands.run("verify", folder, "--json", cwd=here)
@@ -313,36 +219,24 @@ def test_the_command_scores_and_verifies(here):
     )
 
 
-def test_of_a_team_in_a_team_each_agent_counts_once():
-    outer, inner = facts("a3c,threshold/features"), facts("a3c")
-    assert len(inner["agents"]) > 1
-    assert outer["agents"] == inner["agents"] | {"threshold/features": facts("threshold/features")}
-    assert outer["frames"] == inner["frames"] + facts("threshold/features")["frames"]
-
-
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["halving:policy", "--tasks", "threshold/fast"], "task is 'threshold/fast'; choose from which_is_heavier/"),
-        (["threshold/features", "--tasks", "strings/features"], "threshold/features does not play strings/features; "),
-        (["halving:policy", "--episodes", "0"], "episodes is 0; give a number from 1 to 10,000"),
-        (["halving:policy", "--timeout", "0"], "timeout is 0.0; give a number from 0 to 1e+06 s but not 0"),
-        (["halving:policy", "--timeout", "5e6"], "timeout is 5000000.0; give a number from 0 to 1e+06 s"),
-        (["halving:policy", "--minutes", "1e308"], "minutes is 1e+308; give a number from 0 to 1e+09 min"),
-        (["halving:policy", "--minutes", "nan"], "minutes is nan; give "),
-        (["halving:policy", "--minutes", "-1"], "minutes is -1"),
-        (["halving:policy", "--frames", "-3"], "frames is -3; give an integer >= 0"),
-        (["halving:policy", "--output", "."], ". exists and is not empty; give another --output"),
+        (["--tasks", "threshold/fast"], "task is 'threshold/fast'; choose from which_is_heavier/"),
+        (["--episodes", "0"], "episodes is 0; give a number from 1 to 10,000"),
+        (["--timeout", "0"], "timeout is 0.0; give a number from 0 to 1e+06 s but not 0"),
+        (["--minutes", "nan"], "minutes is nan; give "),
+        (["--frames", "-3"], "frames is -3; give an integer >= 0"),
     ],
 )
 def test_the_command_refuses_before_anything_is_played(here, words, said):
-    done = commands.run("score", *words, cwd=here)
+    done = commands.run("score", "halving:policy", *words, cwd=here)
     assert done.returncode == 2 and done.stderr.startswith(f"physexp: {said}"), done.stderr
     assert not (here / "scores").exists()
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
-def test_a_score_that_is_ended_goes_on_and_plays_nothing_twice(here, number):
+def test_an_interrupted_score_goes_on_and_plays_nothing_twice(here, number):
     words = ["score", "made:waits", "--tasks", "threshold/features", "--episodes", "5"]
     begun = here / "begun"
     with commands.start(*words, cwd=here) as process:
@@ -364,7 +258,7 @@ def test_a_score_that_is_ended_goes_on_and_plays_nothing_twice(here, number):
     assert sorted(path.name for path in (here / "whole").iterdir()) == ["actions.parquet", "score.json"]
 
 
-def test_a_score_that_is_killed_before_its_report_is_there_draws_it_next_time(here):
+def test_a_report_is_drawn_after_a_kill_before_it(here):
     words = ["score", "random", "--tasks", "threshold/features", "--episodes", "2"]
     folder = here / "scores" / "random"
     with commands.start(*words, cwd=here) as process:
@@ -390,70 +284,46 @@ def test_a_score_goes_on_with_the_episodes_that_were_written_whole():
     played = Path("scored") / playing.FILE
     with played.open("ab") as file:
         file.write(b'["strings/features", [1, 2')  # As when the power fails.
+    for target, options, said in (
+        ("at_once", {"count": 6}, 'begun with target "random" instead of "at_once"; give the same, or another --outp'),
+        ("random", {"count": 5}, "begun with protocol episodes 6 instead of 5; give the same, or"),
+        ("random", {"count": 6, "greedy": True}, "begun with greedy false instead of true"),
+    ):
+        with pytest.raises(ValueError, match=said):
+            score(target, BOTH, **options)
     score("random", BOTH, count=6)
     assert log.read(Path("scored")).equals(log.read(Path("whole")))
     assert not played.exists()
 
 
-@pytest.mark.parametrize(
-    ("target", "options", "said"),
-    [
-        ("at_once", {}, 'begun with target "random" instead of "at_once"; give the same, or another --output'),
-        ("random", {"count": 5}, "begun with protocol episodes 4 instead of 5; give the same, or"),
-        ("random", {"greedy": True}, "begun with greedy false instead of true"),
-    ],
-)
-def test_a_folder_with_episodes_of_another_score_is_refused(target, options, said):
-    def end(done):
-        raise InterruptedError
-
-    with pytest.raises(InterruptedError):
-        score("random", show=end)
-    with pytest.raises(ValueError, match=said):
-        score(target, **options)
+def slow_and_fast():
+    """A hundred aimless episodes of Sealed Box, which take half a minute to judge, and one of Threshold."""
+    (slow,), (fast,) = protocol.named(["sealed_box/features"]), THRESHOLD
+    ways = np.random.default_rng(0).integers(slow.num_interactions, size=(100, 20))
+    aimless = zip(protocol.drawn(slow, 100), ways, strict=True)
+    answer = episodes.Episode(protocol.drawn(fast, 1)[0], np.array([fast.num_interactions]), np.zeros(1), [])
+    return {slow: [episodes.Episode(one, way, np.zeros(20), []) for one, way in aimless], fast: [answer]}
 
 
-def test_a_second_score_of_a_target_has_a_folder_of_its_own(here):
-    words = ["score", "random", "--tasks", "threshold/features", "--episodes", "2"]
-    assert [commands.run(*words, cwd=here).stdout.splitlines()[-1] for _ in range(2)] == [
-        "scores/random",
-        "scores/random-2",
-    ]
-    refused = commands.run(*words, "--output", "scores/random", cwd=here)
-    assert refused.stderr == "physexp: scores/random exists and is not empty; give another --output\n"
-
-
-def test_a_second_process_on_a_folder_is_refused(here):
-    words = ["score", "made:hangs", "--tasks", "threshold/features", "--output", "kept"]
-    with commands.start(*words, cwd=here) as process:
-        waiting.wait_until((here / "hanging").exists, "the third episode", pid=process.pid)
-        refused = commands.run(*words, cwd=here)
-    assert refused.returncode == 2
-    assert refused.stderr == "physexp: kept is in use by another process; give another --output\n"
-
-
-def wanderers(count):
-    """Sealed Box, and episodes of it in which an agent wanders about: a hundred take half a minute to judge."""
-    (asked,) = protocol.named(["sealed_box/features"])
-    ways = np.random.default_rng(0).integers(asked.num_interactions, size=(count, 20))
-    hidden = protocol.drawn(asked, count)
-    return asked, [episodes.Episode(one, way, np.zeros(20), []) for one, way in zip(hidden, ways, strict=True)]
-
-
-def test_judges_that_are_interrupted_end_at_once():
+def test_an_interruption_ends_judges_at_once():
     def interrupt(done):
-        if done:
-            raise KeyboardInterrupt
+        raise KeyboardInterrupt
 
-    asked, played = wanderers(100)
-    (other,) = THRESHOLD
-    for tasks in ({asked: played}, {asked: played, other: []}):
-        with pytest.raises(KeyboardInterrupt):
-            judging.judge(tasks, interrupt)
-        assert not multiprocessing.active_children()
+    with pytest.raises(KeyboardInterrupt):
+        judging.judge(slow_and_fast(), interrupt)
+    assert not multiprocessing.active_children()
 
 
-def test_a_terminal_that_is_gone_ends_judges_without_a_word_of_their_own(here):
+def test_a_killed_judge_is_an_error():
+    def kill(done):
+        for worker in multiprocessing.active_children():
+            worker.kill()
+
+    with pytest.raises(futures.BrokenExecutor):
+        judging.judge(slow_and_fast(), kill)
+
+
+def test_a_hangup_of_the_terminal_ends_judges_without_a_word(here):
     """With real processes of their own, whose tracker of semaphores is in the terminal's group, too."""
     words = ["score", "random", "--tasks", "sealed_box/features", "threshold/features", "--episodes", "60"]
     program, played = Path(sys.executable).with_name("physexp"), here / "out" / playing.FILE
@@ -471,16 +341,6 @@ def test_a_terminal_that_is_gone_ends_judges_without_a_word_of_their_own(here):
     assert errors == (
         "the episodes that were played are in out; the same command goes on after them\nphysexp: interrupted\n"
     )
-
-
-def test_a_judge_that_is_killed_is_an_error():
-    def kill(done):
-        for worker in multiprocessing.active_children():
-            worker.kill()
-
-    asked, played = wanderers(100)
-    with pytest.raises(futures.BrokenExecutor):
-        judging.judge({asked: played, THRESHOLD[0]: []}, kill)
 
 
 def test_an_episode_is_done_once_it_is_judged():

@@ -1,0 +1,75 @@
+"""A target is found by a name: a baseline, an agent, a team of agents, or a user's function."""
+
+import pytest
+
+from physexp.agents import pretrained
+from physexp.analysis.score import targets
+
+
+def names(target, observations="features"):
+    return [asked.name for asked in targets.find(target).choose([], observations)]
+
+
+def described(name):
+    target = targets.find(name)
+    return target.describe([asked.name for asked in target.questions])
+
+
+def test_an_unknown_target_is_refused_with_the_known_ones():
+    with pytest.raises(ValueError, match="fly holds no run.*DOMAIN/TASK.*random, at_once, silent, ideal, .*rule"):
+        targets.find("fly")
+
+
+def test_an_agent_of_a_task_with_options_is_refused(untrained):
+    with pytest.raises(ValueError, match="was trained with difficulty 3, and the score plays tasks without options"):
+        targets.find("which_is_heavier-features-difficulty3")
+    with pytest.raises(ValueError, match="was trained with difficulty 10, and the score plays tasks without options"):
+        targets.find(str(untrained.path))
+
+
+def test_targets_play_the_tasks_that_they_can():
+    assert targets.find("random").questions is targets.find("made:raises").questions is None
+    path = str(pretrained.FOLDER / "threshold-features.safetensors")
+    assert names("threshold/features") == names("threshold-features") == names(path) == ["threshold/features"]
+    assert described(path) == described("threshold-features") == described("threshold/features")
+    assert described(path)["frames"] == 60_024 and described(path)["command"].startswith("physexp train threshold")
+    assert names("which_is_heavier-features-difficulty5") == ["which_is_heavier/features"]
+    assert names("rule") == names("lookup") == ["towers/direct_features", "towers/fist_features"]
+    with pytest.raises(ValueError, match="threshold/features does not play strings/features; it plays threshold/fe"):
+        targets.find("threshold/features").choose(["strings/features"], "features")
+
+
+def test_each_agent_of_a_team_plays_its_own_task():
+    assert names("a3c") == ["towers/direct_features", "towers/fist_features", "which_is_heavier/features"]
+    assert {"threshold/features", "strike/features"} < set(names("shipped"))
+    assert "threshold/pixels" in names("shipped", "pixels") and "threshold/features" not in names("shipped", "pixels")
+    assert names("threshold/features,strings/features") == ["threshold/features", "strings/features"]
+
+
+def test_each_agent_of_a_team_in_a_team_counts_once():
+    outer, inner, single = described("a3c,threshold/features"), described("a3c"), described("threshold/features")
+    assert len(inner["agents"]) > 1
+    assert outer["agents"] == inner["agents"] | {"threshold/features": single}
+    assert outer["frames"] == inner["frames"] + single["frames"]
+
+
+@pytest.mark.parametrize(
+    ("target", "said"),
+    [
+        ("threshold/features,threshold-features", "both threshold/features and threshold-features play threshold/"),
+        ("threshold/features,random", "random is no trained agent; a team is of trained agents, so give it alone"),
+        ("rule,threshold/features", "rule is no trained agent; a team is of trained agents, so give it alone"),
+        ("threshold/features,fly", "fly holds no run"),
+    ],
+)
+def test_a_team_with_no_agent_or_two_for_a_task_is_refused(target, said):
+    with pytest.raises(ValueError, match=said):
+        targets.find(target)
+
+
+def test_files_of_a_target_have_a_name_of_letters(tmp_path, monkeypatch):
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path / "here")
+    names_of_files = {"threshold/features": "threshold_features", "../x": "x", ".": "here", "+++": "target"}
+    for target, name in {**names_of_files, 240 * "a": 60 * "a"}.items():
+        assert targets.file_name(target) == name
