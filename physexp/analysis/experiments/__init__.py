@@ -10,37 +10,40 @@ if TYPE_CHECKING:
 
 __all__ = ["EXPERIMENTS", "NAMES", "Experiment"]
 
-NAMES = (
-    "mass_gap",
-    "learning_heavier",
-    "population",
-    "individual",
-    "patience",
-    "random_heavier",
-    "learning_towers",
-    "waiting",
-    "random_towers",
-    "ideal_gap",
-    "learners",
-    "data_efficiency",
-    "reaching",
-    "ablations",
-    "generalization",
-    "timing",
-    "noise",
-    "weighing",
-    "clamping",
-    "shaking",
-    "aiming",
-    "laboratory",
-)
-"""The experiments in the paper's order; each is the `EXPERIMENT` of the module of its name."""
+_MODULES = {
+    "mass_gap": "mass_gaps",
+    "learning_heavier": "learning",
+    "population": "interactions",
+    "individual": "mass_gaps",
+    "patience": "interactions",
+    "random_heavier": "interactions",
+    "learning_towers": "learning",
+    "waiting": "control_steps",
+    "random_towers": "interactions",
+    "ideal_gap": "ideal_gap",
+    "learners": "learning",
+    "data_efficiency": "efficiency",
+    "reaching": "efficiency",
+    "ablations": "efficiency",
+    "generalization": "generalization",
+    "timing": "control_steps",
+    "noise": "mass_gaps",
+    "weighing": "strategies",
+    "clamping": "strategies",
+    "shaking": "strategies",
+    "aiming": "strategies",
+    "laboratory": "laboratory",
+}
+"""The module whose `EXPERIMENTS` contain an experiment, in the paper's order."""
+
+NAMES = tuple(_MODULES)
 
 
 def __getattr__(name: str) -> Any:
-    """Imports an experiment when it is used: the command line's help needs only names, and imports take seconds."""
+    """Imports the experiments at their first use: that takes seconds, and the command line's help needs only names."""
     if name != "EXPERIMENTS":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    found = {name: importlib.import_module(f"{__name__}.{name}").EXPERIMENT for name in NAMES}
+    modules = {module: importlib.import_module(f"{__name__}.{module}") for module in dict.fromkeys(_MODULES.values())}
+    found = {name: modules[module].EXPERIMENTS[name] for name, module in _MODULES.items()}
     globals()["EXPERIMENTS"] = found
     return found

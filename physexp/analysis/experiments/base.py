@@ -154,23 +154,15 @@ def keep_made(path: Path, made: Any) -> None:
     files.write_atomically(path, (json.dumps(made, indent=1) + "\n").encode())
 
 
-def read_made(path: Path, experiment: str, is_as_written: Callable[[Any], bool]) -> Any:
-    """Returns what the preparation of an experiment has left in a JSON file.
-
-    Args:
-      path: the file.
-      experiment: its name.
-      is_as_written: tells whether this is something that it writes.
+def read_made(path: Path, experiment: str) -> Any:
+    """Returns the results that the preparation of an experiment stored in a JSON file.
 
     Raises:
       ValueError: if the file is missing or damaged.
     """
     if not path.exists():
         raise ValueError(f"{path} is missing; `physexp reproduce {experiment}` makes it")
-    found = files.read_json(path)
-    if not is_as_written(found):
-        raise ValueError(f"{path} is not what was written; remove it, and `physexp reproduce {experiment}` makes it")
-    return found
+    return files.read_json(path)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -181,30 +173,36 @@ class Experiment:
       name: as in `physexp reproduce NAME`.
       title: of the figure.
       section: of the paper.
-      caption: what the figure shows.
-      conditions: the agents it needs, of each of which several seeds are trained.
-      trials: what each of them plays.
-      prepare: makes what needs no agent and takes time, keeps it with the results, and reports lines that tell how it
-        goes; None where nothing does.
-      load: from the results to a tidy DataFrame; pure reading.
-      claims: from that to what holds.
-      draw: from that to a matplotlib figure.
-      table: from that to a header and rows of words, to stand below the figure; None for none.
+      caption: of the figure.
+      claims: the claims it tests.
+      conditions: the agents it needs; several seeds of each are trained.
+      trials: the episodes that each agent plays.
+      prepare: computes slow results that need no agent, stores them with the results, and reports lines of progress;
+        None without such results.
+      load: reads the data from the results.
+      statistics: the estimates of the claims from the data, by the ids of the claims.
+      draw: draws a matplotlib figure of the data.
+      table: returns a header and rows of words, shown below the figure; None for none.
     """
 
     name: str
     title: str
     section: str
     caption: str
+    claims: tuple[claims_lib.Claim, ...]
     conditions: tuple[conditions_lib.Condition, ...] = ()
     trials: tuple[Trial, ...] = ()
     prepare: Callable[[Results, Callable[[str], None]], None] | None = None
     load: Callable[[Results], Any]
-    claims: Callable[[Any], list[claims_lib.Claim]]
+    statistics: Mapping[str, claims_lib.Statistic]
     draw: Callable[[Any], Any]
     table: Callable[[Any], list[tuple[str, ...]]] | None = None
 
-    def figure(self, frame) -> Any:
-        """Draws the figure as it is to look."""
+    def test(self, data) -> list[claims_lib.Tested]:
+        """Returns the claims under each of their conditions that has data."""
+        return claims_lib.test(self.claims, self.statistics, data)
+
+    def figure(self, data) -> Any:
+        """Draws the figure in the style of all figures."""
         with plots.style():
-            return self.draw(frame)
+            return self.draw(data)

@@ -1,9 +1,16 @@
-"""Claims: sentences of the paper or of ours, each with a statistic of our data and a verdict."""
+"""Claims: sentences of the paper or of ours, each with a statistic, a wanted range and a verdict.
+
+The claims of the package's experiments, with the words of their figures, are in `claims.toml`.
+"""
 
 import collections
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 import dataclasses
+import functools
+import importlib.resources
 import math
+import tomllib
+from typing import Any
 
 from physexp.analysis.data import estimates
 
@@ -11,33 +18,59 @@ HOLDS, FAILS, UNDECIDED = "holds", "fails", "undecided"
 OURS = "ours"
 _LEVEL = 0.05  # Of significance.
 
+Statistic = Callable[[Any, str], estimates.Estimate | None]
+"""Returns the estimate from an experiment's data under a condition, None without data."""
+
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Claim:
-    """A claim, tested.
+    """A claim.
 
     Attributes:
-      text: the claim, as the paper has it.
-      section: of the paper; `OURS` where there is none.
-      condition: what it was tested on.
-      statistic: what was measured, in words.
-      estimate: what came out, with its 95 % interval.
-      above, below: the claim holds if the statistic lies between these.
-      words: the paper's, which these make precise.
-      is_sanity_check: whether it could fail only if something were broken; then it is not counted.
+      id: its name in the experiment, also the name of its statistic.
+      text: the claim in a sentence.
+      section: of the paper; `OURS` if there is none.
+      on: the conditions it is tested on; a comma begins a remark, as in `3-F, each agent`.
+      statistic: the measured quantity, in words.
+      above, below: the claim holds if the statistic lies between these; numbers, or a number for each condition.
+      quote: the paper's words, which the range makes precise.
+      is_check: whether it could fail only if something were broken; then it is not counted.
+      is_found: whether the statistic was found in the data that it is tested on.
       reason: our explanation, if it fails.
     """
 
+    id: str
     text: str
     section: str = OURS
-    condition: str
+    on: Sequence[str]
     statistic: str
-    estimate: estimates.Estimate
-    above: float = -math.inf
-    below: float = math.inf
-    words: str = ""
-    is_sanity_check: bool = False
+    above: float | Mapping[str, float] = -math.inf
+    below: float | Mapping[str, float] = math.inf
+    quote: str = ""
+    is_check: bool = False
+    is_found: bool = False
     reason: str = ""
+
+    def tested(self, condition: str, estimate: estimates.Estimate) -> "Tested":
+        """Returns the claim with the estimate of its statistic under a condition."""
+        name, ends = named(condition), {"above": self.above, "below": self.below}
+        limits = {side: end[name] if isinstance(end, Mapping) else end for side, end in ends.items()}
+        return Tested(**(vars(self) | limits), condition=condition, estimate=estimate)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Tested(Claim):
+    """A claim tested on one condition, with the range of this condition.
+
+    Attributes:
+      condition: one of `on`.
+      estimate: the statistic, with its 95 % interval.
+    """
+
+    condition: str
+    estimate: estimates.Estimate
+    above: float
+    below: float
 
     @property
     def verdict(self) -> str:
@@ -51,7 +84,7 @@ class Claim:
 
     @property
     def p_value(self) -> float:
-        """The two-sided p-value of the verdict; where it is undecided, of the one that is nearer."""
+        """The two-sided p-value of the verdict; if undecided, that of the nearer verdict."""
         test = self.estimate.p_value
         inside, outside = [], []
         if math.isfinite(self.above):
@@ -64,25 +97,65 @@ class Claim:
 
     @property
     def wanted(self) -> str:
-        """Returns the claim's range in words."""
-        if math.isinf(self.below):
-            return f"> {self.above:g}"
-        if math.isinf(self.above):
-            return f"< {self.below:g}"
-        return f"{self.above:g} to {self.below:g}"
+        """The claim's range in words."""
+        return wanted(self.above, self.below)
 
 
-def corrected(found: Sequence[Claim]) -> list[str]:
-    """Returns the verdicts of claims, corrected for the number of tests of the same sentence (Holm, 1979).
+def wanted(above: float, below: float) -> str:
+    """Returns a range in words."""
+    if math.isinf(below):
+        return f"> {above:g}"
+    return f"< {below:g}" if math.isinf(above) else f"{above:g} to {below:g}"
+
+
+def named(condition: str) -> str:
+    """Returns the name of a condition without the remark that may follow it."""
+    return condition.partition(",")[0]
+
+
+def of_rows(statistic: Callable[[Any], estimates.Estimate]) -> Statistic:
+    """Returns the statistic that has an estimate from the rows of a condition, in a DataFrame with that column."""
+
+    def of_condition(frame: Any, condition: str) -> estimates.Estimate | None:
+        rows = frame[frame.condition == named(condition)]
+        return statistic(rows) if len(rows) else None
+
+    return of_condition
+
+
+def of_all(statistic: Callable[[Any], estimates.Estimate | None]) -> Statistic:
+    """Returns the statistic that has an estimate from all data, for an experiment with one condition, or over all."""
+    return lambda data, condition: statistic(data)
+
+
+def share_of_timeouts(rows: Any) -> estimates.Estimate:
+    """Returns the share of episodes without an answer, mean of agents."""
+    return estimates.mean_share((rows.label < 0).groupby(rows.training_seed).mean())
+
+
+def test(claims: Sequence[Claim], statistics: Mapping[str, Statistic], data: Any) -> list[Tested]:
+    """Returns the claims under each of their conditions that has data.
+
+    Args:
+      claims: the claims.
+      statistics: by their ids.
+      data: what the statistics take.
+    """
+    found = [(claim, condition, statistics[claim.id](data, condition)) for claim in claims for condition in claim.on]
+    return [claim.tested(condition, estimate) for claim, condition, estimate in found if estimate is not None]
+
+
+def corrected(found: Sequence[Tested]) -> list[str]:
+    """Returns the verdicts of claims, corrected for the number of conditions of each (Holm, 1979).
 
     From the smallest p-value on, each is compared with the level of significance over the number of tests that are
-    left; from the first that is larger, all are undecided. What too few agents tell nothing about is no test.
+    left; from the first that is larger, all are undecided. An estimate from too few agents is no test.
     """
     verdicts = [claim.verdict for claim in found]
     families = collections.defaultdict(list)
     for index, claim in enumerate(found):
         if claim.estimate.can_be_tested:
-            families[claim.text, claim.section].append((claim.p_value, index))
+            families[claim.id].append((claim.p_value, index))
     for tests in families.values():
         rejects = True
         for rank, (p_value, index) in enumerate(sorted(tests)):
@@ -90,3 +163,21 @@ def corrected(found: Sequence[Claim]) -> list[str]:
             if not rejects:
                 verdicts[index] = UNDECIDED
     return verdicts
+
+
+@functools.cache
+def table() -> dict[str, dict[str, Any]]:
+    """Returns the content of `claims.toml`, by the names of experiments."""
+    return tomllib.loads(importlib.resources.files(__package__).joinpath("claims.toml").read_text())
+
+
+def described(experiment: str) -> dict[str, Any]:
+    """Returns the title, section, caption and claims of an experiment of `claims.toml`."""
+    row = table()[experiment]
+    return {
+        "name": experiment,
+        "title": row["title"],
+        "section": row.get("section", OURS),
+        "caption": row["caption"],
+        "claims": tuple(Claim(**({"on": row.get("on")} | its), id=id) for id, its in row["claims"].items()),
+    }

@@ -1,18 +1,17 @@
-"""The ideal experimenters of Towers, computed once and kept with the results."""
+"""The ideal experimenters of Towers, computed once and stored with the results."""
 
 from collections.abc import Callable
-from typing import Any
 
 from physexp.analysis.domains import towers
 from physexp.analysis.experiments import base, conditions
 from physexp.analysis.ideal import search
 
-# How coarsely the observer sees: metres for features, differing pixels for images.
+# The resolution of the observer: metres for features, differing pixels for images.
 RESOLUTIONS = {"features": (0.0, 0.001, 0.003, 0.01, 0.03), "pixels": (0.0, 10.0, 30.0, 100.0)}
 
 
 def prepare(results: base.Results, report: Callable[[str], None]) -> None:
-    """Computes the ideal experimenters of all tasks that are not there yet; `report` is told which."""
+    """Computes the ideal experimenters of all tasks that are not there yet; `report` is told their names."""
     for condition in conditions.TOWERS:
         path = _path(results, condition.task)
         if not path.exists():
@@ -23,48 +22,30 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
 
 
 def read(results: base.Results) -> dict[str, list[dict]]:
-    """By task, the summaries of `search.curve`.
+    """Returns the summaries of `search.curve` by task.
 
     Raises:
-      ValueError: if they have not been computed, or a file is damaged.
+      ValueError: if they have not been computed.
     """
-    return {
-        condition.task: base.read_made(_path(results, condition.task), "ideal_gap", _are_summaries)
-        for condition in conditions.TOWERS
-    }
+    return {each.task: base.read_made(_path(results, each.task), "ideal_gap") for each in conditions.TOWERS}
 
 
-def _are_summaries(rows: Any) -> bool:
-    return isinstance(rows, list) and bool(rows) and all(map(_is_summary, rows))
-
-
-def _is_summary(row: Any) -> bool:
-    """Whether this is a summary as `search.curve` gives them, with what figures and claims take from it."""
-    needed = ("resolution", "accuracy", "mean_interactions", "mean_seconds")
-    return (
-        isinstance(row, dict)
-        and isinstance(row.get("objective"), str)
-        and (
-            all(type(row.get(name)) in (int, float) for name in needed)
-            and all(row.get(name) is None or type(row[name]) in (int, float) for name in ("value", "bound"))
-        )
-    )
-
-
-def best(rows: list[dict], objective: str = "return", resolution: float = 0.0) -> dict:
-    """Returns the summary for an observer; by default the one who distinguishes every bit."""
-    for row in rows:
-        if row["resolution"] == resolution and row["objective"] == objective:
-            return row
-    raise ValueError(
-        f"the results have no observer of towers who sees {resolution:g} for {objective}; remove their folder `ideal`, "
-        "and `physexp reproduce ideal_gap` makes it again"
-    )
+def best(rows: list[dict]) -> dict:
+    """Returns the summary of the observer that distinguishes every bit."""
+    (found,) = (row for row in rows if (row["resolution"], row["objective"]) == (0.0, "return"))
+    return found
 
 
 def summaries(results: base.Results) -> dict[str, dict]:
-    """Returns, by the name of a condition, the summary for the observer who distinguishes every bit."""
+    """Returns the summary of the observer that distinguishes every bit, by the label of a condition."""
     return {conditions.label("towers", task): best(rows) for task, rows in read(results).items()}
+
+
+def ideal_return(task: conditions.Condition, results: base.Results) -> float:
+    """Returns the ideal experimenter's return in a task of the paper, stored or computed."""
+    if task in conditions.TOWERS:
+        return best(base.read_made(_path(results, task.task), "ideal_gap"))["value"]
+    return conditions.ideal(task).value
 
 
 def _path(results: base.Results, task: str):

@@ -1,132 +1,126 @@
-"""Learning curves: what the experiments on success in learning share."""
-
-from collections.abc import Sequence
-from typing import Any
-
-import numpy as np
+"""Success in training: Which is Heavier (paper, Section 5.3; Figure 2), Towers (6.3; Figure 6), and A3C against PPO."""
 
 from physexp.analysis.data import estimates, plots
-from physexp.analysis.experiments import claims
+from physexp.analysis.experiments import base, claims, conditions, curves
 
-CAPTION = (
-    "Share of right answers in training (drawn actions, smoothed). Light lines: the better half of the agents; dark: "
-    "their median."
-)
-
-_POINTS = 120
 _END = 0.05  # The share of training that is its end.
-_WINDOW = 2000  # Episodes over which success is averaged, whatever the speed of the machine they were played on.
+_LEARNED = 0.9  # The success at which the speed of learning is compared.
 
-AXES = {"frames": (1e6, "environment steps, millions"), "seconds": (60.0, "minutes of training")}
-"""What success may be drawn along, by column, with its unit and the name of the axis."""
+LEARNERS_TASKS = {label: conditions.BY_LABEL[label] for label in ("5-F", "F-F")}
+LEARNERS = tuple(config for task in LEARNERS_TASKS.values() for config in (task, conditions.with_ppo(task)))
+_NAMES = {"ppo": "PPO", "a3c": "A3C"}
 
 
-def moving_mean(run, along: str = "frames", of: str = "success_rate") -> tuple[np.ndarray, np.ndarray]:
-    """Averages over the last `_WINDOW` episodes, or over those between two rows where they are more.
+def load_learners(results: base.Results):
+    """Returns learning curves of both learners; a condition is named by task and learner, as `5-F PPO`."""
+    frame = results.curves(LEARNERS)
+    return frame.assign(condition=frame.condition + " " + frame.algorithm.map(_NAMES))
 
-    Args:
-      run: the rows of a run.
-      along: a column.
-      of: the column to average, which has means over the episodes since the row before.
 
-    Returns:
-      Where on the column `along` the middle of these episodes lies, and the mean over them; [rows] both.
+def final_success(frame, condition: str):
+    """Returns the share of right answers at the end of training, of each agent of a condition."""
+    rows = frame[frame.condition == condition]
+    ends = rows.groupby("training_seed").frames.transform("max")
+    return rows[rows.frames >= (1 - _END) * ends].groupby("training_seed").success_rate.mean()
+
+
+def _mean_success(frame, condition: str) -> estimates.Estimate | None:
+    success = final_success(frame, condition)
+    return estimates.mean_share(success) if len(success) else None
+
+
+def _ratio_of_success(frame, condition: str) -> estimates.Estimate | None:
+    easier, harder = (final_success(frame, name) for name in condition.split(" against "))
+    return estimates.ratio_of_means(easier, harder) if len(easier) and len(harder) else None
+
+
+def ratio_of_steps(frame, quick: str, slow: str, along: str = "frames") -> estimates.Estimate | None:
+    """Returns the ratio of the training until `_LEARNED` of two conditions, within the shortest training of all agents.
+
+    An agent that never reaches it counts as one that reaches it at the end of that training.
     """
-    run = run.sort_values("frames")
-    episodes, places = (np.concatenate([[0], run[column]]) for column in ("episodes", along))
-    sums = np.concatenate([[0], np.cumsum(run[of] * np.diff(episodes))])
-    ends = episodes[1:]
-    starts = np.minimum(episodes[:-1], np.maximum(ends - _WINDOW, 0))
-    means = (sums[1:] - np.interp(starts, episodes, sums)) / (ends - starts)
-    return np.interp((starts + ends) / 2, episodes, places), means
+    groups = [curves.runs(frame[frame.condition == name]) for name in (quick, slow)]
+    if not all(groups):
+        return None
+    shortest = min(run[along].max() for group in groups for run in group)
+    return estimates.ratio_of_means(
+        *([min(curves.first_reached(run, _LEARNED, along), shortest) for run in group] for group in groups)
+    )
 
 
-def smoothed(frame, along: str = "frames"):
-    """Curves on common grids: for each condition, the grid, in the unit of `AXES`, and success [agents, _POINTS].
-
-    The agents are those in the better half at the end of training, as in the paper's figures, the best first. Before
-    the middle of an agent's first episodes nothing is known: NaN.
-    """
-    curves = {}
-    for condition, rows in frame.groupby("condition", sort=False):
-        grid = np.linspace(0, rows.groupby("training_seed")[along].max().min(), _POINTS)
-        runs = [moving_mean(run, along) for _, run in rows.groupby("training_seed")]
-        best = [runs[index] for index in estimates.better_half([success[-1] for _, success in runs])]
-        lines = [np.interp(grid, places, success, left=np.nan) for places, success in best]
-        curves[condition] = (grid / AXES[along][0], np.array(lines))
-    return curves
+def _fist_over_direct(frame, kind: str) -> estimates.Estimate | None:
+    return ratio_of_steps(frame, *(conditions.label("towers", f"{actuator}_{kind}") for actuator in ("fist", "direct")))
 
 
-def draw_panel(axes, curves, names: Sequence[str], labels: Sequence[str], chance: float, along: str = "frames") -> None:
-    """Draws curves of some conditions: single agents light, their median dark."""
-    for number, (name, label) in enumerate(zip(names, labels, strict=True)):
-        if name not in curves:
-            continue
-        grid, lines = curves[name]
-        color, dashes = plots.COLORS[number], plots.DASHES[number]
-        axes.plot(grid, lines.T, color=color, alpha=0.25, linewidth=0.7)
-        axes.plot(grid, np.median(lines, axis=0), color=color, linestyle=dashes, linewidth=1.6, label=label)
-    plots.reference(axes, chance, "chance")
-    axes.set(xlabel=AXES[along][1], ylim=(0, 1.02), xlim=(0, None))
+def _ppo_over_a3c(along: str) -> claims.Statistic:
+    return lambda frame, task: ratio_of_steps(frame, f"{task} PPO", f"{task} A3C", along)
 
 
-def draw_range(axes, runs: Sequence[Any], number: int, label: str, along: str, of: str) -> None:
-    """Draws from the worst to the best of some runs light, and their median dark, as far as all have played.
-
-    Args:
-      axes: where, with a logarithmic axis.
-      runs: the rows of each run.
-      number: of its color and dashes.
-      label: for the legend.
-      along, of: columns, as for `moving_mean`.
-    """
-    curves = [moving_mean(run, along, of) for run in runs]
-    first, last = max(places[0] for places, _ in curves), min(places[-1] for places, _ in curves)
-    grid = np.geomspace(first, max(first, last), _POINTS)
-    lines = np.array([np.interp(grid, places, means) for places, means in curves])
-    color, dashes = plots.COLORS[number], plots.DASHES[number]
-    grid = grid / AXES[along][0]
-    axes.fill_between(grid, lines.min(axis=0), lines.max(axis=0), color=color, alpha=0.25, linewidth=0)
-    axes.plot(grid, np.median(lines, axis=0), color=color, linestyle=dashes, linewidth=1.6, label=label)
+def _draw_heavier(frame):
+    """Draws a panel for each kind of observation."""
+    lines = curves.better_half(frame)
+    accuracies = [conditions.heavier_ideal(beta).figures()["accuracy"] for beta in conditions.DIFFICULTIES]
+    kinds = [kind for kind in conditions.OBSERVATIONS if (frame.task == kind).any()]
+    figure, panels = plots.new(columns=len(kinds), sharey=True, squeeze=False)
+    for axes, kind in zip(panels[0], kinds, strict=True):
+        labels = {each.label: f"β = {each.task_kwargs['difficulty']:g}" for each in conditions.HEAVIER}
+        labels = {name: label for name, label in labels.items() if name.endswith(kind[0].upper())}
+        curves.draw_panel(axes, lines, labels, conditions.chance("which_is_heavier", kind))
+        plots.reference(axes, max(accuracies), f"ideal: {min(accuracies):.3f} to {max(accuracies):.3f}")
+        axes.set(ylim=(0, 1.08), yticks=[0, 0.2, 0.4, 0.6, 0.8, 1], title=f"from {kind}")
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 0.3))
+    panels[0, 0].set_ylabel("share of right answers")
+    return figure
 
 
-def final_success(frame):
-    """Share of right answers at the end of training: a DataFrame of condition, training_seed and success_rate."""
-    ends = frame.groupby(["condition", "training_seed"]).frames.transform("max")
-    last = frame[frame.frames >= (1 - _END) * ends]
-    return last.groupby(["condition", "training_seed"], as_index=False, sort=False).success_rate.mean()
+def _draw_towers(frame):
+    """Draws a panel for each condition."""
+    lines = curves.better_half(frame)
+    tasks = [each for each in conditions.TOWERS if each.label in lines]
+    figure, panels = plots.new(columns=len(tasks), width=2.0, height=2.2, sharey=True, squeeze=False)
+    for axes, each in zip(panels[0], tasks, strict=True):
+        curves.draw_panel(axes, lines, {each.label: "median"}, conditions.chance("towers", each.task))
+        axes.set_title(each.task.replace("_", ", "))
+    panels[0, 0].set_ylabel("share of right answers")
+    return figure
 
 
-def find_claims(frame, **wanted: Any) -> list[claims.Claim]:
-    """In each condition the share of right answers at the end of training is as `wanted`, attributes of claims."""
-    final = final_success(frame)
-    return [
-        claims.Claim(
-            condition=name,
-            estimate=estimates.mean_share(final.success_rate[final.condition == name]),
-            **wanted,
-        )
-        for name in final.condition.unique()
-    ]
+def _draw_learners(frame):
+    """Draws a row for each task, against frames and against minutes."""
+    tasks = [label for label in LEARNERS_TASKS if frame.condition.str.startswith(label).any()]
+    figure, panels = plots.new(rows=len(tasks), columns=2, height=2.2, sharey=True, squeeze=False)
+    for column, along in enumerate(curves.AXES):
+        lines = curves.better_half(frame, along)
+        for axes, label in zip(panels[:, column], tasks, strict=True):
+            chance = conditions.chance(LEARNERS_TASKS[label].domain, LEARNERS_TASKS[label].task)
+            labels = {f"{label} {name}": name for name in _NAMES.values()}
+            curves.draw_panel(axes, lines, labels, chance, along)
+    for axes, label in zip(panels[:, 0], tasks, strict=True):
+        axes.set(title=conditions.spelled_out(label), ylabel="share of right answers")
+        axes.legend(loc="lower right", bbox_to_anchor=(1, 0.3))
+    return figure
 
 
-def first_reached(run, level: float, along: str = "frames", of: str = "success_rate") -> float:
-    """Where on a column a run's moving mean first reaches a level, on a line between rows; else infinity."""
-    places, means = moving_mean(run, along, of)
-    above = np.flatnonzero(means >= level)
-    if not len(above):
-        return np.inf
-    first = above[0]
-    if not first:
-        return float(places[0])
-    return float(np.interp(level, means[first - 1 : first + 1], places[first - 1 : first + 1]))
-
-
-def compare_first_reached(frame, names: Sequence[str], level: float, along: str = "frames") -> list[np.ndarray]:
-    """Where agents of conditions first reach a level, within the shortest training of them all: [agents] for each name.
-
-    An agent who needs longer, or never does, is given the end of that training.
-    """
-    runs = {name: [run for _, run in frame[frame.condition == name].groupby("training_seed")] for name in names}
-    shortest = min((run[along].max() for group in runs.values() for run in group), default=np.inf)
-    return [np.array([min(first_reached(run, level, along), shortest) for run in runs[name]]) for name in names]
+EXPERIMENTS = {
+    "learning_heavier": base.Experiment(
+        **claims.described("learning_heavier"),
+        conditions=conditions.HEAVIER,
+        load=lambda results: results.curves(conditions.HEAVIER),
+        statistics={"trained": _mean_success, "not_perfect": _mean_success, "harder_is_lower": _ratio_of_success},
+        draw=_draw_heavier,
+    ),
+    "learning_towers": base.Experiment(
+        **claims.described("learning_towers"),
+        conditions=conditions.TOWERS,
+        load=lambda results: results.curves(conditions.TOWERS),
+        statistics={"solved": _mean_success, "fist_is_faster": _fist_over_direct},
+        draw=_draw_towers,
+    ),
+    "learners": base.Experiment(
+        **claims.described("learners"),
+        conditions=LEARNERS,
+        load=load_learners,
+        statistics={"fewer_steps": _ppo_over_a3c("frames"), "less_time": _ppo_over_a3c("seconds")},
+        draw=_draw_learners,
+    ),
+}

@@ -28,14 +28,14 @@ _INTRODUCTION = (
 class _Tested:
     """A claim, its verdict, corrected, and the experiment that it is of."""
 
-    claim: claims_lib.Claim
+    claim: claims_lib.Tested
     verdict: str
     experiment: base.Experiment
 
     @property
     def words(self) -> str:
         """Its verdict, and whether it counts."""
-        return f"{self.verdict} (sanity check)" if self.claim.is_sanity_check else self.verdict
+        return f"{self.verdict} (sanity check)" if self.claim.is_check else self.verdict
 
 
 @dataclasses.dataclass(frozen=True)
@@ -79,7 +79,7 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
         plots.save(experiment.figure(frame), results.path / "figures", experiment.name)
         table = experiment.table(frame) if experiment.table else []
         shown.append(_Shown(experiment, table, _missing(experiment, results)))
-        found = experiment.claims(frame)
+        found = experiment.test(frame)
         verdicts = claims_lib.corrected(found)
         tested += [_Tested(claim, verdict, experiment) for claim, verdict in zip(found, verdicts, strict=True)]
         tell(f"drew {experiment.name}")
@@ -103,7 +103,7 @@ def _missing(experiment: base.Experiment, results: base.Results) -> str:
 def _summary(tested: list[_Tested], runs: Any) -> dict[str, list[str]]:
     """Returns the paragraphs at the beginning, and the points below each."""
     claims = [(one.claim, one.verdict) for one in tested if one.claim.section != claims_lib.OURS]
-    counted = [(claim, verdict) for claim, verdict in claims if not claim.is_sanity_check]
+    counted = [(claim, verdict) for claim, verdict in claims if not claim.is_check]
     sentences = " ".join(filter(None, [summary.in_numbers(counted), summary.of_workers(runs.config)]))
     return {sentences: [], **summary.of_claims(counted), _INTRODUCTION: []}
 
@@ -123,12 +123,12 @@ def _tables(tested: list[_Tested]) -> dict[str, list[_Tested]]:
     tables = {}
     for title, belongs in _TABLES.items():
         rows = [one for one in tested if belongs(one.claim)]
-        tables[title] = sorted(rows, key=lambda one: (one.claim.is_sanity_check, _VERDICTS.index(one.verdict)))
+        tables[title] = sorted(rows, key=lambda one: (one.claim.is_check, _VERDICTS.index(one.verdict)))
     return {title: rows for title, rows in tables.items() if rows}
 
 
 def _tally(rows: list[_Tested]) -> str:
-    counted = [one.verdict for one in rows if not one.claim.is_sanity_check]
+    counted = [one.verdict for one in rows if not one.claim.is_check]
     tally = ", ".join(f"{counted.count(verdict)} {verdict}" for verdict in reversed(_VERDICTS))
     return f"{tally}; sanity checks: {len(rows) - len(counted)}"
 
@@ -142,10 +142,10 @@ def _row(one: _Tested) -> tuple[str, ...]:
     return (
         claim.text,
         conditions.spelled_out(claim.condition),
-        claim.statistic,
+        f"{claim.statistic}; found in these data" if claim.is_found else claim.statistic,
         _number(estimate.value),
         f"{_number(estimate.low)} to {_number(estimate.high)}",
-        f"{claim.wanted}: “{claim.words}”" if claim.words else claim.wanted,
+        f"{claim.wanted}: “{claim.quote}”" if claim.quote else claim.wanted,
         claim.section,
     )
 

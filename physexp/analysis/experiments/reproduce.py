@@ -61,7 +61,7 @@ def run(
             experiment.prepare(results, tell)
         frame = experiment.load(results)
         tell(str(plots.save(experiment.figure(frame), results.path / "figures", experiment.name)))
-        found = experiment.claims(frame)
+        found = experiment.test(frame)
         for claim, verdict in zip(found, claims.corrected(found), strict=True):
             estimate = claim.estimate
             tell(

@@ -7,7 +7,7 @@ import json
 from physexp.analysis.experiments import claims as claims_lib
 from physexp.analysis.experiments import conditions
 
-Tested = tuple[claims_lib.Claim, str]
+Tested = tuple[claims_lib.Tested, str]
 """A claim under one condition, and its verdict."""
 
 
@@ -87,7 +87,7 @@ def _openings(its: Sequence[Tested]) -> list[str]:
     return [_opening(claim) for claim, verdict in its if verdict == claims_lib.UNDECIDED]
 
 
-def _opening(claim: claims_lib.Claim) -> str:
+def _opening(claim: claims_lib.Tested) -> str:
     where, estimate = conditions.spelled_out(claim.condition), claim.estimate
     if not estimate.can_be_tested:
         return f"Undecided in {where}: too few agents."
