@@ -6,7 +6,7 @@ import numpy as np
 
 from physexp import checks
 from physexp.suite.engine import apparatus, contract, declarations, options, rendering, seeding
-from physexp.suite.parts import arena, block, flag, material
+from physexp.suite.parts import arena, block, flag, material, measures
 
 PHYSICS_TIMESTEP = 0.01  # s
 NUM_BLOCKS = 4
@@ -75,7 +75,7 @@ class WhichIsLoose(contract.Task):
                 for k, control in enumerate(PULL * np.eye(NUM_BLOCKS))
             ],
             label_names=[f"block {k} is loose" for k in range(NUM_BLOCKS)],
-            readings={"away": declarations.Reading(positions, (NUM_BLOCKS,), meaning, bounds=(0, 1), measure=_is_away)},
+            readings={"away": measures.coarse(positions, meaning, _is_away, size=NUM_BLOCKS)},
             indicators=[declarations.Indicator(board, "away", k, (0, 0, 0.2)) for k, board in enumerate(flags)],
         )
 

@@ -9,7 +9,7 @@ from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import contract, declarations, rendering, seeding
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block, flag, material
+from physexp.suite.parts import arena, block, flag, material, measures
 
 PHYSICS_TIMESTEP = 0.01  # s
 
@@ -140,19 +140,15 @@ class Balance(contract.Task):
             ],
             label_names=[f"block {k} is {kind}" for k in range(NUM_BLOCKS) for kind in ("heavier", "lighter")],
             readings={
-                "places": declarations.Reading(
+                "places": measures.coarse(
                     torques,
-                    (NUM_BLOCKS,),
                     "where each block lies: -1 on the left pan, 1 on the right pan, 0 aside",
-                    bounds=(-1, 1),
-                    measure=np.sign,
+                    np.sign,
+                    (-1, 1),
+                    NUM_BLOCKS,
                 ),
-                "tilt": declarations.Reading(
-                    [angle],
-                    (1,),
-                    "which pan is heavier: -1 the left one, 1 the right one, 0 neither",
-                    bounds=(-1, 1),
-                    measure=_tilt,
+                "tilt": measures.coarse(
+                    [angle], "which pan is heavier: -1 the left one, 1 the right one, 0 neither", _tilt, (-1, 1)
                 ),
             },
             indicators=[

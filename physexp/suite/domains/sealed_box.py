@@ -8,7 +8,7 @@ import numpy as np
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import contract, declarations, rendering, seeding
+from physexp.suite.engine import contract, declarations, priors, rendering, seeding
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, block, flag, measures, puck
 
@@ -96,8 +96,7 @@ class Options(options_lib.Options):
 
 def draw_contents(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
     """Returns the contents of the boxes of some episodes: indices of `ALL_CONTENTS`, int64 [N]."""
-    draws = seeding.uniforms(seeds, episodes, 1)[:, 0]
-    return np.searchsorted(np.cumsum(PRIOR)[:-1], draws, side="right")
+    return priors.choose(PRIOR, seeding.uniforms(seeds, episodes, 1)[:, 0])
 
 
 def _share(forces: np.ndarray) -> np.ndarray:
@@ -143,26 +142,20 @@ class SealedBox(contract.Task):
             ],
             label_names=list(CONTENTS),
             readings={
-                "push": declarations.Reading(
+                "push": measures.coarse(
                     [force],
-                    (1,),
                     "the last push, as a share of a hard one, positive to the right; 0 for none",
-                    bounds=(-1, 1),
-                    measure=_share,
+                    _share,
+                    (-1, 1),
                 ),
-                "covered": declarations.Reading(
-                    [force],
-                    (1,),
-                    "1 if the box is hidden, as it is by a push, otherwise 0",
-                    bounds=(0, 1),
-                    measure=measures.is_on,
+                "covered": measures.coarse(
+                    [force], "1 if the box is hidden, as it is by a push, otherwise 0", measures.is_on
                 ),
-                "place": declarations.Reading(
+                "place": measures.coarse(
                     [position, force],
-                    (1,),
                     "how many marks the box is from home, positive to the right; 0 if it is hidden",
-                    bounds=(-farthest, farthest),
-                    measure=self._place,
+                    self._place,
+                    (-farthest, farthest),
                 ),
             },
             indicators=[

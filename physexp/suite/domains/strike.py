@@ -29,7 +29,8 @@ _GRAVITY = 9.81  # m/s^2
 _FRICTIONS = np.geomspace(0.1, 0.4, 5)  # Coefficients.
 _PLACES = np.geomspace(RATIO**-0.75, RATIO**0.75, 4)  # Reach of the right strike, in goal distances.
 PUCKS = tuple(itertools.product(range(len(STRIKES)), _FRICTIONS, _PLACES))
-"""All pucks that there may be, equally likely, by the right strike, the friction, and where that strike takes it."""
+"""All possible pucks, by the right strike, the friction, and the reach of that strike."""
+PRIOR = np.full(len(PUCKS), 1 / len(PUCKS))
 
 _FRICTION, _BARRIER = material.dry_friction(PHYSICS_TIMESTEP), material.stop(PHYSICS_TIMESTEP)
 
@@ -115,12 +116,11 @@ class Strike(contract.Task):
             label_names=[f"{newtons:.1f} N" for newtons in STRIKES],
             readings={
                 "strength": measures.strength(force, "poke", max(POKES)),
-                "gate": declarations.Reading(
+                "gate": measures.coarse(
                     [position],
-                    (1,),
                     "the last light gate that the puck has passed, counted from 1; 0 for none",
-                    bounds=(0, self._num_gates),
-                    measure=self._gate,
+                    self._gate,
+                    (0, self._num_gates),
                 ),
             },
             indicators=[

@@ -120,9 +120,7 @@ class Strings(contract.Task):
             )
         ]
         readings = {
-            name: declarations.Reading(
-                sensors, (NUM_PUCKS,), f"1 for {meaning}, 0 for the others", bounds=(0, 1), measure=measure
-            )
+            name: measures.coarse(sensors, f"1 for {meaning}, 0 for the others", measure, size=NUM_PUCKS)
             for name, sensors, measure, meaning in (
                 ("pulled", pulls, measures.is_on, "the puck that the last action pulled"),
                 ("clamped", presses, measures.is_on, "the puck that is clamped"),

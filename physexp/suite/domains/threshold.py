@@ -7,7 +7,7 @@ import numpy as np
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import contract, declarations, rendering, seeding
+from physexp.suite.engine import contract, declarations, priors, rendering, seeding
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, block, flag, material, measures
 
@@ -78,7 +78,7 @@ def draw_frictions(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -
     The label follows `prior`; friction is uniform between the forces of two neighbouring levels, away from both.
     """
     draws = seeding.uniforms(seeds, episodes, 2)
-    labels = np.searchsorted(np.cumsum(prior(difficulty))[:-1], draws[:, 0], side="right")
+    labels = priors.choose(prior(difficulty), draws[:, 0])
     return LEVEL_SPACING * (labels + MARGIN + (1 - 2 * MARGIN) * draws[:, 1])
 
 
@@ -131,12 +131,8 @@ class Threshold(contract.Task):
             label_names=[f"{newtons:g} N" for newtons in levels],
             readings={
                 "strength": measures.strength(force, "push", NUM_LEVELS * LEVEL_SPACING),
-                "slid": declarations.Reading(
-                    [position, force],
-                    (1,),
-                    "1 if the last push made the block slide, otherwise 0",
-                    bounds=(0, 1),
-                    measure=_slid,
+                "slid": measures.coarse(
+                    [position, force], "1 if the last push made the block slide, otherwise 0", _slid
                 ),
             },
             indicators=[

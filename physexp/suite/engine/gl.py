@@ -10,10 +10,10 @@ import contextlib
 import ctypes
 import ctypes.util
 import functools
-import glob
 import importlib
 import importlib.util
 import os
+from pathlib import Path
 import queue
 import sys
 import threading
@@ -84,8 +84,8 @@ def _load_triton() -> None:
     """
     spec = importlib.util.find_spec("triton")
     for folder in (spec and spec.submodule_search_locations) or ():
-        for library in glob.glob(os.path.join(folder, "_C", "libtriton*.so")):
-            ctypes.CDLL(library)
+        for library in Path(folder, "_C").glob("libtriton*.so"):
+            ctypes.CDLL(str(library))
 
 
 def _egl_works(library: str) -> bool:
@@ -257,4 +257,4 @@ def warn_if_software(name: str) -> None:
 
 def gpu_is_present() -> bool:
     """Whether the system lists a GPU's device."""
-    return bool(glob.glob("/dev/nvidia[0-9]*") + glob.glob("/dev/dri/renderD*"))
+    return any(Path("/dev").glob("nvidia[0-9]*")) or any(Path("/dev/dri").glob("renderD*"))

@@ -68,6 +68,11 @@ class OddOneOut:
         )
 
 
+def choose(prior: np.ndarray, draws: np.ndarray) -> np.ndarray:
+    """Returns indices with the given probabilities, int64 [N], from uniform numbers in (0, 1), [N]."""
+    return np.searchsorted(np.cumsum(prior)[:-1], draws, side="right")
+
+
 def gaps(values: np.ndarray) -> np.ndarray:
     """Returns by how much the largest value is larger than the second, float64 [N], of values [N, K]."""
     two_largest = np.partition(values, -2, axis=1)[:, -2:]

@@ -1,6 +1,7 @@
 """Snapshots of episodes: episodes of a batch that go on from one state in several ways. For analysis."""
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 
@@ -44,22 +45,16 @@ class Snapshot:
     def repeated(self, times: int, stride: int) -> "Snapshot":
         """Returns the snapshot of several copies of the environments, whose indices are `stride` apart."""
 
-        def tiled(values: np.ndarray) -> np.ndarray:
+        def tiled(values: Any) -> Any:
+            if isinstance(values, dict):
+                return {name: tiled(value) for name, value in values.items()}
+            if isinstance(values, tuple):
+                return tuple(map(tiled, values))
             return np.tile(values, (times, *[1] * (values.ndim - 1)))
 
-        shifts = np.repeat(stride * np.arange(times), len(self.environments))
-        return Snapshot(
-            environments=tiled(self.environments) + shifts,
-            episodes=tiled(self.episodes),
-            hidden=tiled(self.hidden),
-            nuisances=tiled(self.nuisances),
-            substeps=tiled(self.substeps),
-            steps=tiled(self.steps),
-            touched=tiled(self.touched),
-            observed={name: tiled(values) for name, values in self.observed.items()},
-            states=tuple(map(tiled, self.states)),
-            coordinates=tuple(map(tiled, self.coordinates)),
-        )
+        copies = Snapshot(*(tiled(getattr(self, field.name)) for field in dataclasses.fields(self)))
+        copies.environments[:] += np.repeat(stride * np.arange(times), len(self.environments))
+        return copies
 
 
 def take(batch: batch_lib.BatchEnvironment, environments: np.ndarray | None = None) -> Snapshot:
