@@ -52,10 +52,9 @@ def parse(arguments: Sequence[str]) -> Any:
 
 def _tidied(argument: str) -> str:
     """Returns an argument with dashes for underscores in an option, and the home folder for `~`."""
-    if not argument.startswith("--"):
-        return os.path.expanduser(argument)
-    option, equals, value = argument.partition("=")  # Shells leave the `~` of `--option=~/path`.
-    return option.replace("_", "-") + equals + os.path.expanduser(value)
+    option, equals, value = argument.partition("=") if argument.startswith("--") else ("", "", argument)
+    home = os.path.expanduser(value)  # noqa: PTH111, it changes no other letter. Shells leave `--option=~/path`.
+    return option.replace("_", "-") + equals + home
 
 
 def _with_tasks_joined(arguments: Sequence[str]) -> list[str]:
