@@ -41,7 +41,7 @@ def test_the_rule_is_right_whatever_varies(seed, task, task_kwargs):
 def test_the_lookup_is_right_where_it_has_seen_all_and_often_wrong_where_towers_vary(seed, task):
     right, length = _right(task, "lookup", seed)
     ideal = domains.find("towers").ideal(task, {}, 0.98, resolution=0.001)
-    interactions, _ = ideal.outcomes().T
+    interactions, _, _ = ideal.outcomes()
     assert right == 1
     assert interactions.min() + 1 <= length <= interactions.max() + 1
     # It is in 0.62 with pushes and 0.31 with the fist; 116 of 128, where 0.65 are right, are less likely than 1e-9.

@@ -156,7 +156,7 @@ def resting_domain(
         from physexp.analysis.ideal import resting
 
         played = suite.load_task(name, task, task_kwargs)
-        return resting.solve(
+        return resting.Solution(
             apparatus(played.options),
             discount,
             played.rules.step_limit,
@@ -184,7 +184,7 @@ def search_domain(
         from physexp.analysis.ideal import search
 
         known = hypotheses_lib.Hypotheses(name, task, *hypotheses(), task_kwargs, read_as=read_as)
-        return search.solve(known, 0.0, discount)
+        return search.Solution(known, 0.0, discount)
 
     return Domain(name=name, ideal=Ideal(name, solve), **facts)
 

@@ -115,12 +115,12 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolu
     from physexp.analysis.ideal import bounds, search
 
     if bounds.is_certain(task_kwargs):
-        return search.solve(hypotheses(task, task_kwargs), resolution, discount, tolerance=_TOLERANCES.get(task))
+        return search.Solution(hypotheses(task, task_kwargs), resolution, discount, tolerance=_TOLERANCES.get(task))
     if task not in _RULES:
         raise ValueError(f"task is {task!r}; with noise or variation, choose from {', '.join(_RULES)}")
     noiseless = {name: value for name, value in task_kwargs.items() if name != "noise"}
     upper = [
-        search.solve(hypotheses(task, noiseless, nuisances), resolution, discount)
+        search.Solution(hypotheses(task, noiseless, nuisances), resolution, discount)
         for nuisances in _drawn_nuisances(task, noiseless)
     ]
     step_limit = suite.load_task(_NAME, task, task_kwargs).rules.step_limit

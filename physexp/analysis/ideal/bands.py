@@ -40,5 +40,6 @@ class Clamped(resting.Apparatus):
         return found
 
     def set_by(self, setting, interaction):
+        """Returns the thing that is clamped after an interaction, or None."""
         thing = interaction - self._num_things
         return setting if thing < 0 else None if thing == setting else thing

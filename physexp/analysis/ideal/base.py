@@ -1,5 +1,6 @@
 """The interface of all ideal experimenters."""
 
+import abc
 from collections.abc import Mapping
 import dataclasses
 import math
@@ -12,22 +13,19 @@ from physexp.suite.engine import rules
 
 
 class Episode(Protocol):
-    """A recorded episode of T actions.
-
-    Attributes:
-      hidden: the hidden property, [...].
-      actions: int64 [T].
-      observations: by name, before each action and at the end, [T + 1, ...].
-    """
+    """A recorded episode of T actions."""
 
     @property
-    def hidden(self) -> np.ndarray: ...
+    def hidden(self) -> np.ndarray:
+        """The hidden property, [...]."""
 
     @property
-    def actions(self) -> np.ndarray: ...
+    def actions(self) -> np.ndarray:
+        """The actions, int64 [T]."""
 
     @property
-    def observations(self) -> Mapping[str, np.ndarray]: ...
+    def observations(self) -> Mapping[str, np.ndarray]:
+        """The observations by name, before each action and at the end, [T + 1, ...]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -47,20 +45,30 @@ class Judgement:
     is_informative: np.ndarray
 
 
-class Solution(Protocol):
-    """The best policy for a question, and its value.
-
-    Attributes:
-      value: its expected discounted return from an episode's start.
-      bound: an upper bound on any experimenter's; equal to the value if that is exact.
-    """
+class Solution(abc.ABC):
+    """The best policy for a question, and its value."""
 
     @property
-    def value(self) -> float: ...
+    @abc.abstractmethod
+    def value(self) -> float:
+        """Its expected discounted return from an episode's start."""
 
     @property
-    def bound(self) -> float: ...
+    def bound(self) -> float:
+        """An upper bound on any experimenter's expected return: the value, if that is exact."""
+        return self.value
 
+    @property
+    @abc.abstractmethod
+    def at_once(self) -> float:
+        """Expected return of the likeliest label, without any interaction."""
+
+    @property
+    @abc.abstractmethod
+    def random_value(self) -> float:
+        """Expected return of interactions drawn uniformly, with the best answers at the best moment."""
+
+    @abc.abstractmethod
     def actor(self) -> core.Actor:
         """Returns an actor that plays the policy in the real environment, from observations alone.
 
@@ -68,9 +76,7 @@ class Solution(Protocol):
           ValueError: if the task's observations do not suffice.
         """
 
-    def beliefs(self, episode: Episode) -> np.ndarray:
-        """Returns the best possible beliefs at the start and after each action, float64 [T + 1, L]."""
-
+    @abc.abstractmethod
     def judge(self, episode: Episode) -> Judgement:
         """Returns the best possible beliefs and the values of the actions; uses no observations.
 
@@ -78,37 +84,38 @@ class Solution(Protocol):
           ValueError: if they are not known exactly.
         """
 
+    def beliefs(self, episode: Episode) -> np.ndarray:
+        """Returns the best possible beliefs at the start and after each action, float64 [T + 1, L]."""
+        return self.judge(episode).beliefs
+
+    @abc.abstractmethod
+    def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Returns N kinds of episodes of the policy.
+
+        Returns:
+          Numbers of interactions before the answer, int64 [N]; whether the answers are right, bool [N]; and the share
+          of each kind among all episodes, float64 [N].
+        """
+
     def figures(self) -> dict[str, Any]:
-        """Returns the statistics of the function `figures`."""
+        """Returns statistics of the policy, by name.
+
+        Returns:
+          `value` and `bound`, None if they are not finite; `accuracy`; `mean_interactions`; and `histogram`, the share
+          of episodes for each number of interactions.
+        """
+        interactions, right, shares = self.outcomes()
+        finite = {name: getattr(self, name) for name in ("value", "bound")}
+        return {
+            **{name: value if math.isfinite(value) else None for name, value in finite.items()},
+            "accuracy": float(shares @ right),
+            "mean_interactions": float(shares @ interactions),
+            "histogram": {number: float(share) for number, share in enumerate(np.bincount(interactions, shares))},
+        }
 
     def summary(self) -> dict[str, Any]:
-        """Returns the statistics of `figures`, and further ones, such as `at_once` and `random_value`."""
-
-
-def figures(
-    solution: Solution, interactions: np.ndarray, right: np.ndarray, shares: np.ndarray | None = None
-) -> dict[str, Any]:
-    """Returns statistics of a solution, by name.
-
-    Args:
-      solution: the solution.
-      interactions: numbers of interactions before the answer in N kinds of episodes, int64 [N].
-      right: whether the answers are right, bool [N].
-      shares: the share of each kind among all episodes, float64 [N]; by default equal.
-
-    Returns:
-      `value` and `bound` of the solution, None if they are not finite; `accuracy`; `mean_interactions`; and
-      `histogram`, the share of episodes for each number of interactions.
-    """
-    if shares is None:
-        shares = np.full(len(right), 1 / len(right))
-    histogram = np.bincount(interactions, shares)
-    return {
-        **{name: figure if math.isfinite(figure := getattr(solution, name)) else None for name in ("value", "bound")},
-        "accuracy": float(shares @ right),
-        "mean_interactions": float(shares @ interactions),
-        "histogram": {number: float(share) for number, share in enumerate(histogram)},
-    }
+        """Returns the statistics of `figures` and further ones, usually `at_once` and `random_value`."""
+        return {**self.figures(), "at_once": self.at_once, "random_value": self.random_value}
 
 
 _Numbers = TypeVar("_Numbers", float, np.ndarray)

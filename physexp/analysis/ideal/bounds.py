@@ -30,7 +30,7 @@ def made_certain(task_kwargs: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in task_kwargs.items() if name not in ("noise", "variation")}
 
 
-class Solution:
+class Solution(base.Solution):
     """A policy, its mean return in played episodes, and an upper bound on any experimenter's expected return."""
 
     def __init__(
@@ -96,18 +96,16 @@ class Solution:
         """Returns an actor that plays the policy."""
         return self._make_actor()
 
-    def beliefs(self, episode: base.Episode) -> np.ndarray:
-        """Raises ValueError: the best possible beliefs are unknown."""
-        raise ValueError("exact beliefs are only known without noise and variation")
+    at_once = random_value = math.nan  # Not computed.
 
     def judge(self, episode: base.Episode) -> base.Judgement:
-        """Raises ValueError, as `beliefs` does."""
-        raise ValueError("exact values of actions are only known without noise and variation")
+        """Raises ValueError: exact beliefs are unknown."""
+        raise ValueError("beliefs and values of actions are only known without noise and variation")
 
-    def figures(self) -> dict[str, Any]:
-        """Returns the statistics of `base.figures`."""
+    def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Returns the played episodes, with equal shares."""
         rewards, lengths = self._episodes
-        return base.figures(self, lengths - 1, rewards > 0)
+        return lengths - 1, rewards > 0, np.full(len(rewards), 1 / len(rewards))
 
     def summary(self) -> dict[str, Any]:
         """Returns the statistics of `figures`, and the standard errors `value_error` and `bound_error`."""

@@ -36,6 +36,7 @@ class Scale(resting.Apparatus):
         return np.where(surplus[:, None] == 0, of_odd, surplus[:, None])
 
     def set_by(self, setting, interaction):
+        """Returns the sides of the things after an interaction."""
         thing, place = divmod(interaction, len(SIDES))
         return (*setting[:thing], SIDES[place], *setting[thing + 1 :])
 

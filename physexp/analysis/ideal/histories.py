@@ -45,19 +45,6 @@ def split(
     return found
 
 
-def label_probabilities(support: Support, prior: np.ndarray, answers: np.ndarray, num_labels: int) -> np.ndarray:
-    """Returns the probabilities of the labels given a support, float64 [L].
-
-    Args:
-      support: the possible hypotheses.
-      prior, answers: probability and right label of each hypothesis, [H].
-      num_labels: L.
-    """
-    members = list(support)
-    weights = np.bincount(answers[members], prior[members], minlength=num_labels)
-    return weights / weights.sum()
-
-
 @dataclasses.dataclass(eq=False)
 class History:
     """A sequence of interactions: the states of all hypotheses after it, and the supports that it may leave.
@@ -121,10 +108,9 @@ class Histories:
     def probabilities(self, support: Support) -> np.ndarray:
         """Returns the probabilities of the labels given a support, float64 [L]."""
         if support not in self._probabilities:
-            known = self.hypotheses
-            self._probabilities[support] = label_probabilities(
-                support, known.prior, known.answers, known.task.num_labels
-            )
+            known, members = self.hypotheses, list(support)
+            weights = np.bincount(known.answers[members], known.prior[members], minlength=known.task.num_labels)
+            self._probabilities[support] = weights / weights.sum()
         return self._probabilities[support]
 
     def max_probability(self, support: Support) -> float:

@@ -9,7 +9,6 @@ from collections.abc import Callable, Mapping, Sequence
 import dataclasses
 import functools
 import math
-from typing import Any
 
 import numpy as np
 from scipy import interpolate, special
@@ -78,7 +77,7 @@ def _largest_is_touched(unknown, largest, log_weight, prior):
 
 
 @dataclasses.dataclass(frozen=True)
-class Solution:
+class Solution(base.Solution):
     """The best policy and its value, exact to better than 0.0001; solved when first needed.
 
     Attributes:
@@ -101,11 +100,6 @@ class Solution:
     def value(self) -> float:
         """Expected discounted return, discount^touches times +1 or -1, from an episode's start."""
         return self._value(at_random=False)
-
-    @property
-    def bound(self) -> float:
-        """The upper bound, which is the value, since that is exact."""
-        return self.value
 
     @property
     def at_once(self) -> float:
@@ -190,10 +184,6 @@ class Solution:
             raise ValueError("the ideal experimenter reads values from features, not from images; choose such a task")
         return _Player(self, self.find_read())
 
-    def beliefs(self, episode: base.Episode) -> np.ndarray:
-        """Returns the posterior at the start and after each action of an episode, float64 [T + 1, K]."""
-        return self.judge(episode).beliefs
-
     def judge(self, episode: base.Episode) -> base.Judgement:
         """Returns the beliefs in an episode, and the values of its actions."""
         return self.judge_all(np.asarray(episode.hidden)[None], [episode.actions])[0]
@@ -227,13 +217,9 @@ class Solution:
         parts = [slice(start, end) for start, end in zip(ends - lengths, ends, strict=True)]
         return [base.Judgement(beliefs[p], values_of_actions[p][:-1], is_informative[p][:-1]) for p in parts]
 
-    def figures(self) -> dict[str, Any]:
-        """Returns the statistics of `base.figures`."""
-        return base.figures(self, *_evenly_drawn_episodes(self))
-
-    def summary(self) -> dict[str, Any]:
-        """Returns the statistics of `figures`, `at_once` and `random_value`."""
-        return {**self.figures(), "at_once": self.at_once, "random_value": self.random_value}
+    def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Returns evenly drawn episodes, with equal shares."""
+        return *_evenly_drawn_episodes(self), np.full(_EPISODES, 1 / _EPISODES)
 
 
 class _Player(core.EpisodicActor):

@@ -7,8 +7,6 @@ finitely many such states, and the best policy is found exactly by dynamic progr
 
 import abc
 from collections.abc import Callable, Hashable, Mapping, Sequence
-import dataclasses
-from typing import Any
 
 import numpy as np
 
@@ -128,40 +126,70 @@ class _States:
         return np.bincount(self._moves[outcomes] - number * self._num_interactions, expected)
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Solution:
-    """The best policy and its value.
+class Solution(base.Solution):
+    """The best policy and its value, exact.
 
     Attributes:
       apparatus: the apparatus, with A interactions and L labels.
       discount: for each interaction.
       step_limit: number of steps in an unanswered episode.
-      value: expected discounted return from an episode's start.
-      random_value: that of interactions drawn uniformly, with the best answers at the best moment.
-      read: returns the reading in an observation; None if observations do not contain it.
-      label: returns the right label for a hidden property; None if unknown.
     """
 
-    apparatus: Apparatus
-    discount: float
-    step_limit: int
-    value: float
-    random_value: float
-    _states: _States
-    _policy: Sequence[np.ndarray]  # The best action in each state, int [S], by the number of steps left, from 1 on.
-    _best: Sequence[np.ndarray]  # The value of each state, float64 [S], likewise.
-    read: Callable[[Mapping[str, np.ndarray]], int] | None = None
-    label: Callable[[np.ndarray], int] | None = None
+    def __init__(
+        self,
+        apparatus: Apparatus,
+        discount: float,
+        step_limit: int,
+        read: Callable[[Mapping[str, np.ndarray]], int] | None = None,
+        label: Callable[[np.ndarray], int] | None = None,
+    ):
+        """Finds the policy.
+
+        An answer after n interactions earns discount^n, times -1 if it is wrong; an unanswered episode earns -1 after
+        the last step.
+
+        Args:
+          apparatus, discount, step_limit: see the class.
+          read: returns the reading in an observation; None if observations do not contain it.
+          label: returns the right label for a hidden property; needed to judge episodes.
+        """
+        self.apparatus, self.discount, self.step_limit = apparatus, discount, step_limit
+        self._read, self._label = read, label
+        self._states = states = _States(apparatus)
+        answers = apparatus.num_interactions + states.label
+        # The best actions, int [S], and the values, float64 [S], of all states, by the number of steps left, from 1 on.
+        # In the last step an answer is best.
+        self._policy, self._best = [answers], [states.answer]
+        best, at_random, length = states.answer, states.answer, np.zeros(len(answers))
+        for _ in range(step_limit - 1):
+            before = best, at_random, length
+            values = discount * states.after(best)
+            most = values.max(axis=1)
+            lengths = np.where(values >= most[:, None] - _TIE, 1 + states.after(length), np.inf)
+            going_on = most > states.answer + _TIE
+            self._policy.append(np.where(going_on, lengths.argmin(axis=1), answers))
+            length = np.where(going_on, lengths.min(axis=1), 0.0)
+            best = np.maximum(states.answer, most)
+            self._best.append(best)
+            at_random = np.maximum(states.answer, discount * states.after(at_random).mean(axis=1))
+            if all(np.array_equal(*pair) for pair in zip(before, (best, at_random, length), strict=True)):
+                break  # More steps change nothing.
+        self._at_random = at_random
 
     @property
-    def bound(self) -> float:
-        """The upper bound, which is the value, since that is exact."""
-        return self.value
+    def value(self) -> float:
+        """Expected discounted return from an episode's start."""
+        return float(self._best[-1][0])
 
     @property
     def at_once(self) -> float:
         """Expected return of the likeliest label, without any interaction."""
         return float(self._states.answer[0])
+
+    @property
+    def random_value(self) -> float:
+        """Expected return of interactions drawn uniformly, with the best answers at the best moment."""
+        return float(self._at_random[0])
 
     def action(self, state: State, step: int) -> int:
         """Returns the best action in a state after `step` interactions, fewer than `step_limit`."""
@@ -175,9 +203,9 @@ class Solution:
         Raises:
           ValueError: if the task observes images.
         """
-        if self.read is None:
+        if self._read is None:
             raise ValueError("the ideal experimenter reads features, not images; choose a task with features")
-        return _Player(self, self.read)
+        return _Player(self, self._read)
 
     def values(self, state: State, step: int) -> np.ndarray:
         """Returns the value of each action in a state after `step` interactions, interactions first, [A + L]."""
@@ -208,8 +236,8 @@ class Solution:
 
     def _visited(self, episode: base.Episode) -> list[State]:
         """Returns the information states at the start and after each action, T + 1."""
-        assert self.label is not None
-        label, states = self.label(episode.hidden), [self.apparatus.start]
+        assert self._label is not None
+        label, states = self._label(episode.hidden), [self.apparatus.start]
         for action in map(int, episode.actions):
             is_answer = action >= self.apparatus.num_interactions  # It reveals nothing.
             states.append(states[-1] if is_answer else self._successor(states[-1], action, label))
@@ -243,15 +271,11 @@ class Solution:
             found[label] = step, action - self.apparatus.num_interactions == label
         return found[labels, 0], found[labels, 1].astype(bool)
 
-    def figures(self) -> dict[str, Any]:
-        """Returns the statistics of `base.figures`."""
+    def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Returns the episodes of all possible labels."""
         prior = self.apparatus.posterior(self.apparatus.start)
         (labels,) = prior.nonzero()
-        return base.figures(self, *self.play(labels), prior[labels])
-
-    def summary(self) -> dict[str, Any]:
-        """Returns the statistics of `figures`, `at_once` and `random_value`."""
-        return {**self.figures(), "at_once": self.at_once, "random_value": self.random_value}
+        return *self.play(labels), prior[labels]
 
 
 class _Player(core.EpisodicActor):
@@ -272,42 +296,3 @@ class _Player(core.EpisodicActor):
         reading = self._read(next_timestep.observation)
         self._state = self._solution.apparatus.after(self._state, int(action), reading)
         self._step += 1
-
-
-def solve(
-    apparatus: Apparatus,
-    discount: float,
-    step_limit: int,
-    read: Callable[[Mapping[str, np.ndarray]], int] | None = None,
-    label: Callable[[np.ndarray], int] | None = None,
-) -> Solution:
-    """Finds the best policy, exactly.
-
-    An answer after n interactions earns discount^n, times -1 if it is wrong; no answer earns discount^(step_limit - 1)
-    times -1.
-
-    Args:
-      apparatus: the apparatus.
-      discount: the agent's gamma.
-      step_limit: number of steps in an unanswered episode.
-      read, label: as in `Solution`.
-    """
-    states = _States(apparatus)
-    answers = apparatus.num_interactions + states.label
-    policy, worth = [answers], [states.answer]  # In the last step an answer is best.
-    best, at_random, length = states.answer, states.answer, np.zeros(len(answers))
-    for _ in range(step_limit - 1):
-        before = best, at_random, length
-        values = discount * states.after(best)
-        most = values.max(axis=1)
-        lengths = np.where(values >= most[:, None] - _TIE, 1 + states.after(length), np.inf)
-        going_on = most > states.answer + _TIE
-        policy.append(np.where(going_on, lengths.argmin(axis=1), answers))
-        length = np.where(going_on, lengths.min(axis=1), 0.0)
-        best = np.maximum(states.answer, most)
-        worth.append(best)
-        at_random = np.maximum(states.answer, discount * states.after(at_random).mean(axis=1))
-        if all(np.array_equal(*pair) for pair in zip(before, (best, at_random, length), strict=True)):
-            break  # More steps change nothing.
-    value, random_value = float(best[0]), float(at_random[0])
-    return Solution(apparatus, discount, step_limit, value, random_value, states, policy, worth, read, label)

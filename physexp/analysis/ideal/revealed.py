@@ -11,7 +11,7 @@ from physexp.analysis.ideal import base
 from physexp.suite.engine import observing, rules
 
 
-class Solution:
+class Solution(base.Solution):
     """The best policy, which gives the answer that it observes."""
 
     value = bound = at_once = random_value = float(rules.RIGHT)
@@ -25,29 +25,20 @@ class Solution:
         """Returns an actor that gives the answer that it observes."""
         return _Player(self._task.num_interactions)
 
-    def beliefs(self, episode: base.Episode) -> np.ndarray:
-        """Returns one at the right label and 0 elsewhere, at the start and after each action, float64 [T + 1, L]."""
-        return np.repeat(self._known(episode)[None], len(episode.actions) + 1, axis=0)
-
     def judge(self, episode: base.Episode) -> base.Judgement:
-        """Returns the values of the actions: for an interaction, that of the right answer a step later."""
+        """Returns certain beliefs, and the values of the actions: an interaction delays the right answer by a step."""
+        belief = np.eye(self._task.num_labels)[self._task.answers(np.asarray(episode.hidden)[None])[0]]
         num_interactions, num_actions = self._task.num_interactions, self._task.rules.num_actions
         values = np.empty((len(episode.actions), num_actions))
         values[:, :num_interactions] = self.discount * rules.RIGHT
         values[self._task.rules.step_limit - 1 :, :num_interactions] = rules.WRONG  # The episode ends unanswered.
-        values[:, num_interactions:] = base.worth_of_answers(self._known(episode))
-        return base.Judgement(self.beliefs(episode), values, np.zeros(len(episode.actions), bool))
+        values[:, num_interactions:] = base.worth_of_answers(belief)
+        beliefs = np.repeat(belief[None], len(episode.actions) + 1, axis=0)
+        return base.Judgement(beliefs, values, np.zeros(len(episode.actions), bool))
 
-    def _known(self, episode: base.Episode) -> np.ndarray:
-        return np.eye(self._task.num_labels)[self._task.answers(np.asarray(episode.hidden)[None])[0]]
-
-    def figures(self) -> dict[str, Any]:
-        """Returns the statistics of `base.figures`."""
-        return base.figures(self, np.zeros(1, np.int64), np.ones(1, bool))
-
-    def summary(self) -> dict[str, Any]:
-        """Returns the statistics of `figures`, `at_once` and `random_value`, which are the value."""
-        return {**self.figures(), "at_once": self.value, "random_value": self.value}
+    def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Returns one kind of episode, with a right answer at once."""
+        return np.zeros(1, np.int64), np.ones(1, bool), np.ones(1)
 
 
 class _Player(core.EpisodicActor):

@@ -22,7 +22,7 @@ OBJECTIVES = ("return", "time")
 _MAX_HISTORIES = 30_000  # Kept for judging: about 600 MB for 40 hypotheses.
 
 
-class Solution:
+class Solution(base.Solution):
     """The best policy; the search runs when a result of it is first needed.
 
     Attributes:
@@ -36,12 +36,26 @@ class Solution:
         hypotheses: hypotheses_lib.Hypotheses,
         resolution: float,
         discount: float,
-        objective: str,
-        max_depth: int,
-        max_steps: int,
-        tolerance: float | None,
+        objective: str = "return",
+        *,
+        max_depth: int = 8,
+        max_steps: int = 2_000_000,
+        tolerance: float | None = None,
     ):
-        """Prepares the search; for the arguments see `solve`."""
+        """Prepares the search.
+
+        Args:
+          hypotheses: the hypotheses about the hidden property.
+          resolution: the difference above which two observations are distinguished: in the readings' unit for features,
+            in pixels for images. At 0 every bit counts, and the bound holds for every agent.
+          discount: the agent's gamma.
+          objective: `return`, the expected discounted return; or `time`, the fewest interactions until the right label
+            is known for certain.
+          max_depth: longest sequences of interactions that the search for the policy tries.
+          max_steps: control steps that it may simulate.
+          tolerance: when actions are judged, states that differ by no more than this, m and m/s, share one value; see
+            `Histories`.
+        """
         self.hypotheses = hypotheses
         self.discount, self.objective = discount, objective
         self._resolution, self._tolerance = resolution, tolerance
@@ -174,23 +188,23 @@ class Solution:
             raise ValueError(f"hidden is {checks.shown(episode.hidden)}, which is none of the hypotheses")
         return int(is_true.argmax())
 
-    def outcomes(self) -> np.ndarray:
-        """Returns for each hypothesis the interactions before the answer and whether it is right, int64 [H, 2]."""
-        found = []
+    def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Returns the episodes of all hypotheses."""
+        interactions, right = [], []
         for hypothesis, answer in enumerate(self.hypotheses.answers):
-            node, interactions = self.policy, 0
+            node, count = self.policy, 0
             while node.action is not None:
-                node, interactions = node.children[hypothesis], interactions + 1
-            found.append((interactions, node.label == answer))
-        return np.array(found, np.int64)
+                node, count = node.children[hypothesis], count + 1
+            interactions.append(count)
+            right.append(node.label == answer)
+        return np.array(interactions), np.array(right), self.hypotheses.prior
 
     def figures(self) -> dict[str, Any]:
-        """Returns the statistics of `base.figures`, and `mean_seconds`.
+        """Returns the statistics of `base.Solution.figures`, and `mean_seconds`.
 
         The value is None if the search found no certain way to the right label.
         """
-        interactions, right = self.outcomes().T
-        found = base.figures(self, interactions, right, self.hypotheses.prior)
+        found = super().figures()
         return {**found, "mean_seconds": found["mean_interactions"] * self.hypotheses.task.options.control_timestep}
 
     def summary(self) -> dict[str, Any]:
@@ -199,36 +213,19 @@ class Solution:
             return self.figures()
         return {**self.figures(), **dataclasses.asdict(self._random_bounds)}
 
+    @property
+    def at_once(self) -> float:
+        """Expected return of the likeliest label, without any interaction."""
+        return self._random_bounds.at_once
+
+    @property
+    def random_value(self) -> float:
+        """A lower bound on the return of random interactions with the best answers at the best moment."""
+        return self._random_bounds.random_value
+
     @functools.cached_property
     def _random_bounds(self) -> random_play.Bounds:
         return random_play.bounds(self.histories, self.discount)
-
-
-def solve(
-    hypotheses: hypotheses_lib.Hypotheses,
-    resolution: float,
-    discount: float,
-    objective: str = "return",
-    *,
-    max_depth: int = 8,
-    max_steps: int = 2_000_000,
-    tolerance: float | None = None,
-) -> Solution:
-    """Returns the best policy.
-
-    Args:
-      hypotheses: the hypotheses about the hidden property.
-      resolution: the difference above which two observations are distinguished: in the readings' unit for features, in
-        pixels for images. At 0 every bit counts, and the bound holds for every agent.
-      discount: the agent's gamma.
-      objective: `return`, the expected discounted return; or `time`, the fewest interactions until the right label is
-        known for certain.
-      max_depth: longest sequences of interactions that the search for the policy tries.
-      max_steps: control steps that it may simulate.
-      tolerance: when actions are judged, states that differ by no more than this, m and m/s, share one value; see
-        `Histories`.
-    """
-    return Solution(hypotheses, resolution, discount, objective, max_depth, max_steps, tolerance)
 
 
 def curve(hypotheses: hypotheses_lib.Hypotheses, resolutions: Sequence[float], discount: float) -> list[dict[str, Any]]:
@@ -237,7 +234,7 @@ def curve(hypotheses: hypotheses_lib.Hypotheses, resolutions: Sequence[float], d
         {
             "resolution": resolution,
             "objective": objective,
-            **solve(hypotheses, resolution, discount, objective).figures(),
+            **Solution(hypotheses, resolution, discount, objective).figures(),
         }
         for resolution in resolutions
         for objective in OBJECTIVES

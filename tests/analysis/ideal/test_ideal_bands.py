@@ -6,7 +6,6 @@ import itertools
 import ideals
 import numpy as np
 import pytest
-from seeds import fresh_seed
 
 from physexp.analysis.ideal import bands, resting
 
@@ -17,7 +16,7 @@ def search(num_things, weights, discount, step_limit, choose):
     """Returns the expected return by a search over sets of graphs and positions of the clamp.
 
     Args:
-      num_things, weights, discount, step_limit: as for `bands.Clamped` and `resting.solve`.
+      num_things, weights, discount, step_limit: as for `bands.Clamped` and `resting.Solution`.
       choose: combines the values of all interactions: `max`, or `mean` for random ones.
     """
     graphs = [
@@ -66,38 +65,7 @@ def mean(values):
 
 
 def solve(num_things, weights, discount, step_limit):
-    return resting.solve(bands.Clamped(num_things, weights), discount, step_limit)
-
-
-@pytest.mark.parametrize("discount", [0.5, 1.0])
-@pytest.mark.parametrize(
-    "num_things, weights, step_limit",
-    [
-        (2, [0.5, 0.5], 5),
-        (3, np.full(8, 1 / 8), 12),
-        (3, [0.3, 0.2, 0.1, 0.1, 0.1, 0.1, 0.05, 0.05], 10),
-        (3, [0, 0, 0, 0.25, 0, 0.25, 0.25, 0.25], 10),
-    ],
-)
-def test_a_search_over_sets_of_graphs_finds_the_same_values(num_things, weights, step_limit, discount):
-    solution = solve(num_things, weights, discount, step_limit)
-    assert solution.value == pytest.approx(search(num_things, weights, discount, step_limit, max), abs=1e-9)
-    assert solution.random_value == pytest.approx(search(num_things, weights, discount, step_limit, mean), abs=1e-9)
-
-
-def test_the_search_agrees_for_random_priors():
-    generator = np.random.default_rng(fresh_seed())
-    for _ in range(10):
-        weights, step_limit = generator.dirichlet(np.full(8, 0.5)), int(generator.integers(1, 9))
-        solution = solve(3, weights, 0.9, step_limit)
-        assert solution.value == pytest.approx(search(3, weights, 0.9, step_limit, max), abs=1e-9)
-        assert solution.random_value == pytest.approx(search(3, weights, 0.9, step_limit, mean), abs=1e-9)
-
-
-def test_one_pull_tells_whether_two_things_are_joined():
-    solution = solve(2, [0.5, 0.5], 0.9, 10)
-    assert solution.value == pytest.approx(0.9)
-    assert solution.at_once == 0
+    return resting.Solution(bands.Clamped(num_things, weights), discount, step_limit)
 
 
 def test_it_clamps_only_if_pulls_leave_several_graphs():

@@ -15,7 +15,7 @@ def skewed(size, skew):
 
 
 def solve(prior, discount, step_limit):
-    return resting.solve(intervals.Thresholds(prior), discount, step_limit)
+    return resting.Solution(intervals.Thresholds(prior), discount, step_limit)
 
 
 def between(low, high):
@@ -139,14 +139,6 @@ def test_played_episodes_earn_the_value(skew, discount):
     assert prior @ right == pytest.approx(summary["accuracy"], abs=1e-12)
 
 
-def test_free_tests_are_not_made_in_vain():
-    solution = solve(skewed(8, 2.0), 1.0, 30)
-    assert solution.value == pytest.approx(1.0)
-    # The same tree as for any discount below 1.
-    expected = solve(skewed(8, 2.0), 0.999, 30).summary()["mean_interactions"]
-    assert solution.summary()["mean_interactions"] == pytest.approx(expected)
-
-
 def test_expensive_tests_look_for_one_label_at_a_time():
     # n equally likely labels at gamma 0.1, times n: w(1) = 1 and w(n) = 0.1 (1 + w(n - 1)), so w(2) = 0.2, w(3) = 0.12,
     # w(4) = 0.112, ... w(8) = 0.1111112. Halves would be worth 8 * 0.001.
@@ -163,21 +155,6 @@ def test_the_best_guess_is_given_in_the_last_step():
 def test_a_certain_loss_is_delayed():
     # In two steps there is time for one test, after which each answer is right once in four: -0.5, but a step later.
     assert solve(np.full(8, 1 / 8), 0.1, 2).value == pytest.approx(-0.05)
-
-
-def test_the_posterior_is_the_prior_within_the_interval():
-    solution = solve([0.5, 0.3, 0.2], 0.9, 10)
-    posteriors = {(0, 2): [0.5, 0.3, 0.2], (0, 1): [0.625, 0.375, 0], (1, 2): [0, 0.6, 0.4], (2, 2): [0, 0, 1]}
-    for interval, expected in posteriors.items():
-        np.testing.assert_allclose(solution.apparatus.posterior(between(*interval)), expected)
-
-
-def test_a_test_leaves_the_labels_on_its_side():
-    tests = intervals.Thresholds(np.full(8, 1 / 8))
-    assert tests.after(between(0, 7), 3, 1) == between(0, 3)
-    assert tests.after(between(0, 7), 3, 0) == between(4, 7)
-    assert tests.after(between(2, 4), 6, 1) == between(2, 4)
-    assert tests.after(between(2, 4), 1, 0) == between(2, 4)
 
 
 def test_an_impossible_reading_is_refused():

@@ -20,7 +20,7 @@ from physexp.suite.engine import declarations
 
 
 def solve(world, objective="return", discount=0.9, resolution=0.5):
-    return search.solve(world, resolution, discount, objective)
+    return search.Solution(world, resolution, discount, objective)
 
 
 def test_a_chain_of_equal_looks_keeps_hypotheses_together():
@@ -82,7 +82,7 @@ def test_it_guesses_if_another_interaction_costs_more():
 
     asking = solve(MadeWorld(2, useful))
     assert asking.value == pytest.approx(0.9 * (3 / 5 + 2 / 5 * 0.9))
-    guessing = search.solve(MadeWorld(2, useless), 0.5, 0.9, max_depth=3)
+    guessing = search.Solution(MadeWorld(2, useless), 0.5, 0.9, max_depth=3)
     assert guessing.value == pytest.approx(0.9 * 0.6)
     assert guessing.summary()["accuracy"] == pytest.approx(0.8)
     # The search ended after three actions, so the bound is larger.
@@ -90,7 +90,7 @@ def test_it_guesses_if_another_interaction_costs_more():
 
 
 def test_a_guess_is_delayed_if_no_action_reveals_anything():
-    solution = search.solve(MadeWorld(2, lambda sequence: [0] * PATTERNS), 0.5, 0.9, max_depth=2)
+    solution = search.Solution(MadeWorld(2, lambda sequence: [0] * PATTERNS), 0.5, 0.9, max_depth=2)
     # Right in one case of five: 2/5 - 1. Interactions discount the loss: 0.9^2 * (-0.6) = -0.486.
     assert solution.value == pytest.approx(0.9**2 * -0.6)
 
@@ -152,7 +152,7 @@ def test_judged_beliefs_are_exact_after_a_detour():
 def test_states_within_the_tolerance_have_nearly_equal_values():
     known = towers.hypotheses("fist_features")
     away = types.SimpleNamespace(hidden=np.array(6), actions=np.array([1]))
-    exact, near = (search.solve(known, 0.001, 0.98, tolerance=tolerance).judge(away) for tolerance in (None, 0.05))
+    exact, near = (search.Solution(known, 0.001, 0.98, tolerance=tolerance).judge(away) for tolerance in (None, 0.05))
     assert near.values.max() == pytest.approx(exact.values.max(), abs=1e-9)
     assert near.values[0, 1] == pytest.approx(exact.values[0, 1], abs=0.01)
 
@@ -167,7 +167,7 @@ def test_with_full_resolution_the_first_touch_reveals_the_count(world):
     # Pushes touch at once; the fist needs two steps of 0.1 m to cross the 0.17 m to the tower.
     needed = {"direct_features": 1, "fist_features": 2}[task]
     for objective, value in (("return", 0.98**needed), ("time", needed)):
-        solution = search.solve(cache, 0.0, 0.98, objective)
+        solution = search.Solution(cache, 0.0, 0.98, objective)
         assert solution.value == pytest.approx(value) and solution.bound == pytest.approx(value)
 
 
@@ -175,7 +175,7 @@ def test_a_coarser_resolution_is_never_worth_more(world):
     task, cache = world
     values = []
     for resolution in (0.0, 0.001, 0.003):
-        solution = search.solve(cache, resolution, 0.98)
+        solution = search.Solution(cache, resolution, 0.98)
         assert solution.bound == pytest.approx(solution.value)
         values.append(solution.value)
     assert values == sorted(values, reverse=True)
@@ -183,16 +183,16 @@ def test_a_coarser_resolution_is_never_worth_more(world):
 
 def test_it_plays_the_environment_as_predicted(world):
     task, cache = world
-    solution = search.solve(cache, 0.003, 0.98)
+    solution = search.Solution(cache, 0.003, 0.98)
     seed = fresh_seed()
     environment = suite.load("towers", task, task_kwargs={"random": seed})
     loop = environment_loop.EnvironmentLoop(environment, solution.actor())
-    outcomes = solution.outcomes()
+    interactions, right, _ = solution.outcomes()
+    assert right.all()
     for _ in range(12):
         episode = loop.run_episode()
-        interactions, right = outcomes[environment.task.hidden]
-        assert right and episode["episode_return"] == 1
-        assert episode["episode_length"] == interactions + 1
+        assert episode["episode_return"] == 1
+        assert episode["episode_length"] == interactions[environment.task.hidden] + 1
 
 
 def test_the_towers_look_alike_until_they_are_touched():
@@ -244,7 +244,7 @@ def test_it_plays_as_well_from_pixels():
 def test_a_summary_without_a_certain_answer_can_be_written_as_json():
     summary = solve(MadeWorld(1, lambda sequence: COUNTS)).summary()
     assert json.loads(json.dumps(summary))["mean_seconds"] == pytest.approx(0.1)
-    blind = search.solve(MadeWorld(1, lambda sequence: [0] * PATTERNS), 0.5, 0.98, "time", max_depth=2)
+    blind = search.Solution(MadeWorld(1, lambda sequence: [0] * PATTERNS), 0.5, 0.98, "time", max_depth=2)
     assert json.loads(json.dumps(blind.summary(), allow_nan=False))["value"] is None
 
 
@@ -262,7 +262,7 @@ def test_beliefs_have_the_hypotheses_that_agree_with_observations(world):
     task, cache = world
     touch = {"direct_features": [0], "fist_features": [0, 0]}[task]
     num_interactions = cache.task.num_interactions
-    solution = search.solve(cache, 0.0, 0.98)
+    solution = search.Solution(cache, 0.0, 0.98)
     for pattern in range(PATTERNS):
         actions = np.array([*touch, num_interactions + 2])
         found = solution.beliefs(types.SimpleNamespace(hidden=np.array(pattern), actions=actions))
@@ -270,12 +270,12 @@ def test_beliefs_have_the_hypotheses_that_agree_with_observations(world):
         known = np.eye(5)[COUNTS[pattern] - 1]
         np.testing.assert_allclose(found, [*before, known, known], atol=1e-12)
     # An observer that distinguishes nothing never learns.
-    blind = search.solve(cache, 10.0, 0.98).beliefs(types.SimpleNamespace(hidden=np.array(3), actions=actions))
+    blind = search.Solution(cache, 10.0, 0.98).beliefs(types.SimpleNamespace(hidden=np.array(3), actions=actions))
     np.testing.assert_allclose(blind, 0.2)
 
 
 def test_an_episode_with_an_unknown_hidden_property_is_refused():
-    solution = search.solve(MadeWorld(1, lambda sequence: COUNTS), 0.5, 0.98)
+    solution = search.Solution(MadeWorld(1, lambda sequence: COUNTS), 0.5, 0.98)
     with pytest.raises(ValueError, match="hidden is 16, which is none of the hypotheses"):
         solution.beliefs(types.SimpleNamespace(hidden=16, actions=np.zeros(0, int)))
 
