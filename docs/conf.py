@@ -15,6 +15,7 @@ extensions = [
     "command_help",
     "from_code",
     "myst_nb",
+    "plan_tables",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
