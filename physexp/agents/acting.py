@@ -1,6 +1,6 @@
 """Acting with a network: one episode in any environment, or a round of whole episodes side by side in a batch."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import dm_env
@@ -27,7 +27,8 @@ def draw(probabilities: np.ndarray, generator: np.random.Generator) -> np.ndarra
     """Draws indices, int64 [N], from their probabilities, [N, A]."""
     cumulative = probabilities.cumsum(axis=1)
     thresholds = generator.random((len(cumulative), 1)) * cumulative[:, -1:]
-    return (cumulative <= thresholds).sum(axis=1).clip(max=cumulative.shape[1] - 1)
+    indices: np.ndarray = (cumulative <= thresholds).sum(axis=1).clip(max=cumulative.shape[1] - 1)
+    return indices
 
 
 def drawn(generator: np.random.Generator) -> Choose:
@@ -37,7 +38,8 @@ def drawn(generator: np.random.Generator) -> Choose:
 
 def likeliest(output: networks.Output, environments: np.ndarray, step: int) -> np.ndarray:
     """Chooses the likeliest actions."""
-    return output.logits.cpu().numpy().argmax(axis=1)
+    chosen: np.ndarray = output.logits.cpu().numpy().argmax(axis=1)
+    return chosen
 
 
 def play_round(
@@ -56,30 +58,33 @@ def play_round(
       environment: the batch.
       episode: index of the episode that every environment starts.
       choose: chooses the actions, as `drawn(generator)` and `likeliest` do.
-      keep_inputs: keep the encoded observations with the graph that made them, so that learning from them does not
-        encode them again.
-      keep_behaviour: keep observations, probabilities and values, so that a network with other parameters can learn.
+      keep_inputs: keep the encoded observations with the graph that made them, to learn with the same parameters.
+      keep_behaviour: keep observations, log probabilities and values, to learn with other parameters.
     """
     timestep = environment.reset(episode=episode)
     active = np.arange(environment.num_environments)
     state = network.initial_state(len(active))
     steps: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
-    encoded, behaviour = [], []
+    encoded, seen, log_probabilities, values = [], [], [], []
     lengths = np.zeros(len(active), np.int64)
     while len(active):
-        observation = timestep.observation
+        observation = as_tensors(timestep.observation)
         with torch.set_grad_enabled(keep_inputs):
-            inputs = network.encode(as_tensors(observation))
+            inputs = network.encode(observation)
         with torch.no_grad():
             output, state = network.step(inputs, state)
             actions = choose(output, active, len(steps))
-            state = network.observe_action(torch.from_numpy(actions), state)
+            taken = torch.from_numpy(actions)
+            state = network.observe_action(taken, state)
         timestep = environment.step(actions, active)
         steps.append((active, actions, timestep.reward))
         if keep_inputs:
             encoded.append(inputs)
         if keep_behaviour:
-            behaviour.append(_behaviour(observation, output, actions))
+            chosen = torch.log_softmax(output.logits.cpu(), dim=-1).gather(1, taken[:, None])[:, 0]
+            seen.append(observation)
+            log_probabilities.append(chosen)
+            values.append(output.values.cpu())
         lengths[active] += 1
         going = timestep.step_type != dm_env.StepType.LAST
         if not going.all():
@@ -87,26 +92,17 @@ def play_round(
             active, state = active[going], tuple(part[:, kept] for part in state)
             timestep = timestep._replace(observation={k: v[going] for k, v in timestep.observation.items()})
     actions, rewards = (np.zeros((len(steps), len(lengths)), dtype) for dtype in (np.int64, np.float32))
-    for t, (active, taken, reward) in enumerate(steps):
-        actions[t, active], rewards[t, active] = taken, reward
-    kept_inputs = torch.cat(encoded) if keep_inputs else None
-    joined = _joined(behaviour) if keep_behaviour else None
-    return rounds.Round(actions, rewards, lengths, environment.correct_answers, kept_inputs, joined)
-
-
-def _behaviour(
-    observation: Mapping[str, np.ndarray], output: networks.Output, actions: np.ndarray
-) -> rounds.BehaviourData:
-    log_probabilities = torch.log_softmax(output.logits.cpu(), dim=-1)
-    chosen = log_probabilities.gather(1, torch.from_numpy(actions)[:, None])[:, 0]
-    return rounds.BehaviourData(as_tensors(observation), chosen, output.values.cpu())
-
-
-def _joined(parts: Sequence[rounds.BehaviourData]) -> rounds.BehaviourData:
-    return rounds.BehaviourData(
-        {name: torch.cat([part.observation[name] for part in parts]) for name in parts[0].observation},
-        torch.cat([part.log_probabilities for part in parts]),
-        torch.cat([part.values for part in parts]),
+    for t, (active, made, reward) in enumerate(steps):
+        actions[t, active], rewards[t, active] = made, reward
+    return rounds.Round(
+        actions,
+        rewards,
+        lengths,
+        environment.correct_answers,
+        torch.cat(encoded) if keep_inputs else None,
+        {name: torch.cat([each[name] for each in seen]) for name in seen[0]} if keep_behaviour else {},
+        torch.cat(log_probabilities) if keep_behaviour else None,
+        torch.cat(values) if keep_behaviour else None,
     )
 
 

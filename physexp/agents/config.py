@@ -53,7 +53,7 @@ class AgentConfig:
 
     @property
     def advice(self) -> str:
-        """Returns what to try when an agent has learned nothing."""
+        """Returns advice for an agent that has learned nothing."""
         raise NotImplementedError
 
     @property
@@ -107,7 +107,7 @@ class ActorCriticConfig(AgentConfig):
 
     @property
     def advice(self) -> str:
-        """Returns what to try when an agent has learned nothing."""
+        """Returns advice for an agent that has learned nothing."""
         return f"a larger --entropy-cost than {self.entropy_cost:g}"
 
     @property

@@ -40,22 +40,10 @@ class Batch(Protocol):
         """Returns the spec of an action."""
 
     def reset(self, *, episode: int | None = None) -> dm_env.TimeStep:
-        """Starts an episode in every environment: that of an index, or by default the one after the current.
-
-        Returns:
-          The first timestep, whose fields are arrays with a leading axis [B].
-        """
+        """Starts the episode of an index, or the next one, in every environment; returns arrays [B, ...]."""
 
     def step(self, actions: np.ndarray, environments: np.ndarray) -> dm_env.TimeStep:
-        """Takes an action in some of the environments.
-
-        Args:
-          actions: an action for each of them, int64 [N].
-          environments: which ones, sorted indices, int64 [N].
-
-        Returns:
-          The timestep that follows, whose fields are arrays with a leading axis [N].
-        """
+        """Takes actions, int64 [N], in the environments of sorted indices, int64 [N]; returns arrays [N, ...]."""
 
     def close(self) -> None:
         """Frees what the environments hold."""
@@ -81,14 +69,14 @@ class Actor(abc.ABC):
         """Notes an action and the timestep that followed."""
 
     def update(self) -> None:  # noqa: B027
-        """Brings the actor's variables up to date, after each step; one whose variables are fixed does nothing."""
+        """Updates the actor's variables, after each step; by default they are fixed."""
 
 
 class EpisodicActor(Actor):
     """An actor that remembers an episode, and refuses a loop that leaves out `observe_first` or `observe`."""
 
     _is_playing = False
-    _has_chosen = False  # An action of which it has observed nothing yet.
+    _has_chosen = False  # Whether `observe` has not been called yet for the last action.
 
     def observe_first(self, timestep: dm_env.TimeStep) -> None:
         """Begins an episode."""
@@ -96,7 +84,7 @@ class EpisodicActor(Actor):
         self._is_playing, self._has_chosen = True, False
 
     def select_action(self, observation: Mapping[str, Any]) -> int:
-        """Returns an action; raises RuntimeError if the episode was not begun, or the last action not observed."""
+        """Returns an action; raises RuntimeError after a missing `observe_first` or `observe`."""
         self._check(self._is_playing)
         if self._has_chosen:
             raise RuntimeError(
@@ -107,7 +95,7 @@ class EpisodicActor(Actor):
         return action
 
     def observe(self, action: int, next_timestep: dm_env.TimeStep) -> None:
-        """Notes an action and the timestep that followed; raises RuntimeError if the episode was not begun."""
+        """Notes an action and the timestep that followed; raises RuntimeError after a missing `observe_first`."""
         self._check(self._is_playing and not next_timestep.first())
         self._note(action, next_timestep)
         self._is_playing, self._has_chosen = not next_timestep.last(), False
@@ -141,11 +129,11 @@ class Learner(abc.ABC):
 
     @abc.abstractmethod
     def save(self) -> "dict[str, torch.Tensor]":
-        """Returns all that `restore` needs to continue as if nothing had happened: tensors by name."""
+        """Returns tensors by name from which `restore` continues exactly."""
 
     @abc.abstractmethod
     def restore(self, state: "Mapping[str, torch.Tensor]") -> None:
-        """Takes up what `save` returned."""
+        """Restores the result of `save`."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -155,8 +143,8 @@ class Update:
     Attributes:
       seed: of the batch of environments that it learned from.
       episode: index of the episode that each of those environments played.
-      metrics: figures of the learner, those that its configuration declares among them; `updates` and `frames` are
-        counted over all workers.
+      metrics: of the learner, with those that its configuration declares; `updates` and `frames` are counted over all
+        workers.
       episodes: the episodes it learned from, for records.
     """
 
@@ -176,15 +164,11 @@ class Agent(abc.ABC):
 
     @abc.abstractmethod
     def updates(self, poll_seconds: float = 0.5) -> Generator[Update | None, None, None]:
-        """Trains until `frames` are reached or `stop` is called; yields each update, or None when none came in time.
-
-        Raises:
-          AgentError: if training cannot go on.
-        """
+        """Trains until `frames` or `stop`; yields each update, or None if none came in time; raises AgentError."""
 
     @abc.abstractmethod
     def stop(self) -> None:
-        """Asks it to end after the update it is at; may be called by a signal's handler."""
+        """Ends training after the current update; may be called by a signal's handler."""
 
     @abc.abstractmethod
     def save(self) -> "dict[str, torch.Tensor]":
@@ -192,15 +176,11 @@ class Agent(abc.ABC):
 
     @abc.abstractmethod
     def restore(self, tensors: "Mapping[str, torch.Tensor]") -> None:
-        """Takes up what `save` returned; call it before `updates`.
-
-        Raises:
-          ValueError: if the tensors do not fit this configuration.
-        """
+        """Restores the result of `save`, before `updates`; raises ValueError if it does not fit the configuration."""
 
 
 class AgentError(RuntimeError):
-    """Training cannot go on; `batch` holds the arrays of the round that caused it, where one did."""
+    """Training cannot go on; `batch` holds the arrays of the round that caused it, if one did."""
 
     def __init__(self, message: str, batch: dict[str, Any] | None = None):
         super().__init__(message)

@@ -3,20 +3,15 @@
 import contextlib
 import functools
 from pathlib import Path
+from typing import Any
 
 import torch
 
 
 def choose(device: str, sees_images: bool) -> torch.device:
-    """Chooses the device to compute on.
+    """Returns the device to compute on; raises ValueError for `cuda` without a GPU.
 
-    Args:
-      device: `cpu`, `cuda`, or `auto`: the GPU where there is one and convolutions to compute. Without
-        them a CPU is faster.
-      sees_images: whether there are convolutions.
-
-    Raises:
-      ValueError: for `cuda` where torch finds no GPU.
+    `auto` is a GPU for convolutions, if there is one; without convolutions a CPU is faster.
     """
     if device == "cuda" and not torch.cuda.is_available():
         raise ValueError("device is cuda, but torch finds no GPU here; choose cpu or auto")
@@ -24,14 +19,10 @@ def choose(device: str, sees_images: bool) -> torch.device:
     return torch.device("cuda" if wanted and torch.cuda.is_available() else "cpu")
 
 
-def autocast(device: torch.device, sees_images: bool):
-    """Returns a context in which images are computed with in bf16, where the hardware is made for it.
+def autocast(device: torch.device, sees_images: bool) -> contextlib.AbstractContextManager[Any]:
+    """Returns an autocast context: bfloat16 for images on hardware that supports it, otherwise none.
 
-    Features keep their precision: bf16 has eight bits, in which a millimetre of a position is lost.
-
-    Args:
-      device: that computes.
-      sees_images: whether there are images.
+    Features keep their precision: bf16 has eight bits, too few for a millimetre of a position.
     """
     if sees_images and _has_fast_bfloat16(device.type):
         return torch.autocast(device.type, torch.bfloat16)
@@ -41,6 +32,6 @@ def autocast(device: torch.device, sees_images: bool):
 @functools.cache
 def _has_fast_bfloat16(device_type: str) -> bool:
     if device_type == "cuda":
-        return torch.cuda.is_bf16_supported(including_emulation=False)
+        return bool(torch.cuda.is_bf16_supported(including_emulation=False))
     cpuinfo = Path("/proc/cpuinfo")
     return cpuinfo.exists() and " amx_bf16 " in cpuinfo.read_text(encoding="utf-8")

@@ -18,7 +18,7 @@ class Observer(Protocol):
         """Notes an action and the timestep that followed."""
 
     def get_metrics(self) -> dict[str, Any]:
-        """Returns what was measured in the episode that has just ended."""
+        """Returns the metrics of the episode that has just ended."""
 
 
 class EnvironmentLoop:
@@ -28,7 +28,7 @@ class EnvironmentLoop:
         self._environment, self._actor, self._observers = environment, actor, tuple(observers)
 
     def run_episode(self) -> dict[str, Any]:
-        """Plays one episode; returns `episode_length`, `episode_return` and what the observers measured."""
+        """Plays one episode; returns `episode_length`, `episode_return` and the metrics of the observers."""
         timestep = self._environment.reset()
         self._actor.observe_first(timestep)
         for observer in self._observers:
@@ -49,7 +49,7 @@ class EnvironmentLoop:
         return metrics
 
     def run(self, num_episodes: int) -> list[dict[str, Any]]:
-        """Plays many episodes; returns the metrics of each; raises ValueError for a number below one."""
+        """Plays episodes; returns the metrics of each; raises ValueError for a number below one."""
         if num_episodes < 1:
             raise ValueError(f"num_episodes is {num_episodes}; give a number >= 1")
         return [self.run_episode() for _ in range(num_episodes)]

@@ -4,6 +4,9 @@ from collections.abc import Sequence
 
 import torch
 
+Losses = tuple[torch.Tensor, torch.Tensor, torch.Tensor]
+"""Policy loss, baseline loss and entropy."""
+
 
 def discounted_returns(rewards: torch.Tensor, discounts: torch.Tensor) -> torch.Tensor:
     """Computes returns of whole episodes, G_t = r_t + d_t G_{t+1}.
@@ -24,16 +27,18 @@ def discounted_returns(rewards: torch.Tensor, discounts: torch.Tensor) -> torch.
     return returns
 
 
-def generalized_advantages(rewards: torch.Tensor, discounts: torch.Tensor, values: torch.Tensor, trace: float):
+def generalized_advantages(
+    rewards: torch.Tensor, discounts: torch.Tensor, values: torch.Tensor, lambda_: float
+) -> torch.Tensor:
     """Computes advantages of whole episodes (Schulman et al., 2016, equation 16).
 
-    A_t = delta_t + d_t trace A_{t+1}, where delta_t = r_t + d_t V_{t+1} - V_t. With a trace of 1 they are
+    A_t = delta_t + d_t lambda A_{t+1}, where delta_t = r_t + d_t V_{t+1} - V_t. With a lambda of 1 they are
     `discounted_returns` minus the values: without bias, but every action pays for the luck of the answer at the end.
 
     Args:
       rewards, discounts: as for `discounted_returns`, [T, B].
       values: estimates of the return at each action, [T, B]; anything where an episode is over.
-      trace: lambda of generalized advantage estimation, in [0, 1].
+      lambda_: weight of later errors, in [0, 1].
 
     Returns:
       Advantages, [T, B].
@@ -42,7 +47,7 @@ def generalized_advantages(rewards: torch.Tensor, discounts: torch.Tensor, value
     following, next_value = torch.zeros_like(rewards[0]), torch.zeros_like(rewards[0])
     for t in reversed(range(len(rewards))):
         delta = rewards[t] + discounts[t] * next_value - values[t]
-        advantages[t] = following = delta + discounts[t] * trace * following
+        advantages[t] = following = delta + discounts[t] * lambda_ * following
         next_value = values[t]
     return advantages
 
@@ -54,7 +59,7 @@ def actor_critic_losses(
     returns: torch.Tensor,
     advantages: torch.Tensor,
     prior: Sequence[float] = (),
-):
+) -> Losses:
     """Computes the three losses of advantage actor-critic (Mnih et al., 2016, Section 4), means over all leading axes.
 
     Args:
@@ -83,7 +88,7 @@ def clipped_losses(
     advantages: torch.Tensor,
     clip: float,
     prior: Sequence[float] = (),
-):
+) -> Losses:
     """Computes the three losses of PPO (Schulman et al., 2017, equations 7 and 9), means over all leading axes.
 
     Args:

@@ -6,10 +6,13 @@ go through one logistic function (tanh x = 2 sigma(2x) - 1), and the gradients o
 time steps. On a GPU torch's own kernels are used.
 """
 
+from typing import Any
+
 import torch
 from torch import nn
 
 State = tuple[torch.Tensor, torch.Tensor]
+"""Hidden and cell state, each [1, N, H]."""
 
 
 class LSTM(nn.LSTM):
@@ -26,11 +29,10 @@ class LSTM(nn.LSTM):
     def project(self, inputs: torch.Tensor) -> torch.Tensor:
         """Returns the input of `step` and `unroll`, from inputs [N, F].
 
-        On a CPU it is what inputs and biases contribute to the gates, [N, 4 H]; on a GPU, the inputs themselves.
-
-        It depends on no state, so what is known of a time step when it is acted on need not be computed again to learn.
+        On a CPU it is the contribution of inputs and biases to the gates, [N, 4 H]; on a GPU, the inputs themselves. It
+        depends on no state, so it is computed once for acting and learning.
         """
-        if inputs.is_cuda:  # torch's kernels there want the inputs themselves.
+        if inputs.is_cuda:  # For torch's kernels.
             return inputs
         return torch.addmm(self.bias_ih_l0 + self.bias_hh_l0, inputs, self.weight_ih_l0.t())
 
@@ -39,14 +41,14 @@ class LSTM(nn.LSTM):
 
         Args:
           projected: what `project` returned for N inputs.
-          state: hidden and cell state, each [1, N, H].
+          state: hidden and cell state.
 
         Returns:
           Outputs [N, H] and the next state.
         """
         if projected.is_cuda:
-            outputs, state = self(projected[None], state)
-            return outputs[0], state
+            outputs, after = self(projected[None], state)
+            return outputs[0], after
         hidden, cell = state[0][0], state[1][0]
         hidden, cell, _ = _advance(torch.addmm(projected, hidden, self.weight_hh_l0.t()), cell)
         return hidden, (hidden[None], cell[None])
@@ -63,11 +65,13 @@ class LSTM(nn.LSTM):
           Outputs, packed alike, [N, H].
         """
         if projected.is_cuda:
-            return self(nn.utils.rnn.PackedSequence(projected, batch_sizes))[0].data
-        return _Unroll.apply(projected, self.weight_hh_l0, batch_sizes.tolist())
+            outputs: torch.Tensor = self(nn.utils.rnn.PackedSequence(projected, batch_sizes))[0].data
+        else:
+            outputs = _Unroll.apply(projected, self.weight_hh_l0, batch_sizes.tolist())  # type: ignore[no-untyped-call]
+        return outputs
 
 
-def _advance(gates: torch.Tensor, cell: torch.Tensor | None):
+def _advance(gates: torch.Tensor, cell: torch.Tensor | None) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
     """Turns gates before their nonlinearity [n, 4 H], in place, into gates, and returns hidden, cell, tanh(cell)."""
     size = gates.shape[1] // 4
     gates[:, 2 * size : 3 * size].mul_(2)
@@ -85,7 +89,7 @@ class _Unroll(torch.autograd.Function):
     """The recurrence, and its gradient by backpropagation through time (Hochreiter & Schmidhuber, 1997)."""
 
     @staticmethod
-    def forward(ctx, projections, weight, batch_sizes):
+    def forward(ctx: Any, projections: torch.Tensor, weight: torch.Tensor, batch_sizes: list[int]) -> torch.Tensor:
         gates = projections.clone()
         hiddens, cells, squashed = (projections.new_empty(len(gates), weight.shape[1]) for _ in range(3))
         transposed = weight.t().contiguous()
@@ -104,7 +108,7 @@ class _Unroll(torch.autograd.Function):
         return hiddens
 
     @staticmethod
-    def backward(ctx, grad_hiddens):
+    def backward(ctx: Any, grad_hiddens: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor, None]:
         gates, weight, hiddens, cells, squashed = ctx.saved_tensors
         sizes = ctx.batch_sizes
         grad_gates = torch.empty_like(gates)  # Before the nonlinearity.

@@ -44,15 +44,28 @@ class RecurrentNetwork(nn.Module, abc.ABC):
 
     Attributes:
       sees_images: whether it observes an image, or features.
+      torso: the part that sees the observation.
     """
 
-    sees_images: bool
+    torso: "PixelTorso | FeatureTorso"
 
-    @abc.abstractmethod
-    def __init__(self, observation_spec: Mapping[str, specs.Array], num_actions: int, **hyperparameters: Any):
-        """Builds the network for an observation spec; its weights follow torch's global seed."""
+    def __init__(self, observation_spec: Mapping[str, specs.Array], pixel_scale: float, feature_scale: float):
+        """Builds the torso, with weights from torch's global seed.
+
+        Raises:
+          ValueError: if observations are neither features nor one image.
+        """
         super().__init__()
         self._observed = {name: tuple(array.shape) for name, array in observation_spec.items()}
+        self.sees_images = _sees_images(observation_spec)
+        if self.sees_images:
+            self.torso = PixelTorso(observation_spec, pixel_scale)
+        else:
+            self.torso = FeatureTorso(observation_spec, feature_scale)
+
+    def calibrate(self, first: Observation) -> None:
+        """Makes an episode's first observation, arrays [N, ...], the torso's reference."""
+        self.torso.calibrate(first)
 
     def check(self, observation: Mapping[str, np.ndarray]) -> None:
         """Refuses an observation of another task.
@@ -95,7 +108,7 @@ class RecurrentNetwork(nn.Module, abc.ABC):
 
 
 class FeatureTorso(nn.Module):
-    """Concatenates and scales features; the LSTM takes them directly, as in the paper."""
+    """Concatenates and scales features, as in the paper."""
 
     def __init__(self, observation_spec: Mapping[str, specs.Array], scale: float):
         """Builds the torso for arrays of features; `scale` is a factor on them."""
@@ -108,7 +121,7 @@ class FeatureTorso(nn.Module):
         """Does nothing: features are taken as they are."""
 
     def distinct(self, observation: Observation) -> tuple[torch.Tensor, None]:
-        """Returns what `forward` does, and None: every observation is mapped, also when some are equal."""
+        """Returns the result of `forward`, and None: equal observations are mapped separately."""
         return self(observation), None
 
     def forward(self, observation: Observation) -> torch.Tensor:
@@ -119,8 +132,8 @@ class FeatureTorso(nn.Module):
 class PixelTorso(nn.Module):
     """The paper's convolutions (Section 4): 32@8x8/4, 64@4x4/2 and 64@3x3/1 with ReLU.
 
-    Pixels are taken relative to a reference image, an episode's first one, and scaled. Images that are the same bytes,
-    as all first images are without variation, pass the convolutions once.
+    Pixels are taken relative to a reference image, an episode's first one, and scaled. Equal images, as all first ones
+    without variation, pass the convolutions once.
     """
 
     reference: torch.Tensor
@@ -160,22 +173,18 @@ class PixelTorso(nn.Module):
         return outputs if places is None else outputs[places]
 
     def distinct(self, observation: Observation) -> tuple[torch.Tensor, torch.Tensor | None]:
-        """Maps images that are the same bytes once.
-
-        Returns:
-          Inputs of the LSTM, [D, num_outputs], and each image's place among them, int64 [N]; None where all differ.
-        """
+        """Maps equal images once; returns outputs, [D, num_outputs], and each image's place among them, int64 [N]."""
         images = observation[self._name]
         distinct, places = _distinct(images)
         device = self.reference.device
         pixels = (images[distinct].to(device).float() - self.reference.float()).mul_(self._scale)
         # [N, height, width, 3] read as [N, 3, height, width] is what torch calls channels last.
         outputs = self.convolutions(pixels.permute(0, 3, 1, 2)).flatten(1)
-        return outputs, None if len(distinct) == len(images) else places.to(device)
+        return outputs, places.to(device) if len(distinct) < len(images) else None
 
 
 def _distinct(images: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
-    """Returns indices of one of each of the images that are the same bytes, and for each image its place among them."""
+    """Returns the indices of distinct images, and for each image its place among them."""
     numbers: dict[bytes, int] = {}
     places = [numbers.setdefault(image.tobytes(), len(numbers)) for image in images.numpy()]
     first = np.unique(places, return_index=True)[1]
@@ -186,12 +195,12 @@ def _in_words(shapes: Mapping[str, tuple[int, ...]]) -> str:
     return ", ".join(f"{name} {shape}" for name, shape in sorted(shapes.items())) or "nothing"
 
 
-def sees_images(observation_spec: Mapping[str, specs.Array]) -> bool:
+def _sees_images(observation_spec: Mapping[str, specs.Array]) -> bool:
     """Returns True for one image and False for features; raises ValueError for anything else."""
     images = [name for name, spec in observation_spec.items() if spec.dtype == np.uint8]
     if not observation_spec or (images and len(observation_spec) > 1):
         raise ValueError(
-            f"the network takes features (float32) or one image (uint8), and what is observed is "
+            f"the network takes features (float32) or one image (uint8), and the observation has "
             f"{', '.join(sorted(observation_spec)) or 'nothing'}; leave out all but features, or all but one image"
         )
     return bool(images)
@@ -207,19 +216,8 @@ class RecurrentActorCritic(RecurrentNetwork):
         *,
         observation_scale: float,
     ):
-        """Builds the network; its weights follow torch's global seed.
-
-        Args:
-          observation_spec: what is observed.
-          num_actions: how many actions there are.
-          observation_scale: see `ActorCriticConfig`.
-
-        Raises:
-          ValueError: if what is observed is neither features nor one image.
-        """
-        super().__init__(observation_spec, num_actions)
-        self.sees_images = sees_images(observation_spec)
-        self.torso = (PixelTorso if self.sees_images else FeatureTorso)(observation_spec, observation_scale)
+        """Builds the network, with weights from torch's global seed; for the scale see `ActorCriticConfig`."""
+        super().__init__(observation_spec, observation_scale, observation_scale)
         self.lstm = lstm.LSTM(self.torso.num_outputs, LSTM_UNITS)
         self.policy = nn.Linear(LSTM_UNITS, num_actions)
         self.value = nn.Linear(LSTM_UNITS, 1)
@@ -230,21 +228,13 @@ class RecurrentActorCritic(RecurrentNetwork):
         return {"observation_scale": config.observation_scale}
 
     def initial_state(self, batch_size: int) -> lstm.State:
-        """Returns the state at an episode's start: zeros, hidden and cell each [1, batch_size, units]."""
+        """Returns the state at an episode's start: zeros."""
         shape = (1, batch_size, self.lstm.hidden_size)
         hidden, cell = (torch.zeros(shape, dtype=torch.float32, device=self.device) for _ in range(2))
         return hidden, cell
 
-    def calibrate(self, first: Observation) -> None:
-        """Tells the torso what an episode's first observation looks like, arrays [N, ...]; see `PixelTorso`."""
-        self.torso.calibrate(first)
-
     def initialize_policy(self, logits: Sequence[float]) -> None:
-        """Adds logits to the biases of the policy, one for each action; none leave it as it is.
-
-        Raises:
-          ValueError: if there are some, but not as many as actions.
-        """
+        """Adds logits, one for each action or none, to the policy's biases; raises ValueError for another number."""
         if logits and len(logits) != self.policy.out_features:
             raise ValueError(f"initial_logits has {len(logits)} logits; give {self.policy.out_features}, or none")
         if logits:

@@ -150,11 +150,11 @@ def test_behaviour_data_have_the_probabilities_and_values_of_acting(domain, task
     batch.close()
     some = played.select(np.array([3, 7, 1, 11, 5]))
     with torch.no_grad():
-        logits, values = network.unroll(network.encode(some.behaviour.observation), some.batch_sizes)
+        logits, values = network.unroll(network.encode(some.observation), some.batch_sizes)
     taken = torch.log_softmax(logits, -1).gather(1, some.packed(some.actions)[:, None])[:, 0]
     # Convolutions add up in another order for another number of images: 9e-5 were seen.
     tolerance = 1e-3 if "pixels" in suite.tags(domain, task) else 1e-5
-    for found, expected in ((taken, some.behaviour.log_probabilities), (values, some.behaviour.values)):
+    for found, expected in ((taken, some.log_probabilities), (values, some.values)):
         torch.testing.assert_close(found, expected, atol=tolerance, rtol=tolerance)
 
 
@@ -293,9 +293,9 @@ def test_a_loop_without_observe_is_refused():
 
 def test_the_arrays_of_a_round_are_plain_ones():
     inputs = torch.arange(6.0, requires_grad=True).reshape(2, 3)
-    behaviour = rounds.BehaviourData({"heights": torch.ones(2, 4)}, torch.zeros(2), torch.ones(2))
+    behaviour = {"heights": torch.ones(2, 4)}, torch.zeros(2), torch.ones(2)
     zeros = np.zeros((1, 2), int)
-    arrays = rounds.Round(zeros, zeros, np.ones(2, int), np.zeros(2, int), inputs, behaviour).arrays()
+    arrays = rounds.Round(zeros, zeros, np.ones(2, int), np.zeros(2, int), inputs, *behaviour).arrays()
     names = "actions rewards lengths answers inputs heights log_probabilities values"
     assert set(arrays) == set(names.split())
     assert all(isinstance(array, np.ndarray) for array in arrays.values())  # A tensor is fetched from its sender.

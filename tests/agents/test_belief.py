@@ -54,7 +54,7 @@ def padded(episodes):
 # Targets and losses.
 
 
-def test_a_wrong_answer_leaves_the_other_labels_their_relative_probabilities():
+def test_a_wrong_answer_keeps_the_relative_probabilities_of_others():
     logits = torch.log(torch.tensor([[0.5, 0.3, 0.2], [0.5, 0.3, 0.2]]))
     found = losses.label_posterior(logits, torch.tensor([1, 1]), torch.tensor([True, False]))
     torch.testing.assert_close(found, torch.tensor([[0.0, 1.0, 0.0], [0.5 / 0.7, 0.0, 0.2 / 0.7]]))
@@ -326,7 +326,7 @@ def test_episodes_are_played_again_from_their_actions_to_the_last_bit(domain, ta
     environment.close()
 
 
-def test_convolutions_stay_random_and_their_outputs_are_kept_in_half_precision():
+def test_convolutions_stay_random_and_outputs_are_kept_in_half():
     agent = make_agent(SMALL.replace(seed=fresh_seed()), "strike", "pixels")
     before, learner = agent.save(), agent._learner
     while not int(learner.variables.optimizer.state[learner.variables.network.projection.weight]["step"]):

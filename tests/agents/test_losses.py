@@ -125,8 +125,8 @@ def test_losses_of_a_round_are_means_over_the_steps_played():
 
 def test_clipped_losses_of_two_actions_are_those_computed_by_hand():
     # Logits 0, 0: both actions have probability 1/2, entropy ln 2. Action 0 was taken with probability 1/4, twice.
-    # The ratio is 2; clip 0.2 leaves 1.2. Where the advantage is 1 the gain is min(2, 1.2) = 1.2; where it is -1 the
-    # gain is min(-2, -1.2) = -2: a bad action that became likelier costs in full. Policy loss: -(1.2 - 2) / 2 = 0.4.
+    # The ratio is 2; clip 0.2 leaves 1.2. An advantage of 1 gains min(2, 1.2) = 1.2; one of -1
+    # gains min(-2, -1.2) = -2: a bad action that became likelier costs in full. Policy loss: -(1.2 - 2) / 2 = 0.4.
     # Values 0.5 and 0 with returns 1 and -1: 0.5 * (0.25 + 1) / 2 = 0.3125.
     policy_loss, baseline_loss, entropy = losses.clipped_losses(
         torch.zeros(2, 2),

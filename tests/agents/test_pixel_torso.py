@@ -157,6 +157,6 @@ def test_anything_but_features_or_one_image_is_refused(names):
     image, features = specs.Array((84, 84, 3), np.uint8), specs.Array((4,), np.float32)
     observed = {name: features if name == "heights" else image for name in names}
     with pytest.raises(
-        ValueError, match=f"takes features .*, and what is observed is {', '.join(names) or 'nothing'};"
+        ValueError, match=f"takes features .*, and the observation has {', '.join(names) or 'nothing'};"
     ):
         networks.RecurrentActorCritic(observed, 9, observation_scale=1.0)

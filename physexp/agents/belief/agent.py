@@ -11,15 +11,7 @@ class Belief(synchronous.SynchronousAgent):
     """Keeps a belief about the answer, and estimates the value of each interaction; one process."""
 
     def __init__(self, make_environment: core.EnvironmentFactory, config: config_lib.BeliefConfig):
-        """Makes the environments, the network, and room for episodes.
-
-        Args:
-          make_environment: makes the batch.
-          config: the configuration.
-
-        Raises:
-          ValueError: if the episodes that are to be kept do not fit into memory.
-        """
+        """Makes the environments, the network, and the replay; raises ValueError if that is larger than memory."""
         seed, num_environments = starting.worker_seed(config.seed, 0), config_lib.NUM_ENVIRONMENTS
         self._environment = make_environment(seed, num_environments, config.num_threads)
         network = starting.make_network(networks.BeliefNetwork, self._environment, config)

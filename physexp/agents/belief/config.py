@@ -65,5 +65,5 @@ class BeliefConfig(config.AgentConfig):
 
     @property
     def advice(self) -> str:
-        """Returns what to try when an agent has learned nothing."""
+        """Returns advice for an agent that has learned nothing."""
         return f"fewer --frames-per-update than {self.frames_per_update}"

@@ -121,13 +121,7 @@ class BeliefLearner(synchronous.SynchronousLearner):
     variables: Variables
 
     def __init__(self, variables: Variables, play: Play, config: config_lib.BeliefConfig):
-        """Joins variables to episodes.
-
-        Args:
-          variables: the networks, the optimizer, and the episodes.
-          play: plays a round.
-          config: the agent's configuration.
-        """
+        """Takes the networks, the optimizer and the episodes, and a function that plays a round."""
         self.variables, self._play, self._config = variables, play, config
 
     def step(self) -> dict[str, float]:
@@ -167,13 +161,7 @@ class BeliefLearner(synchronous.SynchronousLearner):
         }
 
     def _learn(self, episodes: rounds.Round, held_out: torch.Tensor, learning_rate: float) -> dict[str, float]:
-        """Makes one step of Adam on some episodes; returns its metrics.
-
-        Args:
-          episodes: the episodes, B of them.
-          held_out: the member that does not learn from each episode, int64 [B], ascending.
-          learning_rate: Adam's.
-        """
+        """Makes one step of Adam on B episodes with held-out members, int64 [B], ascending; returns its metrics."""
         config, network, averaged = self._config, self.variables.network, self.variables.averaged
         assert episodes.inputs is not None
         actions, played = torch.from_numpy(episodes.actions), torch.from_numpy(episodes.played)
@@ -243,11 +231,7 @@ def label_targets(
 ) -> tuple[torch.Tensor, torch.Tensor]:
     """Returns the targets of beliefs, probabilities [B, L], and the steps that are learned from, bool [T, B].
 
-    Args:
-      episodes: the episodes.
-      held_out_logits: of the beliefs of the held-out members, [T, B, L].
-      num_interactions: how many actions are interactions.
-      config: whether the answers are revealed, and whether every step is learned from.
+    The logits are those of the held-out members' beliefs, [T, B, L].
     """
     lengths, each = torch.from_numpy(episodes.lengths), torch.arange(len(episodes.lengths))
     last_actions = torch.from_numpy(episodes.actions)[lengths - 1, each]
@@ -266,14 +250,9 @@ def label_targets(
 def value_targets(
     episodes: rounds.Round, answering: torch.Tensor, interacting: torch.Tensor, best: torch.Tensor, discount: float
 ) -> torch.Tensor:
-    """Returns the targets of the interactions taken, [T, B], from values of held-out members; see `losses`.
+    """Returns the targets of the interactions taken, [T, B]; see `losses.interaction_targets`.
 
-    Args:
-      episodes: the episodes.
-      answering: values S of the best answers, [T, B].
-      interacting: values Q of the best interactions, [T, B].
-      best: the best interactions, int64 [T, B].
-      discount: gamma.
+    They follow from the values of the best answers and of the best interactions, [T, B], by held-out members.
     """
     are_greedy = best == torch.from_numpy(episodes.actions)
     rewards = torch.from_numpy(episodes.rewards.sum(axis=0))

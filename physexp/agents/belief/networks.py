@@ -54,7 +54,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         max_interactions: int,
         discount: float,
     ):
-        """Builds the network; its weights follow torch's global seed.
+        """Builds the network, with weights from torch's global seed.
 
         Args:
           observation_spec: features, or one image.
@@ -63,18 +63,9 @@ class BeliefNetwork(networks.RecurrentNetwork):
           memory: the members' memory of an episode, attention or lstm.
           max_interactions: after this number it prefers to answer.
           discount: gamma.
-
-        Raises:
-          ValueError: if observations are neither features nor one image, or for another memory.
         """
-        super().__init__(observation_spec, num_actions)
-        self.sees_images = networks.sees_images(observation_spec)
+        super().__init__(observation_spec, _PIXEL_SCALE, 1.0)
         self.num_interactions, self.max_interactions, self.discount = num_interactions, max_interactions, discount
-        self.torso: networks.PixelTorso | networks.FeatureTorso
-        if self.sees_images:
-            self.torso = networks.PixelTorso(observation_spec, _PIXEL_SCALE)
-        else:
-            self.torso = networks.FeatureTorso(observation_spec, 1.0)
         self.torso.requires_grad_(False)
         self.num_inputs = self._num_seen = self.torso.num_outputs
         self.projection: nn.Module = nn.Identity()
@@ -100,10 +91,6 @@ class BeliefNetwork(networks.RecurrentNetwork):
         shapes = (1, batch_size, 0, self._num_seen), (1, batch_size, 1, self.num_interactions)
         seen, done = (torch.zeros(shape, dtype=torch.float32, device=self.device) for shape in shapes)
         return seen, done
-
-    def calibrate(self, first: networks.Observation) -> None:
-        """Makes an episode's first observation, arrays [N, ...], the torso's reference."""
-        self.torso.calibrate(first)
 
     def encode(self, observation: networks.Observation) -> torch.Tensor:
         """Encodes observations; see `RecurrentNetwork`."""
@@ -143,7 +130,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         """Computes the outputs of all members for whole episodes, padded to the longest.
 
         Args:
-          inputs: what `encode` returned, [T, B, F].
+          inputs: encoded observations, [T, B, F].
           actions: the actions taken then, int64 [T, B].
           dropout: share of the memory's outputs that are dropped, drawn anew for each step.
 
@@ -154,20 +141,17 @@ class BeliefNetwork(networks.RecurrentNetwork):
         return logits.transpose(1, 2), shares.transpose(1, 2)
 
     def held_out(self, inputs: torch.Tensor, actions: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
-        """Computes, for each episode, the outputs of its held-out member.
+        """Computes the outputs of the held-out member of each episode, [T, B, L] and [T, B, I]; see `unroll`.
 
-        Args:
-          inputs, actions: as for `unroll`; the first member is held out from the first B / K episodes, and so on.
-
-        Returns:
-          Logits of the belief, [T, B, L], and the share x of each interaction, [T, B, I].
+        The first member is held out from the first B / K episodes, and so on.
         """
-        logits, shares = self.members(self._histories(inputs, actions).unflatten(0, (ENSEMBLE_SIZE, -1)))
+        logits, shares = self.members(torch.stack(self._histories(inputs, actions).chunk(ENSEMBLE_SIZE)))
         return logits.flatten(0, 1).transpose(0, 1), shares.flatten(0, 1).transpose(0, 1)
 
     def _all_members(self, history: torch.Tensor, dropout: float = 0.0) -> tuple[torch.Tensor, torch.Tensor]:
         """Returns the outputs of all members for the same histories, [B, T, H]."""
-        return self.members(history.expand(ENSEMBLE_SIZE, *history.shape), dropout)
+        logits, shares = self.members(history.expand(ENSEMBLE_SIZE, *history.shape), dropout)
+        return logits, shares
 
     def _histories(self, inputs: torch.Tensor, actions: torch.Tensor) -> torch.Tensor:
         """Returns the members' inputs for whole episodes, [B, T, H]."""
@@ -192,7 +176,7 @@ class Projection(nn.Module):
     """A linear map of very many inputs, whose outputs change as much in a step of Adam however many there are."""
 
     def __init__(self, num_inputs: int, num_outputs: int):
-        """Draws weights."""
+        """Draws weights uniformly from -1 to 1."""
         super().__init__()
         self.weight = nn.Parameter(torch.empty(num_outputs, num_inputs).uniform_(-1, 1))
         self._scale = num_inputs**-0.5
@@ -209,8 +193,6 @@ class Members(nn.Module):
         """Builds the layers of each member."""
         super().__init__()
         kinds: dict[str, type[nn.Module]] = {"attention": Attention, "lstm": LSTM}
-        if memory not in kinds:
-            raise ValueError(f"memory is {memory!r}; choose from {', '.join(kinds)}")
         self.embedding = Linear(num_inputs, _WIDTH)
         self.memory = kinds[memory]()
         self.hidden = Linear(_WIDTH, 2 * _WIDTH)  # Of both heads, a half each.
@@ -265,4 +247,5 @@ class Linear(nn.Module):
 
     def forward(self, inputs: torch.Tensor) -> torch.Tensor:
         """Maps [K, ..., num_inputs] to [K, ..., num_outputs]."""
-        return torch.baddbmm(self.bias, inputs.flatten(1, -2), self.weight).unflatten(1, inputs.shape[1:-1])
+        outputs = torch.baddbmm(self.bias, inputs.flatten(1, -2), self.weight)
+        return outputs.reshape(*inputs.shape[:-1], -1)

@@ -98,4 +98,5 @@ class Replay:
 
 def _again(actions: np.ndarray, output: networks.Output, active: np.ndarray, step: int) -> np.ndarray:
     """Chooses the actions of before, [T, B]; see `acting.Choose`."""
-    return actions[step, active]
+    chosen: np.ndarray = actions[step, active]
+    return chosen

@@ -9,12 +9,7 @@ class PPO(synchronous.SynchronousAgent):
     """Synchronous: each round is played with all that was learned from the rounds before."""
 
     def __init__(self, make_environment: core.EnvironmentFactory, config: config_lib.PPOConfig):
-        """Makes the environments and the network.
-
-        Args:
-          make_environment: makes the batch.
-          config: the configuration.
-        """
+        """Makes the environments and the network."""
         self._config = config
         seed = starting.worker_seed(config.seed, 0)
         self._environment = make_environment(seed, config.num_environments, config.num_threads)

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import torch
 
-from physexp.agents import learning, losses, rounds, synchronous
+from physexp.agents import learning, losses, networks, rounds, synchronous
 from physexp.agents.ppo import config as config_lib
 
 _NUM_EPOCHS = 4  # Passes over the episodes in each update, as usual for PPO.
@@ -16,15 +16,12 @@ class PPOLearner(synchronous.SynchronousLearner):
     """Takes rounds of episodes, moves the variables."""
 
     def __init__(
-        self, variables: learning.Variables, play: Callable[[int], rounds.Round], config: config_lib.PPOConfig
+        self,
+        variables: learning.Variables[networks.RecurrentActorCritic],
+        play: Callable[[int], rounds.Round],
+        config: config_lib.PPOConfig,
     ):
-        """Joins variables to episodes.
-
-        Args:
-          variables: the network and its optimizer.
-          play: plays a round, from the index of its episodes, with the network as it is, and keeps the behaviour.
-          config: the agent's configuration.
-        """
+        """Takes the network with its optimizer, and a function that plays the round of an index with behaviour data."""
         self.variables, self._play, self._config = variables, play, config
 
     def step(self) -> dict[str, float]:
@@ -51,16 +48,16 @@ class PPOLearner(synchronous.SynchronousLearner):
 
     def _learn(self, episodes: rounds.Round, learning_rate: float, entropy_cost: float) -> dict[str, float]:
         """Makes one step of Adam on some episodes; returns its metrics."""
-        config, network, behaviour = self._config, self.variables.network, episodes.behaviour
-        assert behaviour is not None
-        logits, values = network.unroll(network.encode(behaviour.observation), episodes.batch_sizes)
-        returns, advantages = learning.targets(episodes, behaviour.values, config.discount, config.gae_lambda)
+        config, network = self._config, self.variables.network
+        assert episodes.values is not None and episodes.log_probabilities is not None
+        logits, values = network.unroll(network.encode(episodes.observation), episodes.batch_sizes)
+        returns, advantages = learning.targets(episodes, episodes.values, config.discount, config.gae_lambda)
         device = logits.device
         parts = losses.clipped_losses(
             logits,
             values,
             episodes.packed(episodes.actions).to(device),
-            behaviour.log_probabilities.to(device),
+            episodes.log_probabilities.to(device),
             returns.to(device),
             _standardized(advantages).to(device),
             _CLIP,

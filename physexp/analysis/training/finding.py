@@ -127,7 +127,7 @@ def _of_card(agent: pretrained.Pretrained) -> Agent:
 
 
 def network_facts(config: config_lib.TrainConfig) -> dict[str, Any]:
-    """Returns what a network is made from: specs of the environment, and hyperparameters."""
+    """Returns the specs of the environment and the hyperparameters that a network is made from."""
     environment = trainer.make_environment(config, 0, 1, 1)
     observations = {
         name: [list(spec.shape), np.dtype(spec.dtype).name] for name, spec in environment.observation_spec().items()
