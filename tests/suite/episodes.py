@@ -54,3 +54,25 @@ def plans_that_miss(rng, step_limit: int, control_timestep: float, num_random: i
     walks = rng.choice([AWAY, LEFT, RIGHT], size=(num_random, -(-step_limit // hold)))
     held = np.array([[AWAY], [LEFT], [RIGHT]])
     return np.concatenate([np.repeat(held, step_limit, axis=1), np.repeat(walks, hold, axis=1)[:, :step_limit]])
+
+
+class Followed:
+    """Asserts that observations follow from keys: under equal keys, they are equal to the bit.
+
+    Attributes:
+      shown: the observation of each key, as bytes.
+    """
+
+    def __init__(self):
+        self.shown = {}
+
+    def add(self, keys, observation) -> None:
+        """Adds the observations of a batch and the key of each."""
+        for row, key in enumerate(keys):
+            seen = b"".join(value[row].tobytes() for value in observation.values())
+            assert self.shown.setdefault(key, seen) == seen, key
+
+    def num_different(self) -> int:
+        """Returns the number of keys, whose observations all differ."""
+        assert len(set(self.shown.values())) == len(self.shown)
+        return len(self.shown)

@@ -72,13 +72,9 @@ def test_an_episode_is_that_of_the_environment_behind_it(name, seed):
 def test_running_out_of_time_terminates_with_a_wrong_answer():
     environment = gymnasium.make(NAMES[0], random=1)
     environment.reset()
-    steps = 0
-    while True:
+    for _ in range(100):
         _, reward, terminated, truncated, _ = environment.step(0)
-        steps += 1
-        if terminated or truncated:
-            break
-    assert (steps, reward, terminated, truncated) == (100, -1.0, True, False)
+    assert (reward, terminated, truncated) == (-1.0, True, False)
 
 
 def test_the_seed_that_is_told_starts_the_same_episode_again():
@@ -205,32 +201,21 @@ def test_a_step_without_an_episode_says_that_a_reset_is_needed(size):
 
 
 @pytest.mark.parametrize("make", [adapter.Environment, adapter.VectorEnvironment])
-@pytest.mark.parametrize("seed", [2**63, True, [1, 2]])
-def test_a_seed_that_is_none_is_refused_and_changes_nothing(make, seed):
+def test_a_bad_seed_or_option_of_a_reset_changes_nothing(make):
     environment = make("which_is_heavier", "features", random=5)
-    with pytest.raises(ValueError, match=r"^seed is .*; give an integer >= 0 and < 2\*\*63$"):
-        environment.reset(seed=seed)
-    environment.reset(seed=np.int64(3))
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"episodes": 1}, "^options has 'episodes'; allowed: episode(, reset_mask)?$"),
-        ({"episode": -1}, "^episode is -1; give an integer"),
-        (5, r"^options is 5; give a dictionary with episode(, reset_mask)?, or None$"),
-        ({"episode": [1, 2]}, r"^episode is \[1, 2\]; give an integer"),
-    ],
-)
-@pytest.mark.parametrize("make", [adapter.Environment, adapter.VectorEnvironment])
-def test_an_option_that_makes_no_sense_is_refused_and_changes_nothing(make, options, message):
-    environment = make("which_is_heavier", "features", random=5)
-    with pytest.raises(ValueError, match=message):
-        environment.reset(seed=3, options=options)
+    for seed, options, message in (
+        (2**63, None, r"^seed is .*; give an integer >= 0 and < 2\*\*63$"),
+        ([1, 2], None, r"^seed is \[1, 2\]; give an integer"),
+        (3, {"episodes": 1}, "^options has 'episodes'; allowed: episode(, reset_mask)?$"),
+        (3, {"episode": -1}, "^episode is -1; give an integer"),
+        (3, 5, r"^options is 5; give a dictionary with episode(, reset_mask)?, or None$"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            environment.reset(seed=seed, options=options)
     assert environment.reset()[1]["episode_index"] == 0 and environment.np_random_seed == 5
 
 
-def test_a_mask_that_makes_no_sense_is_refused():
+def test_a_bad_reset_mask_is_refused():
     environment = adapter.VectorEnvironment("which_is_heavier", "features", 2, random=5)
     part = np.array([True, False])
     with pytest.raises(gymnasium.error.ResetNeeded, match=r"reset\(\)"):
@@ -256,6 +241,6 @@ def test_a_mask_that_makes_no_sense_is_refused():
         (lambda: adapter.VectorEnvironment("towers", "fist_features", max_episode_steps=25), "_steps is 25; .*>= 26"),
     ],
 )
-def test_what_makes_no_sense_is_refused(make, message):
+def test_a_bad_argument_is_refused(make, message):
     with pytest.raises(ValueError, match=message):
         make()

@@ -3,6 +3,7 @@
 import itertools
 
 import chance
+import episodes
 import numpy as np
 import pytest
 
@@ -72,15 +73,13 @@ def test_observations_tell_nothing_but_what_is_pulled_clamped_and_away(seed, dom
         _extremes(), 12, axis=0
     )  # So many that each of the 31 is seen but in one run of a hundred million.
     player = Player(rng, suite.load_batch(domain_name, task_name, len(slacks), {"random": seed}), slacks)
-    shown = {}
+    followed = episodes.Followed()
     for _ in range(19):
         observation, pulled, away = player.step()
-        for i, clamped in enumerate(player.clamped):
-            seen = b"".join(value[i].tobytes() for value in observation.values())
-            assert shown.setdefault((*pulled[i], *away[i], clamped), seen) == seen
+        followed.add(map(tuple, np.column_stack([pulled, away, player.clamped])), observation)
     # Nothing pulled, with each clamp or none: 4. Each pulled without a clamp, and others with it or not: 3 * 4; clamped
     # itself: 3; or past another's clamp, and the third with it or not: 3 * 2 * 2.
-    assert len(set(shown.values())) == len(shown) == 4 + 12 + 3 + 12
+    assert followed.num_different() == 4 + 12 + 3 + 12
 
 
 def test_a_clamped_puck_stays_where_it_is_to_a_micrometre(seed):

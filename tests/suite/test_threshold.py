@@ -1,6 +1,7 @@
 """Threshold: a push slides the block if and only if it is stronger than friction, and nothing else can be read."""
 
 import chance
+import episodes
 import numpy as np
 import pytest
 
@@ -54,15 +55,13 @@ def test_observations_tell_nothing_but_the_push_and_whether_the_block_slid(seed,
     rng = np.random.default_rng(seed)
     frictions = _edges_of_intervals()
     batch = suite.load_batch(domain_name, task_name, len(frictions), {"random": seed})
-    shown = {}
+    followed = episodes.Followed()
     batch.reset(hidden=frictions)
     for _ in range(batch.task.rules.step_limit - 1):
         pushes = rng.integers(threshold.NUM_LEVELS, size=len(frictions))
         observation = batch.step(pushes).observation
-        for i, push in enumerate(pushes.tolist()):
-            seen = b"".join(value[i].tobytes() for value in observation.values())
-            assert shown.setdefault((push, LEVELS[push] > frictions[i]), seen) == seen
-    assert len(set(shown.values())) == len(shown) > 1.5 * threshold.NUM_LEVELS
+        followed.add(zip(pushes, LEVELS[pushes] > frictions, strict=True), observation)
+    assert followed.num_different() > 1.5 * threshold.NUM_LEVELS
 
 
 def test_labels_follow_the_prior_and_frictions_keep_away_from_the_levels(seed):
