@@ -72,7 +72,7 @@ class Variables(Generic[Network]):
         return {name: value.to("cpu", copy=True) for name, value in self.tensors().items()}
 
     def restore(self, tensors: Mapping[str, torch.Tensor]) -> None:
-        """Restores everything from what `save` returned.
+        """Restores everything from the tensors of `save`.
 
         Raises:
           ValueError: if the tensors do not fit, are not finite, or have impossible counts; nothing is changed then.
@@ -121,12 +121,12 @@ class Learner(core.Learner):
         return self.variables.save()
 
     def restore(self, state: Mapping[str, torch.Tensor]) -> None:
-        """Takes up what `save` returned."""
+        """Takes up the tensors of `save`."""
         self.variables.restore(state)
 
 
 def network_variables(tensors: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:
-    """Returns the network's part of what `Variables.save` returned, by name."""
+    """Returns the network's variables among the tensors of `Variables.save`, by name."""
     prefix = "network/"
     return {name.removeprefix(prefix): value for name, value in tensors.items() if name.startswith(prefix)}
 

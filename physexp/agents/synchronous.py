@@ -61,5 +61,5 @@ class SynchronousAgent(core.Agent):
         return self._learner.save()
 
     def restore(self, tensors: Mapping[str, torch.Tensor]) -> None:
-        """Takes up what `save` returned; raises ValueError if it does not fit."""
+        """Takes up the tensors of `save`; raises ValueError if they do not fit."""
         self._learner.restore(tensors)

@@ -51,7 +51,7 @@ class A3C(core.Agent):
             return self._variables.save()
 
     def restore(self, tensors: Mapping[str, torch.Tensor]) -> None:
-        """Takes up what `save` returned; raises ValueError if it does not fit."""
+        """Takes up the tensors of `save`; raises ValueError if they do not fit."""
         self._variables.restore(tensors)
 
     def stop(self) -> None:
@@ -59,7 +59,7 @@ class A3C(core.Agent):
         self._is_stopping = True
 
     def updates(self, poll_seconds: float = 0.5) -> Generator[core.Update | None, None, None]:
-        """Does what `Agent.updates` says; when a worker dies, raises WorkerError and ends the others."""
+        """Yields each update; when a worker dies, raises WorkerError and ends the others."""
         self._start()
         try:
             while self._workers:
@@ -98,7 +98,7 @@ class A3C(core.Agent):
             self._lock.release()
 
     def _receive(self, seconds: float = 0.0) -> None:
-        """Receives what workers have sent; raises WorkerError if one has failed or died."""
+        """Receives the messages of workers; raises WorkerError if one has failed or died."""
         ready = connection.wait(list(self._workers), seconds)
         for pipe in [pipe for pipe in self._workers if pipe in ready]:
             try:

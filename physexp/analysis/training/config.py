@@ -25,30 +25,7 @@ ALGORITHMS: dict[str, type[agent_config.AgentConfig]] = {
 DEFAULT_ALGORITHM = belief.BeliefConfig.algorithm
 """The learner that needs the fewest environment steps."""
 
-_UNNAMED = a3c.A3CConfig.algorithm  # Names of runs, and configurations of format 1, leave the paper's learner out.
-_OF_FORMAT_1 = ("difficulty", "control_timestep")  # Fields that now are in `task_kwargs`; null for the task's default.
-
-_RENAMED = {
-    "trace": "gae_lambda",
-    "relative_entropy": "kl_to_prior",
-    "action_prior": "initial_logits",
-    "most_interactions": "max_interactions",
-    "frames_per_step": "frames_per_update",
-}
-_GONE = (
-    *(
-        "learning_rate",
-        "max_gradient_norm",
-        "lstm_units",
-        "max_staleness",
-        "num_epochs",
-        "clip",
-        "num_members",
-        "units",
-    ),
-    *("num_environments", "greedy", "cut", "exploration", "gae_lambda", "batch_size", "dropout", "weight_decay"),
-    *("num_members", "averaging"),
-)
+_UNNAMED = a3c.A3CConfig.algorithm  # Names of runs leave the paper's learner out.
 
 
 def preset(domain: str = "", task: str = "", *, algorithm: str = DEFAULT_ALGORITHM) -> agent_config.AgentConfig:
@@ -80,7 +57,7 @@ class TrainConfig:
 
     domain: str
     task: str
-    task_kwargs: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)  # A dictionary has no hash.
+    task_kwargs: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)  # Dictionaries have no hash.
     replay_every: int = 0
     agent: agent_config.AgentConfig
 
@@ -89,16 +66,16 @@ class TrainConfig:
         if not isinstance(self.task_kwargs, Mapping):
             raise ValueError(f"task_kwargs is {self.task_kwargs!r}; give a dictionary")
         task_kwargs = {name: _as_python(name, value) for name, value in self.task_kwargs.items()}
-        object.__setattr__(self, "task_kwargs", task_kwargs)  # One's own: nobody else changes it.
+        object.__setattr__(self, "task_kwargs", task_kwargs)  # A copy, which the caller cannot change.
 
     @property
     def task_name(self) -> str:
-        """Domain and task, as in `towers/fist_features`."""
+        """Domain and task, as `towers/fist_features`."""
         return f"{self.domain}/{self.task}"
 
     @property
     def label(self) -> str:
-        """The short name of what is trained, as in `10-F`."""
+        """A short label of the task and its options, as `10-F`."""
         return domains.find(self.domain).label(self.task, self.task_kwargs)
 
     @property
@@ -116,29 +93,23 @@ class TrainConfig:
         return suite.load_task(self.domain, self.task, self.task_kwargs)
 
     def to_json(self) -> dict:
-        """Returns the fields as JSON has them; `from_json` makes an equal configuration of them."""
+        """Returns the fields as JSON; `from_json` makes an equal configuration of them."""
         fields = dataclasses.asdict(self)
         return {**fields, "agent": {"algorithm": self.agent.algorithm, **fields["agent"]}}
 
     @classmethod
     def from_json(cls, fields: dict) -> "TrainConfig":
-        """Returns the configuration that `to_json`, of this version or an earlier one, has written."""
+        """Returns the configuration that `to_json` has written."""
         agent: dict[str, Any] = {
             name: tuple(value) if isinstance(value, list) else value  # JSON has lists.
             for name, value in fields["agent"].items()
         }
-        algorithm = ALGORITHMS[agent.pop("algorithm", _UNNAMED)]
-        agent = {_RENAMED.get(name, name): value for name, value in agent.items()}  # Until stored runs are converted.
-        known = {field.name for field in dataclasses.fields(algorithm)}
-        agent = {name: value for name, value in agent.items() if name in known or name not in _GONE}
-        chosen = {name: fields[name] for name in _OF_FORMAT_1 if fields.get(name) is not None}
-        others = {name: value for name, value in fields.items() if name not in _OF_FORMAT_1}
-        task_kwargs = {**chosen, **fields.get("task_kwargs", {})}
-        return cls(**{**others, "task_kwargs": task_kwargs, "agent": algorithm(**agent)})
+        algorithm = ALGORITHMS[agent.pop("algorithm")]
+        return cls(**{**fields, "agent": algorithm(**agent)})
 
 
 def _as_python(name: str, value):
-    """Returns an option's value, which may be NumPy's, as JSON can hold it."""
+    """Returns an option's value, which may be of NumPy, as a type that JSON has."""
     if isinstance(name, str):
         if isinstance(value, str):
             return value

@@ -39,7 +39,7 @@ def play(
 
     Args:
       network: the agent's network.
-      config: its run's configuration, which says what it plays.
+      config: its run's configuration, which names the task.
       num_episodes: number of episodes.
       interaction: `learned`, or `random` for the paper's randomized interaction (Section 5.3): labeling actions pass,
         an interaction action is replaced by one drawn uniformly.

@@ -103,11 +103,17 @@ class Run:
         busy = f"another process is training in {self.path}; wait for it or choose another"
         with lock.locked(self.path, busy) as self._has_lock:
             try:
-                for partial in (self.path / "replays").glob(".replay-*"):  # Of a trainer that was killed.
-                    shutil.rmtree(partial)
+                self._remove_litter()
                 yield
             finally:
                 self._has_lock = None
+
+    def _remove_litter(self) -> None:
+        """Removes the partial files of a trainer that was killed."""
+        for folder in (self.path, self.path / "episodes.parquet"):
+            files.remove_litter(folder)
+        for partial in (self.path / "replays").glob(".replay-*"):
+            shutil.rmtree(partial)
 
     def check_lock(self) -> None:
         """Raises RuntimeError if, within `locked`, the lock file was removed or the folder moved."""
@@ -210,23 +216,17 @@ class Run:
         from physexp.agents import learning
         from physexp.agents import tensors as tensors_lib
 
-        def accept(variables: Mapping[str, "torch.Tensor"]) -> None:
-            try:
-                tensors_lib.check(variables, variables if like is None else like)
-            except ValueError as error:
-                raise ValueError(f"the network {error}; put back the run's own, or remove it") from None
-
         if self.agent_path.exists():
-            variables, _ = tensors_lib.read(self.agent_path)
-            try:
-                accept(variables)
-            except ValueError as error:
-                raise ValueError(f"{self.agent_path}: {error}") from None
-            return variables
-        found = self.checkpointer.latest(accept=lambda tensors, _: accept(learning.network_variables(tensors)))
-        if found is None:
+            path, variables = self.agent_path, tensors_lib.read(self.agent_path)[0]
+        elif found := self.checkpointer.latest():
+            path, variables = self.path / "checkpoints", learning.network_variables(found[0])
+        else:
             raise ValueError(f"{self.path} holds no checkpoint yet; let the training write one")
-        return learning.network_variables(found[0])
+        try:
+            tensors_lib.check(variables, variables if like is None else like)
+        except ValueError as error:
+            raise ValueError(f"{path}: the network {error}; put back the run's own, or remove it") from None
+        return variables
 
     def keep_agent_only(self) -> None:
         """Replaces checkpoints and episodes by the network in half precision: training cannot be continued after it.

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterator
 import contextlib
 import math
-import os
 import signal
 import threading
 import time
@@ -12,8 +11,6 @@ from physexp.agents import processes
 
 TOGETHER_SECONDS = 1.0
 """Signals that arrive this close count as one: many senders signal a process and then its whole group."""
-
-_signals: tuple[signal.Signals, ...] = processes.STOP_SIGNALS  # Those that are requests, in this process.
 
 
 class Interrupted(KeyboardInterrupt):
@@ -81,24 +78,6 @@ class Interruption(contextlib.AbstractContextManager):
         self._stop()
 
 
-def obey(wait: Callable[[], object]) -> None:
-    """Has a child's process ended by its parent alone.
-
-    Args:
-      wait: returns when the parent asks; called in a thread of its own.
-    """
-    global _signals
-    _signals = (signal.SIGUSR1,)
-    signal.signal(signal.SIGUSR1, lambda number, frame: _raise(number))
-
-    def pass_on() -> None:
-        with contextlib.suppress(EOFError, OSError):  # The parent has ended without asking.
-            wait()
-            os.kill(os.getpid(), signal.SIGUSR1)
-
-    threading.Thread(target=pass_on, daemon=True).start()
-
-
 def _raise(number: int) -> None:
     raise Interrupted(number)
 
@@ -117,7 +96,7 @@ def _handled(receive: Callable[[int], None]) -> Iterator[None]:
 
     previous = {}
     if threading.current_thread() is threading.main_thread():
-        for number in _signals:
+        for number in processes.STOP_SIGNALS:
             if signal.getsignal(number) is not signal.SIG_IGN:
                 previous[number] = signal.signal(number, handle)
     try:

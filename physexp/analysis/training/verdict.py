@@ -48,7 +48,7 @@ def of_run(run: run_lib.Run) -> str | None:
 
 
 def advice(config: config_lib.TrainConfig) -> str:
-    """Returns a sentence on what may help an agent that has learned nothing."""
+    """Returns advice for an agent that has learned nothing."""
     agent = config.agent
     best = config_lib.DEFAULT_ALGORITHM
     other = "" if agent.algorithm == best else f"--agent {best}, "
