@@ -59,14 +59,14 @@ class Patience:
         return sum(self._used.values())
 
 
-def wait_until(condition, what, **limits):
+def wait_until(condition, name, **limits):
     """Waits until a condition is true, and returns its value; fails if the watched processes make no progress.
 
     See `Patience`.
     """
     patience = Patience(**limits)
     while not (seen := condition()):
-        assert not patience.is_over(), f"waited in vain for {what}: {patience}"
+        assert not patience.is_over(), f"waited in vain for {name}: {patience}"
         time.sleep(0.02)
     return seen
 

@@ -1,4 +1,4 @@
-"""A3C's workers share one network and one optimizer, and the learner can go on from what it saved."""
+"""A3C's workers share one network and one optimizer, and a learner goes on from its saved variables."""
 
 import functools
 import math
@@ -100,7 +100,7 @@ def test_two_learners_at_once_share_weights_statistics_and_counters(context):
             assert not torch.equal(before[name], after[name]), f"{name} has not moved"
 
 
-def test_a_learner_goes_on_from_what_it_saved_to_the_same_variables(context):
+def test_a_learner_goes_on_from_saved_variables_to_the_same_ones(context):
     learner = make_learner(learning.Variables(make_network()), context.Lock(), 0)
     learner.step()
     saved = learner.save()

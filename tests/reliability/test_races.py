@@ -63,22 +63,3 @@ def test_of_two_new_runs_in_one_folder_one_trains_undisturbed(undisturbed, tmp_p
             seeds = {row["seed"] for row in subjects.contents(run)[1]}
             assert seeds == {row["seed"] for row in undisturbed[winner][1]}
             tally[f"the {'first' if winner == 0 else 'second'} won"] += 1
-
-
-def test_of_two_that_resume_one_run_one_is_refused_or_finds_it_done(undisturbed, tmp_path):
-    generator = attacks.generator()
-    with attacks.Tally("race, resume") as tally:
-        for attack in range(attacks.repetitions(2, share=0.25)):
-            run = run_lib.Run(tmp_path / str(attack))
-            run.create(subjects.config())
-            expected = tmp_path / "expected"
-            if not expected.exists():
-                run_lib.Run(expected).create(subjects.config())
-                assert attacks.run(subjects.train, expected).code == 0
-            ends = race(generator, subjects.words(run), subjects.words(run))
-            assert 0 in [end.code for end in ends] and {end.code for end in ends} <= {0, 2}, ends
-            for end in ends:
-                if end.code:
-                    end.assert_refused(str(run.path))
-            assert learned(subjects.contents(run)) == learned(subjects.contents(run_lib.Run(expected)))
-            tally["one was refused" if any(end.code for end in ends) else "one after the other"] += 1

@@ -75,7 +75,7 @@ def assert_rebuildable(row, config):
     environment.close()
 
 
-def test_training_records_everything_once_and_every_episode_can_be_rebuilt(uninterrupted):
+def test_records_have_everything_once_and_episodes_can_be_rebuilt(uninterrupted):
     assert_whole_records(uninterrupted)
 
 

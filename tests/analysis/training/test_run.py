@@ -1,7 +1,6 @@
 """A run's folder: one trainer at a time, and no record lost."""
 
 import json
-import multiprocessing
 import os
 import resource
 import signal
@@ -9,14 +8,12 @@ import signal
 import folders
 import pytest
 import torch
-from waiting import wait_until
 
 from physexp.agents.a3c import config as a3c
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 
-ROUNDS = 8
 COLUMNS = [*metrics_lib.METRICS, *a3c.A3CConfig.metrics]
 
 
@@ -44,38 +41,6 @@ def run(tmp_path):
 
 
 # Starting.
-
-
-def _race(folder, number, barrier, both_have_tried):
-    """Starts a run in each round, as `trainer.train` does; exits with 1 if a round went wrong."""
-    is_wrong = False
-    for round_ in range(ROUNDS):
-        run = run_lib.Run(folder / "new" / str(round_))
-        barrier.wait()
-        try:
-            with run.locked():
-                run.create(make_config(seed=number))
-                both_have_tried.wait()
-                run.append_metrics(row(frames=number))
-        except ValueError:
-            both_have_tried.wait()
-            continue
-        is_wrong |= run.config.agent.seed != number or frames_of(run) != [number]
-    os._exit(is_wrong)
-
-
-def test_of_two_that_start_in_one_new_folder_one_is_refused(tmp_path):
-    context = multiprocessing.get_context("spawn")
-    barriers = context.Barrier(2), context.Barrier(2)
-    racers = [context.Process(target=_race, args=(tmp_path, number, *barriers)) for number in (1, 2)]
-    for racer in racers:
-        racer.start()
-    wait_until(lambda: not any(racer.is_alive() for racer in racers), "the end of the race")
-    assert [racer.exitcode for racer in racers] == [0, 0]
-    for round_ in range(ROUNDS):
-        run = run_lib.Run(tmp_path / "new" / str(round_))
-        assert frames_of(run) == [run.config.agent.seed], "the records are the winner's"
-        assert not (run.path / ".lock").exists()
 
 
 def test_a_start_that_fails_removes_the_folders_that_it_made(tmp_path):

@@ -42,32 +42,39 @@ def small(**agent):
 # Checks.
 
 
-def test_a_missing_extra_is_told_before_anything_is_made(tmp_path, monkeypatch, capsys):
+def without_tensorboard(monkeypatch):
     monkeypatch.setitem(sys.modules, "tensorboard", None)
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name == "tensorboard" else sys)
-    line = refusal(capsys, "train", *TASK, "--run-dir", tmp_path / "run", "--tensorboard")
-    assert "tensorboard is not installed; pip install 'physexp[" in line
-    assert os.listdir(tmp_path) == []
 
 
-@pytest.mark.skipif(torch.cuda.is_available(), reason="there is a GPU here")
-def test_a_missing_gpu_is_told_before_anything_is_made(tmp_path, capsys):
-    line = refusal(capsys, "train", *TASK, "--run-dir", tmp_path / "deep" / "run", "--device", "cuda")
-    assert line == "physexp: device is cuda, but torch finds no GPU here; choose cpu or auto\n"
-    assert os.listdir(tmp_path) == []
+def without_gpu(monkeypatch):
+    monkeypatch.setattr(torch.cuda, "is_available", lambda: False)
 
 
-def test_a_missing_gl_library_is_told_before_anything_is_made(tmp_path, monkeypatch, capsys):
+def without_gl(monkeypatch):
     monkeypatch.setenv("MUJOCO_GL", "disable")
-    line = refusal(capsys, "train", "towers", "fist_pixels", "--run-dir", tmp_path / "run")
-    assert "no pixels can be drawn with MUJOCO_GL=disable" in line and "install" in line
-    assert os.listdir(tmp_path) == []
 
 
-def test_more_workers_than_the_machine_can_bear_are_refused(tmp_path, capsys):
-    options = ("--agent", "a3c", "--num-workers", 9_999)
-    line = refusal(capsys, "train", *TASK, "--run-dir", tmp_path / "run", *options)
-    assert re.search(r"num_workers is 9999; this machine has \d+ cores: give at most \d+$", line)
+def on_a_full_disk(monkeypatch):
+    usage = shutil.disk_usage(".")
+    monkeypatch.setattr(shutil, "disk_usage", lambda path: usage._replace(free=1_000_000))
+
+
+@pytest.mark.parametrize(
+    ("surroundings", "words", "message"),
+    [
+        (without_tensorboard, [*TASK, "--tensorboard"], "tensorboard is not installed; pip install 'physexp["),
+        (without_gpu, [*TASK, "--device", "cuda"], "device is cuda, but torch finds no GPU here; choose cpu or auto"),
+        (without_gl, ["towers", "fist_pixels"], "no pixels can be drawn with MUJOCO_GL=disable"),
+        (None, [*TASK, "--agent", "a3c", "--num-workers", 9_999], "num_workers is 9999; this machine has "),
+        # A3C's LSTM alone, 4 x 100 x 200 weights of 4 bytes with two statistics of each, takes 0.96 MB, thrice 2.9 MB.
+        (on_a_full_disk, [*TASK, "--agent", "a3c"], "has 1.0 MB of free space, and checkpoints need"),
+    ],
+)
+def test_an_obstacle_is_told_before_anything_is_made(surroundings, words, message, tmp_path, monkeypatch, capsys):
+    if surroundings is not None:
+        surroundings(monkeypatch)
+    assert message in refusal(capsys, "train", *words, "--run-dir", tmp_path / "deep" / "run")
     assert os.listdir(tmp_path) == []
 
 
@@ -76,15 +83,6 @@ def test_a_run_dir_that_is_a_file_or_below_one_is_told(place, tmp_path, capsys):
     (tmp_path / "file").write_text("mine")
     assert "is a file or lies below one" in refusal(capsys, "train", *TASK, "--run-dir", tmp_path / place)
     assert folders.contents(tmp_path) == {"file": b"mine"}
-
-
-def test_a_disk_without_room_for_checkpoints_is_told_before_training(tmp_path, monkeypatch, capsys):
-    usage = shutil.disk_usage(tmp_path)
-    monkeypatch.setattr(shutil, "disk_usage", lambda path: usage._replace(free=1_000_000))
-    line = refusal(capsys, "train", *TASK, "--run-dir", tmp_path / "run", "--agent", "a3c")
-    # Its LSTM alone, 4 x 100 x 200 weights of 4 bytes with two statistics of each, takes 0.96 MB, thrice 2.9 MB.
-    assert "has 1.0 MB of free space, and checkpoints need" in line and "make room, or choose another folder" in line
-    assert os.listdir(tmp_path) == []
 
 
 # Starts that come to nothing.

@@ -190,7 +190,7 @@ def test_a_loss_that_is_not_finite_ends_training_and_leaves_the_batch(tmp_path):
 # Files.
 
 
-def test_a_full_disk_ends_training_in_one_line_and_keeps_the_last_checkpoint(tmp_path):
+def test_a_full_disk_ends_training_and_keeps_the_last_checkpoint(tmp_path):
     run = trainers.create(tmp_path / "run", frames=ENDLESS)
     checkpoint = trainers.save_first_checkpoint(run)
     content = checkpoint.read_bytes()
