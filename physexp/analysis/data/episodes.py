@@ -1,4 +1,4 @@
-"""The table of episodes, one row each, from acting to Parquet: stored files are selections of its columns."""
+"""The table of episodes, one row each: stored files are selections of its columns."""
 
 from collections.abc import Sequence
 import dataclasses
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 
 @dataclasses.dataclass(frozen=True)
 class Episodes:
-    """What happened in N episodes of at most T actions.
+    """N episodes of at most T actions.
 
     Attributes:
       seed: seeds of the environments, int64 [N].
       episode: indices of the episodes, int64 [N]: seed and index together rebuild an episode.
-      hidden: the hidden property, [N, ...]; [N, 0] in the record of a learner, which has none.
+      hidden: the hidden property, [N, ...]; [N, 0] where it is not recorded.
       answer: the right labels, int64 [N].
       label: the labels given, -1 where time ran out, int64 [N].
       reward: final rewards, float64 [N].
@@ -55,9 +55,9 @@ class Episodes:
 
         Args:
           played: one episode in each of N environments.
-          num_interactions: how many actions of the task are interactions; the labels follow them.
+          num_interactions: the number of interactions of the task, whose labels follow them.
           seed: seeds of the environments, int64 [N].
-          episode: the index that all episodes of the round have.
+          episode: the index of all episodes of the round.
           hidden: the hidden property in each environment, [N, ...], where it is known.
         """
         num_episodes = len(played.lengths)
@@ -96,7 +96,7 @@ class Episodes:
         return self.reward * discount ** (self.length - 1)
 
     def summary(self, discount: float) -> dict:
-        """Returns the figures of `physexp evaluate`; the interval is Wilson's, at 95 %."""
+        """Returns the metrics that `physexp evaluate` prints; the interval is Wilson's, at 95 %."""
         right = int((self.reward > 0).sum())
         return {
             "episodes": len(self),
@@ -110,7 +110,7 @@ class Episodes:
 
     @property
     def is_timeout(self) -> np.ndarray:
-        """Which episodes ran out of time, bool [N]."""
+        """Whether each episode ran out of time, bool [N]."""
         return self.interactions == self.length
 
     def table(self, schema: pyarrow.Schema, **others: Any) -> pyarrow.Table:
@@ -118,7 +118,7 @@ class Episodes:
 
         Args:
           schema: names and types of the columns.
-          others: columns that this table does not have: an array of length N each, or one value for all rows.
+          others: columns that this table lacks: an array of length N each, or one value for all rows.
         """
         columns: dict[str, Any] = dict(vars(self))
         is_played = np.arange(self.actions.shape[1]) < self.length[:, None]

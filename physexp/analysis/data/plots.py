@@ -34,7 +34,7 @@ _STYLE: Any = {
 
 @contextlib.contextmanager
 def style():
-    """Returns the context in which figures are drawn and saved, whatever style the caller has chosen."""
+    """Returns a context with the style of figures, in which they are drawn and saved."""
     import matplotlib
 
     with matplotlib.rc_context():
@@ -44,31 +44,33 @@ def style():
 
 
 def literal(words: str) -> str:
-    """Returns text of others for a figure, in which a dollar sign is a letter and begins no formula."""
+    """Returns a text for a figure in which a dollar sign begins no formula."""
     return words.replace("$", r"\$")
 
 
 def new(columns: int = 1, rows: int = 1, width: float = 3.4, height: float = 2.6, **kwargs: Any):
-    """Returns a figure and its axes, [rows, columns] where there are several.
+    """Returns a figure and its axes, an array [rows, columns] if there are several.
 
     Args:
-      columns, rows: of axes.
-      width, height: of one pair of axes, inches.
-      kwargs: for `Figure.subplots`.
+      columns: columns of axes.
+      rows: rows of axes.
+      width: of one pair of axes, inches.
+      height: of one pair of axes, inches.
+      **kwargs: for `Figure.subplots`.
     """
     figure = empty(width * columns, height * rows)
     return figure, figure.subplots(rows, columns, **kwargs)
 
 
 def empty(width: float, height: float):
-    """Returns a figure without axes, inches; matplotlib keeps no list of it, so it needs not be closed."""
+    """Returns a figure without axes, of a size in inches; it need not be closed."""
     from matplotlib import figure
 
     return figure.Figure(figsize=(width, height), layout="constrained")
 
 
 def svg(figure) -> bytes:
-    """Returns a figure as SVG, whose text is text; the same from the same data."""
+    """Returns a figure as SVG with selectable text; equal data give equal bytes."""
     drawn = io.BytesIO()
     with style():
         figure.savefig(drawn, format="svg", metadata={"Date": None})
@@ -102,7 +104,7 @@ def save(figure: Any, folder: Path, name: str) -> Path:
 
 
 def reference(axes, level: float, text: str, vertical: bool = False, at: float = 1.0) -> None:
-    """Draws a thin line at a level, with its name at a place along it, from 0 to 1."""
+    """Draws a thin line at a level, with its name at a position along it, from 0 to 1."""
     line, words = (axes.axvline, axes.get_xaxis_transform()) if vertical else (axes.axhline, axes.get_yaxis_transform())
     line(level, color=GREY, linewidth=0.8, linestyle=_DOTTED, zorder=0)
     if not text:
@@ -114,7 +116,7 @@ def reference(axes, level: float, text: str, vertical: bool = False, at: float =
 
 
 def seeds(frame) -> str:
-    """Returns how many agents a figure is made from, in words: `10 agents each`."""
+    """Returns the number of agents of a figure in words: `10 agents each`."""
     counts = frame.groupby("condition").training_seed.nunique()
     low, high = int(counts.min()), int(counts.max())
     many = "agent" if high == 1 else "agents"

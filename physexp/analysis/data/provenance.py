@@ -1,4 +1,4 @@
-"""The provenance of results: the commit and the versions that made them."""
+"""The provenance of results: the commit and the versions of the source."""
 
 import importlib.metadata
 from pathlib import Path
@@ -16,10 +16,9 @@ _DIGITS = 40  # Of a commit.
 
 
 def commit() -> str:
-    """Returns the commit of the source that is running, with `+` where files differ from it.
+    """Returns the commit of the running source, with `+` if files differ from it.
 
-    `unknown` outside a checkout, also where the package is installed within that of another project, and where git does
-    not answer.
+    `unknown` outside a checkout of this project, and if git does not answer.
     """
     if shutil.which("git") is None:
         return "unknown"
@@ -35,24 +34,24 @@ def commit() -> str:
         if found.returncode:
             return "unknown"
         changed = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", "."], timeout=_GIT_SECONDS).returncode
-    except subprocess.TimeoutExpired:  # A network's file system, for one: no reason not to train.
+    except subprocess.TimeoutExpired:  # On a slow network file system.
         return "unknown"
     return found.stdout.strip() + ("+" if changed else "")
 
 
 def shortened(commit: str) -> str:
-    """Returns ten digits of a commit, and its `+`; a word that stands for one, such as `unknown`, stays whole."""
+    """Returns ten digits of a commit, and its `+`; other words, such as `unknown`, stay whole."""
     digits, plus, _ = commit.partition("+")
     return (digits[:10] if len(digits) == _DIGITS else digits) + plus
 
 
 def made_since(begun: float) -> dict[str, Any]:
-    """Returns what made results since a time of `time.monotonic`: `seconds`, `commit` and `versions`."""
+    """Returns `seconds` since a time of `time.monotonic`, `commit` and `versions`."""
     return {"seconds": round(time.monotonic() - begun, 1), "commit": commit(), "versions": versions()}
 
 
 def versions() -> dict[str, str]:
-    """Returns the versions of all that determines a run's results; a source tree on the path is `not installed`."""
+    """Returns the versions that determine the results of a run; a source tree on the path is `not installed`."""
     found = {name: _version(name) for name in _DISTRIBUTIONS}
     return {"python": platform.python_version(), "physexp": physexp.__version__, **found}
 

@@ -1,4 +1,4 @@
-"""The parts of an experiment: the agents it needs, the episodes they play, its claims and its figure."""
+"""The parts of an experiment: its conditions, trials, stored results, claims and figure."""
 
 from collections.abc import Callable, Mapping, Sequence
 import dataclasses
@@ -20,12 +20,13 @@ from physexp.analysis.training import run as run_lib
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Trial:
-    """What a trained agent plays; experiments with the same trial share its episodes.
+    """A test that trained agents play; experiments with the same trial share its episodes.
 
     Attributes:
-      name: of the folder with the episodes.
+      name: the name in the stored rows.
       interaction: learned, or random for the paper's randomized interaction.
-      num_episodes, num_steps: it plays until it has had at least so many of both, in whole episodes.
+      num_episodes: the least number of episodes.
+      num_steps: the least number of environment steps, in whole episodes.
       task_kwargs: options of the task that differ from those of training.
     """
 
@@ -149,7 +150,7 @@ class Results:
 
 
 def keep_made(path: Path, made: Any) -> None:
-    """Writes what the preparation of an experiment has made into a JSON file, for `read_made`."""
+    """Writes the outcome of an experiment's preparation into a JSON file, for `read_made`."""
     path.parent.mkdir(parents=True, exist_ok=True)
     files.write_atomically(path, (json.dumps(made, indent=1) + "\n").encode())
 

@@ -40,7 +40,7 @@ class _Tested:
 
 @dataclasses.dataclass(frozen=True)
 class _Shown:
-    """An experiment whose figure was drawn; its table, a header and rows of words; and which agents are missing."""
+    """An experiment with a figure, its table (a header and rows of words), and a sentence on missing agents."""
 
     experiment: base.Experiment
     table: list[tuple[str, ...]]
@@ -55,11 +55,11 @@ _TABLES = {
 
 
 def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Path:
-    """Draws every figure and tests every claim that there is data for; returns the path of the Markdown.
+    """Draws every figure and tests every claim with data; returns the path of the Markdown.
 
     Args:
       results: the folder with the data.
-      tell: called with lines that tell how it goes.
+      tell: called with lines about the progress.
 
     Raises:
       ValueError: if there is no such folder.
@@ -109,7 +109,7 @@ def _summary(tested: list[_Tested], runs: Any) -> dict[str, list[str]]:
 
 
 def _provenance(runs: Any) -> list[str]:
-    """Returns how many agents each commit has made, and the commit that has made the report."""
+    """Returns the number of agents from each commit, and the commit of the report."""
     commits = (text.escaped(provenance.shortened(commit)) for commit in runs.commit)
     made = ", ".join(f"{number} by {commit}" for commit, number in collections.Counter(commits).items())
     return [

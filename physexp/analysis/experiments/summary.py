@@ -1,4 +1,4 @@
-"""The summary of a report: the claims of the paper that hold, fail or stay undecided, with the reasons."""
+"""The summary of a report: the claims of the paper that hold, fail or are undecided, with the reasons."""
 
 import collections
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""The rows of the stored tables: of runs, of their learning curves, of what they have played, and of its episodes."""
+"""Rows of the tables of results: runs, learning curves, evaluations and episodes."""
 
 from collections.abc import Mapping, Sequence
 import itertools
@@ -44,7 +44,7 @@ RUNS = pyarrow.schema(
 """A row a run."""
 
 CURVES = pyarrow.schema(_RUN + [(name, pyarrow.int64() if name in _COUNTS else pyarrow.float32()) for name in METRICS])
-"""The rows of `metrics.csv`, whose six digits single precision holds; null where the learner has no such metric."""
+"""The rows of `metrics.csv`: single precision holds their six digits; null for metrics of other learners."""
 
 EVALUATIONS = pyarrow.schema(
     [
@@ -150,7 +150,7 @@ def _named(config: config_lib.TrainConfig) -> dict[str, Any]:
 
 
 def curves(rows: pyarrow.Table) -> Any:
-    """Returns rows of `CURVES` as a DataFrame of the very numbers, of six digits, that were recorded."""
+    """Returns rows of `CURVES` as a DataFrame of the recorded numbers, which have six digits."""
     frame = rows.to_pandas()
     for name in METRICS:
         values = frame[name].to_numpy(np.float64)
@@ -159,7 +159,7 @@ def curves(rows: pyarrow.Table) -> Any:
 
 
 def _six_digits(values: np.ndarray) -> np.ndarray:
-    """Returns the decimal numbers of six digits that are nearest to numbers in single precision."""
+    """Returns the nearest decimal numbers of six digits."""
     with np.errstate(divide="ignore"):
         digits = 5 - np.floor(np.log10(np.abs(values)))
     digits[~np.isfinite(digits)] = 0
@@ -228,7 +228,7 @@ def completed(
 
 
 def _shortest(value: float) -> float:
-    """Returns the number of the fewest digits among those that equal this one in single precision."""
+    """Returns the shortest decimal number that equals this one in single precision."""
     return float(str(np.float32(value)))
 
 

@@ -1,4 +1,4 @@
-"""The table of episodes describes what was played."""
+"""The table of episodes."""
 
 import numpy as np
 import pyarrow

@@ -19,7 +19,7 @@ def git(folder: Path, *words: str) -> str:
     ).stdout.strip()
 
 
-def test_a_commit_is_of_a_checkout_of_this_source_and_not_of_a_project_that_it_is_installed_in(tmp_path, monkeypatch):
+def test_a_commit_is_that_of_this_source_not_of_a_project_around_it(tmp_path, monkeypatch):
     source = tmp_path / "venv" / "physexp" / "__init__.py"
     source.parent.mkdir(parents=True)
     source.touch()
@@ -46,11 +46,11 @@ def test_a_commit_is_of_a_checkout_of_this_source_and_not_of_a_project_that_it_i
         ("not recorded", "not recorded"),  # An agent's card that has none.
     ],
 )
-def test_a_commit_is_shortened_and_a_word_that_stands_for_one_is_not(commit, expected):
+def test_a_commit_is_shortened_and_other_words_are_not(commit, expected):
     assert provenance.shortened(commit) == expected
 
 
-def test_a_source_tree_that_is_not_installed_trains_and_doctor_says_so(tmp_path):
+def test_a_source_tree_that_is_not_installed_trains(tmp_path):
     libraries, source = tmp_path / "libraries", Path(physexp.__file__).parents[1]
     libraries.mkdir()
     for entry in Path(site.getsitepackages()[0]).iterdir():

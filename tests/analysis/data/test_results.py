@@ -1,4 +1,4 @@
-"""The tables of stored results: what is written, what is read, and the sizes of those in the repository."""
+"""The tables of stored results: writing, reading, and the size of those in the repository."""
 
 import json
 

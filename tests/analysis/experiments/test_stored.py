@@ -32,7 +32,7 @@ def write(path, found):
     path.write_text(json.dumps(found))
 
 
-def test_a_domain_that_is_new_in_the_laboratory_is_solved_and_the_others_are_kept(results):
+def test_a_domain_new_in_the_laboratory_is_solved_and_others_are_kept(results):
     new, *others = laboratory.TASKS
     known = {task.label: {"value": 0.5, "at_once": -0.5, "random_value": 0.25} for task in others}
     path = results.path / "ideal" / "laboratory.json"
@@ -48,7 +48,7 @@ def test_a_domain_that_is_new_in_the_laboratory_is_solved_and_the_others_are_kep
 
 
 @pytest.mark.parametrize("name", ["data_efficiency", "ablations"])
-def test_the_ideal_that_learning_is_measured_by_is_searched_for_if_it_is_not_there(name, results, monkeypatch):
+def test_a_missing_ideal_of_a_learning_curve_is_solved(name, results, monkeypatch):
     pushes = conditions.towers("direct", "features")
     monkeypatch.setattr(conditions, "TOWERS", (pushes,))
     mine = conditions.with_belief(pushes, answers_revealed=True).id
@@ -62,7 +62,7 @@ def test_the_ideal_that_learning_is_measured_by_is_searched_for_if_it_is_not_the
     assert 0.95 < frame.score.iloc[-1] < 1.01
 
 
-def test_experimenters_that_nobody_trained_play_only_the_tests_that_are_new(results, monkeypatch):
+def test_untrained_experimenters_play_only_new_tests(results, monkeypatch):
     monkeypatch.setattr(generalization, "_NUM_EPISODES", 100)
     known = [
         {"player": player, "test": test, "right": 90, "return": 0.5}
@@ -82,7 +82,7 @@ def test_experimenters_that_nobody_trained_play_only_the_tests_that_are_new(resu
     assert json.loads((folder / "fist_features.json").read_text()) == known
 
 
-def test_a_rule_that_waits_a_number_of_steps_is_wrong_in_finer_time(results, monkeypatch):
+def test_a_rule_that_counts_steps_is_wrong_in_finer_time(results, monkeypatch):
     few = {step: dataclasses.replace(trial, num_episodes=100) for step, trial in control_steps.STEPS.items()}
     monkeypatch.setattr(control_steps, "STEPS", few)
     told = []
@@ -96,7 +96,7 @@ def test_a_rule_that_waits_a_number_of_steps_is_wrong_in_finer_time(results, mon
     assert made["wait"] * 0.05 < 0.17 < made["wait"] * 0.1
 
 
-def test_an_agent_that_has_not_played_all_tests_yet_is_left_out():
+def test_an_agent_that_lacks_a_test_is_left_out():
     frame, experiment = made_data.made("generalization"), EXPERIMENTS["generalization"]
     is_first = (frame.player == generalization.VARIED) & (frame.training_seed == 0)
     is_missing = is_first & (frame.test == "varied")
