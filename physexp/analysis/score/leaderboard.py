@@ -15,15 +15,6 @@ from physexp.analysis.score import drawing, log, protocol, scores, scoring, veri
 
 FOLDER = "scores"
 NAME = "leaderboard"
-_ABSENT = "–"
-_INTRODUCTION = (
-    "Each row is a folder in `results/scores`. `physexp leaderboard` makes this page from them: it plays the actions "
-    "of every row again, and leaves out a row whose score does not follow from them. The score is 1 for the [ideal "
-    "experimenter](../docs/ideal.md) and 0 for the best that needs no experiment; its interval is at 95 %. Over all "
-    "domains it is the interquartile mean. A task that a row does not play (–) counts as 0. Frames and minutes are "
-    "those of training, of all agents of a team together; the commit is that of the score. "
-    "[docs/score.md](../docs/score.md) says how to add a row."
-)
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "*")  # Of domains.
 _COLORS = (*plots.COLORS[1:], "#CC79A7", "#7F4F24")
 
@@ -128,38 +119,14 @@ def write(results: Path, show: Callable[[int], None] = lambda done: None) -> tup
 
 def markdown(rows: Sequence[Row]) -> str:
     """Returns the page of the leaderboard; the name of a row is a link to its folder."""
-    names = [drawing.words(domain) for domain in rows[0].domains]
-    lines = [["", "agent", "score", "95 % interval", *names, "algorithm", "frames", "minutes", "commit"]]
-    lines.append(["---"] * len(lines[0]))
-    for number, row in enumerate(rows, 1):
-        agent = row.found["agent"]
-        frames, seconds = agent.get("frames"), agent.get("seconds")
-        lines.append(
-            [
-                str(number),
-                f"[{text.escaped(row.name)}]({FOLDER}/{parse.quote(os.fsencode(row.name))})",
-                _number(row.whole["score"]),
-                " to ".join(map(_number, row.whole["interval"])),
-                *(_cell(row, domain) for domain in row.domains),
-                text.escaped(agent.get("algorithm") or ""),
-                "" if frames is None else f"{frames:,}",
-                "" if seconds is None else f"{seconds / 60:,.0f}",
-                text.escaped(provenance.shortened(row.found["commit"])),
-            ]
-        )
-    table = "".join(f"| {' | '.join(line)} |\n" for line in lines)
-    return f"# Leaderboard\n\n{_INTRODUCTION}\n\n![Scores of all rows](figures/{NAME}.png)\n\n{table}"
-
-
-def _cell(row: Row, domain: str) -> str:
-    count, of_all = row.played[domain]
-    number = _number(row.domains[domain]["score"])
-    return _ABSENT if count == 0 else number if count == of_all else f"{number} ({count} of {of_all} tasks)"
-
-
-def _number(score: float) -> str:
-    """Returns a score in words, without the sign of a 0."""
-    return f"{score:.3f}".replace("-0.000", "0.000")
+    return text.page(
+        Path(__file__).with_name(f"{NAME}.md"),
+        rows=rows,
+        words=drawing.words,
+        number=lambda score: f"{score:.3f}".replace("-0.000", "0.000"),
+        quote=lambda name: parse.quote(os.fsencode(name)),
+        commit=provenance.shortened,
+    )
 
 
 def draw(rows: Sequence[Row]):

@@ -20,19 +20,15 @@ def write(folder: Path) -> list[Path]:
       OSError: if it cannot be read or written.
       ValueError: if its `score.json` is faulty.
     """
-    import jinja2
-
     found = scoring.read(folder)
     with plots.style():
         figure = plots.png(drawing.draw(found))
-    templates = jinja2.Environment(
-        loader=jinja2.PackageLoader("physexp.analysis.score", ""),
-        autoescape=True,
-        finalize=lambda value: text.plain(value) if type(value) is str else value,  # Macros return escaped text.
-        trim_blocks=True,
-    )
-    page = templates.get_template(f"{NAME}.html").render(
-        name=folder.resolve().name, found=found, image=base64.b64encode(figure).decode(), commit=provenance.shortened
+    page = text.page(
+        Path(__file__).with_name(f"{NAME}.html"),
+        name=folder.resolve().name,
+        found=found,
+        image=base64.b64encode(figure).decode(),
+        commit=provenance.shortened,
     )
     paths = [folder / f"{NAME}.html", folder / f"{NAME}.png"]
     for path, content in zip(paths, (page.encode(), figure), strict=True):

@@ -1,6 +1,6 @@
 """Finds all that can be scored, each as a `Target`: baselines, trained agents, teams of them, and users' functions."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 import contextlib
 import dataclasses
 import functools
@@ -32,16 +32,15 @@ class Target:
       greedy: whether trained agents take their likeliest actions instead of drawing them.
       questions: the tasks that it can play; None for all, as far as is known before an actor is made.
       make: makes its actors in this process; None for a user's function.
-      facts: returns how a trained agent was trained: algorithm, seed, command, commit, frames, seconds.
-      members: the agents of a team, each a target with one task, by the task's name.
+      describe: returns how the agents of some tasks, by name, were trained: algorithm, seed, command, commit, frames,
+        seconds; of a team, algorithms and sums, and `agents` by the task's name.
     """
 
     name: str
     greedy: bool
     questions: tuple[protocol.Question, ...] | None
     make: Make | None
-    facts: Callable[[], dict[str, Any]] = dict
-    members: Mapping[str, "Target"] = dataclasses.field(default_factory=dict)
+    describe: Callable[[Collection[str]], dict[str, Any]] = lambda tasks: {}
 
     def choose(self, tasks: Sequence[str], observations: str) -> tuple[protocol.Question, ...]:
         """Returns the tasks to play.
@@ -64,15 +63,6 @@ class Target:
                     f"{self.name} does not play {asked.name}; it plays {', '.join(one.name for one in can)}"
                 )
         return found
-
-    def describe(self, tasks: Collection[str]) -> dict[str, Any]:
-        """Returns how the agents of some tasks were trained; of a team, sums, and `agents` by the task's name."""
-        if not self.members:
-            return self.facts()
-        each = {task: member.facts() for task, member in self.members.items() if task in tasks}
-        sums = {name: sum(one[name] for one in each.values()) for name in ("frames", "seconds")}
-        algorithms = dict.fromkeys(one["algorithm"] for one in each.values())
-        return {"algorithm": ", ".join(algorithms), **sums, "agents": each}
 
     @contextlib.contextmanager
     def playing(self, timeout: float) -> Iterator[Make]:
@@ -136,7 +126,7 @@ def _agent(name: str, greedy: bool) -> Target:
             f"{config.domain}/{config.task} without any"
         )
 
-    def how_trained() -> dict[str, Any]:
+    def describe(tasks: Collection[str]) -> dict[str, Any]:
         trained = agent.provenance()
         found = {fact: trained.get(fact) for fact in ("command", "commit", "frames", "seconds")}
         return {"algorithm": config.agent.title, "seed": config.agent.seed, **found}
@@ -146,7 +136,7 @@ def _agent(name: str, greedy: bool) -> Target:
         greedy,
         (protocol.question(config.domain, config.task),),
         lambda asked, first: actors.Network(agent.network, greedy, first),
-        how_trained,
+        describe,
     )
 
 
@@ -172,8 +162,13 @@ def _team(name: str, greedy: bool) -> Target:
         assert of_member is not None
         return of_member(asked, first)
 
-    by_name = {asked.name: agent for asked, agent in members.items()}
-    return Target(name, greedy, tuple(members), make, members=by_name)
+    def describe(tasks: Collection[str]) -> dict[str, Any]:
+        each = {asked.name: agent.describe(tasks) for asked, agent in members.items() if asked.name in tasks}
+        sums = {name: sum(one[name] for one in each.values()) for name in ("frames", "seconds")}
+        algorithms = dict.fromkeys(one["algorithm"] for one in each.values())
+        return {"algorithm": ", ".join(algorithms), **sums, "agents": each}
+
+    return Target(name, greedy, tuple(members), make, describe)
 
 
 def _is_team(name: str) -> bool:
