@@ -158,7 +158,7 @@ class Verify:
 
 @dataclasses.dataclass
 class Leaderboard:
-    """Write leaderboard.md and its figure from the stored scores, and its part of the README."""
+    """Write leaderboard.md and its figure from the stored scores."""
 
     results_dir: Path = option(Path("results"), "the folder of all results")
 
