@@ -57,14 +57,6 @@ _MODULE = textwrap.dedent(
             time.sleep(60)
 
 
-    def _fail():
-        raise KeyError("no such thing")
-
-
-    def raises(question):
-        return _after_two_episodes(_fail)
-
-
     def opens_what_is_not_there(question):
         return _after_two_episodes(lambda: Path("nowhere").read_text())
 
@@ -120,10 +112,6 @@ _MODULE = textwrap.dedent(
             time.sleep(0.01)
         ends = {"hang": _hang, "return": lambda: 8}
         return _after_two_episodes(ends[os.environ["END"]])
-
-
-    def makes_with_a_default(question, policy=halving.policy):
-        return policy
 
 
     def chooses_text(question):

@@ -2,11 +2,10 @@
 
 import json
 from pathlib import Path
-import shutil
-import signal
 import sys
 
 import commands
+import made_agents
 import minari
 import numpy as np
 from pyarrow import parquet
@@ -17,25 +16,6 @@ from physexp import suite
 from physexp.analysis.data import tables
 from physexp.analysis.score import exporting, log, player, playing, protocol, steps, targets
 
-HALVING = Path(__file__).parents[3] / "docs" / "examples" / "halving.py"
-HANGS = """
-from pathlib import Path
-import time
-
-import halving
-
-episodes = 0
-
-
-def policy(observation, state):
-    global episodes
-    episodes += state is None
-    if episodes == 3:
-        Path("hanging").touch()
-        while not Path("go").exists():
-            time.sleep(0.01)
-    return halving.policy(observation, state)
-"""
 THRESHOLD = protocol.named(["threshold/features"])
 BOTH = protocol.named(["threshold/features", "strings/features"])
 
@@ -43,8 +23,7 @@ BOTH = protocol.named(["threshold/features", "strings/features"])
 @pytest.fixture(autouse=True)
 def here(monkeypatch, tmp_path):
     """A folder with agents, which is the current one."""
-    shutil.copy(HALVING, tmp_path)
-    (tmp_path / "hanging_agent.py").write_text(HANGS)
+    made_agents.put_into(tmp_path)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -204,25 +183,25 @@ def test_without_an_ideal_the_table_has_no_beliefs(monkeypatch):
 
 def test_a_hanging_agent_loses_no_earlier_episode():
     with pytest.raises(player.PlayerError, match="did nothing within 2 s .*; the episodes before it are in exported"):
-        export("hanging_agent:policy", timeout=2.0)
+        export("made:hangs", timeout=2.0)
     facts = json.loads(Path("exported/export.json").read_text())
     assert not facts["complete"] and facts["tasks"]["threshold/features"]["episodes"] == 2
     assert len(list(log.split(columns_of(*THRESHOLD)))) == 2
 
 
 def test_an_interrupted_export_goes_on_to_the_same_files(here):
-    words = ["export", "hanging_agent:policy", "--tasks", "threshold/features", "--episodes", "5", "--minari"]
+    words = ["export", "made:waits", "--tasks", "threshold/features", "--episodes", "5", "--minari"]
     with commands.start(*words, cwd=here) as process:
-        waiting.wait_until((here / "hanging").exists, "the third episode", pid=process.pid)
-        process.send_signal(signal.SIGKILL)
-        process.communicate()
-    folder = "exports/hanging_agent_policy"
+        begun = here / "begun"
+        waiting.wait_until(lambda: begun.exists() and begun.stat().st_size == 3, "an episode", pid=process.pid)
+        process.kill()
+    folder = "exports/made_waits"
     assert len((here / folder / playing.FILE).read_bytes().splitlines()) == 1 + 2  # The facts, and two episodes.
     (here / "go").touch()
     commands.run(*words, cwd=here, check=True)
     export("halving:policy", count=5, folder="whole")
     assert table_of(*THRESHOLD, folder).equals(table_of(*THRESHOLD, "whole"))
-    data_set = minari.MinariDataset(here / folder / "minari/physexp/threshold-features/hanging_agent_policy-v0/data")
+    data_set = minari.MinariDataset(here / folder / "minari/physexp/threshold-features/made_waits-v0/data")
     assert len(data_set) == 5
 
 

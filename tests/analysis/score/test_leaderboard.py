@@ -140,9 +140,9 @@ def test_a_score_that_ended_early_is_no_row(results, tmp_path, monkeypatch):
     made_agents.put_into(tmp_path)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "scores").mkdir()
-    with pytest.raises(ValueError, match="made:raises failed"):
-        scoring.score(targets.find("made:raises"), BOTH[:1], EPISODES, tmp_path / "scores" / "raises")
-    with pytest.raises(ValueError, match="raises is no row: .*raises is not complete: made:raises failed"):
+    with pytest.raises(ValueError, match="made:dies ended"):
+        scoring.score(targets.find("made:dies"), BOTH[:1], EPISODES, tmp_path / "scores" / "dies")
+    with pytest.raises(ValueError, match="dies is no row: .*dies is not complete: made:dies ended"):
         leaderboard.write(tmp_path)
 
 

@@ -28,7 +28,7 @@ def test_an_agent_of_a_task_with_options_is_refused(untrained):
 
 
 def test_targets_play_the_tasks_that_they_can():
-    assert targets.find("random").questions is targets.find("made:raises").questions is None
+    assert targets.find("random").questions is targets.find("made:dies").questions is None
     path = str(pretrained.FOLDER / "threshold-features.safetensors")
     assert names("threshold/features") == names("threshold-features") == names(path) == ["threshold/features"]
     assert described(path) == described("threshold-features") == described("threshold/features")
