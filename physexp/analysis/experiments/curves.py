@@ -68,15 +68,7 @@ def better_half(frame, along: str = "frames") -> dict[str, tuple[np.ndarray, np.
 
 
 def draw_panel(axes, curves, labels: Mapping[str, str], chance: float, along: str = "frames") -> None:
-    """Draws the curves of some conditions: single agents light, their median dark.
-
-    Args:
-      axes: the panel.
-      curves: by condition, as `better_half` returns them.
-      labels: for the legend, by condition.
-      chance: the share of right answers of a random label.
-      along: the column of the curves.
-    """
+    """Draws the `better_half` of the labelled conditions: single agents light, their median dark."""
     for number, (name, label) in enumerate(labels.items()):
         if name not in curves:
             continue
@@ -89,14 +81,9 @@ def draw_panel(axes, curves, labels: Mapping[str, str], chance: float, along: st
 
 
 def draw_range(axes, runs: Sequence[Any], number: int, label: str, along: str = "frames") -> None:
-    """Draws the range of the scores of some runs light, and their median dark, up to the end of the shortest.
+    """Draws the range of the scores of some runs light, and their median dark, on a logarithmic axis.
 
-    Args:
-      axes: the panel, with a logarithmic axis.
-      runs: the rows of each run.
-      number: of its color and dashes.
-      label: for the legend.
-      along: a column.
+    The curves end where the shortest run ends; `number` is that of the color and dashes.
     """
     curves = [moving_mean(run, along, "score") for run in runs]
     first, last = max(places[0] for places, _ in curves), min(places[-1] for places, _ in curves)

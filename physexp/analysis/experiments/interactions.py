@@ -83,7 +83,7 @@ def _draw_bars(axes, names: Sequence[str], groups: Sequence[_Bars], ideals: Sequ
             axes.plot([place] * len(values), values, "o", color="black", markersize=1.6, alpha=0.6)
         for number, (place, level) in enumerate(zip(places + shift, best, strict=True)):
             label = "ideal" if group is groups[0] and not number else None
-            axes.plot([place - 0.2, place + 0.2], [level] * 2, "k", linestyle=plots.DASHES[2], label=label)
+            axes.plot([place - 0.18, place + 0.18], [level] * 2, "k", linestyle=plots.DASHES[2], label=label)
     axes.set_xticks(places, [conditions.tick(name).replace(", ", "\n") for name in names], fontsize=6.5)
 
 

@@ -51,16 +51,7 @@ def _experiment(
     statistics: dict[str, Callable[[Any], estimates.Estimate]],
     draw: Callable[[Any, Any], None],
 ) -> base.Experiment:
-    """Returns the experiment on the behaviour of agents of one condition.
-
-    Args:
-      name: of the experiment.
-      condition: the agents.
-      columns: of the episodes, needed for the behaviour.
-      behaviour: adds columns with the behaviour to the episodes.
-      statistics: from the episodes, by claim; the share of the ideal's return is added.
-      draw: draws the behaviour.
-    """
+    """Returns an experiment on one condition; `behaviour` adds columns to its episodes, for `statistics` and `draw`."""
 
     def load(results: base.Results) -> Played:
         episodes = results.episodes([base.EVALUATION], [condition], ["reward", "length", "interactions", *columns])
@@ -165,7 +156,7 @@ def _draw_clamps(axes, frame) -> None:
 
 def ideal_interactions() -> np.ndarray:
     """Returns the interactions of the ideal experimenter with each content, int64 [H]."""
-    return conditions.ideal(SHAKING).outcomes()[:, 0]
+    return conditions.ideal(SHAKING).outcomes()[0]
 
 
 def _with_ideal(frame):

@@ -141,15 +141,8 @@ def few_steps(
 ):  # fmt: skip
     """All learners in training and afterwards.
 
-    Args:
-      num_agents, generator: as everywhere.
-      belief, a3c: the environment steps of these learners, in shares of those that the belief learner may need.
-      papers: those of the paper's own learner, in multiples of A3C's.
-      fist, direct: those of the belief learner with an actuator, in multiples of its usual ones.
-      frame: seconds for an environment step.
-      learned: the share of the score that the belief learner reaches.
-      loss: of the ideal's return at the end, in shares of the loss that is allowed.
-      error: of calibration.
+    The environment steps of `belief` and `a3c` are in shares of those that the belief learner may need; `papers` are
+    multiples of A3C's, and `fist` and `direct` of the belief learner's. `loss` is in shares of the allowed loss.
     """
     table = {claim.id: claim for claim in claims.described("data_efficiency")["claims"]}
     most = {"belief": table["few_steps"].below, "belief_revealed": table["few_steps_revealed"].below}
@@ -203,14 +196,9 @@ def patience(num_agents, generator, patient=1.5):
 
 
 def slopes(num_agents, generator, slope=-4.0, odd_one=None, seen=0.8, lost=1 / _EPISODES):
-    """Interactions that depend on the mass gap, and timeouts that would hide it if they counted.
+    """Interactions with a slope on the mass gap, and timeouts that would hide it if they counted.
 
-    Args:
-      num_agents, generator: as everywhere.
-      slope: of interactions on the gap.
-      odd_one: another slope, of one agent only.
-      seen: share of the slope that is pokes of other blocks.
-      lost: share of timeouts.
+    `odd_one` is the slope of one agent, and `seen` is the share of the slope that is pokes of other blocks.
     """
 
     def rows(config, seed):
@@ -250,16 +238,7 @@ def second_pokes(num_agents, generator, noisy=0.6, exact=0.0, widest=0.3, slope=
 
 
 def randomized(configs, num_agents, generator, gain=0.15, ratio=1.0, lost=0.0, blocks=1.0):
-    """Agents with learned and with randomized interaction.
-
-    Args:
-      configs: the conditions.
-      num_agents, generator: as everywhere.
-      gain: in the share of right answers by learned interaction.
-      ratio: of the interactions, learned over randomized.
-      lost: share of timeouts with randomized interaction.
-      blocks: ratio of the blocks that were looked at, learned over randomized.
-    """
+    """Agents with learned and with randomized interaction: a gain, and the ratios of interactions and of blocks."""
 
     def rows(config, seed):
         accuracy, length = 0.7 + generator.normal(0, 0.03), 6 * np.exp(generator.normal(0, 0.02))
@@ -281,12 +260,8 @@ def randomized(configs, num_agents, generator, gain=0.15, ratio=1.0, lost=0.0, b
 def waiting_fists(num_agents, generator, slowdown=10.0, gain=0.07, loss=0.0, lost=0.0):
     """Fist agents in smaller and smaller control steps.
 
-    Args:
-      num_agents, generator: as everywhere.
-      slowdown: ratio of the interactions at the finest control step to those at that of training; 10 is equal time.
-      gain: in right answers if a control step ends at the median time to the answer in training.
-      loss: in right answers from the control step of training, with 0.98, to the finest.
-      lost: share of timeouts.
+    `slowdown` is the ratio of interactions at the finest to the usual step, 10 for equal time; `gain` is that in right
+    answers if a step ends at the median time to the answer in training; `loss` grows towards the finest step.
     """
     steps, count, num_lost = np.array(control_steps.TIMESTEPS), 101, round(lost * 101)
 
@@ -313,13 +288,8 @@ def waiting_fists(num_agents, generator, slowdown=10.0, gain=0.07, loss=0.0, los
 def timed_fists(num_agents, generator, fine=0.99, power=0.0, rule=0.6, too_many=(0.98, 0.02), slippery=(0.95, 0.8)):
     """Fists in control steps of other lengths.
 
-    Args:
-      num_agents, generator: as everywhere.
-      fine: the share of right answers, at the shortest control step, of agents trained with many.
-      power: of the control step, to which the time to the answer is proportional.
-      rule: the share of right answers of the rule that waits for a number of control steps, below 0.1 s.
-      too_many: the share of wrong answers that count too many, of agents trained with one, at the shortest and longest.
-      slippery: the shares of right answers at high friction, of agents trained with many and with one.
+    The time to the answer is proportional to a `power` of the step. The pairs are of the shortest and longest step, and
+    of agents trained with many lengths and with one.
     """
     shortest, *_, longest = control_steps.STEPS
     rows, friction = [], []
