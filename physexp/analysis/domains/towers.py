@@ -170,8 +170,10 @@ def _num_interactions(task: str) -> int:  # Cached, since loading a task takes l
 
 def _lookup(task: str) -> "core.Actor":
     """Returns an actor with a resolution of 1 mm, which takes each tower for the nearest of the 16 usual ones."""
-    return DOMAIN.ideal(task, {}, DOMAIN.discount, resolution=_COARSE).actor()
+    return _IDEAL(task, {}, DOMAIN.discount, resolution=_COARSE).actor()
 
+
+_IDEAL = base.Ideal(_NAME, _solve, IdealOptions)
 
 DOMAIN = base.Domain(
     name=_NAME,
@@ -184,7 +186,7 @@ DOMAIN = base.Domain(
         "towers-direct_pixels": ("mean_return", 0.97),
         "towers-fist_pixels": ("mean_return", 0.93),
     },
-    ideal=base.Ideal(_NAME, _solve, IdealOptions),
+    ideal=_IDEAL,
     baselines={
         task: {"rule": functools.partial(rule, task), "lookup": functools.partial(_lookup, task)} for task in _RULES
     },
