@@ -220,7 +220,8 @@ def completed(
             )
         drawn = domains.find(config.domain).hidden_columns(hidden)
         known |= {name: list(drawn[name]) for name in hidden_names}
-    stored = rows.select([name for name in columns if name not in known and name != "actions"]).to_pandas()
+    others = [name for name in dict.fromkeys(columns) if name not in known and name != "actions"]
+    stored = rows.select(others).to_pandas()
     if "actions" in columns:
         known["actions"] = actions.to_pandas()
     values = {name: known[name] if name in known else stored[name] for name in columns}
