@@ -69,10 +69,12 @@ def _around(value: float, error: float, distribution: Any) -> Estimate:
 
 def _mapped(estimate: Estimate, function: Callable[[float], float], inverse: Callable[[float], float]) -> Estimate:
     """Returns the estimate of an increasing function of the value."""
-    ends = (function(each) for each in (estimate.value, estimate.low, estimate.high))
-    if not estimate.can_be_tested:
-        return Estimate(*ends)
-    return Estimate(*ends, lambda bound, alternative: estimate.p_value(inverse(bound), alternative))
+
+    def p_value(bound: float, alternative: Alternative) -> float:
+        return estimate.p_value(inverse(bound), alternative)
+
+    value, low, high = (function(each) for each in (estimate.value, estimate.low, estimate.high))
+    return Estimate(value, low, high, p_value if estimate.can_be_tested else _unknown)
 
 
 def _exponential(estimate: Estimate) -> Estimate:
@@ -228,7 +230,8 @@ def bootstrap(values: Values, statistic: Callable[[np.ndarray], float], seed: in
         beyond = found <= bound if alternative == "greater" else found >= bound
         return float(1 + beyond.sum()) / (1 + len(found))
 
-    return Estimate(statistic(values), *map(float, drawn.confidence_interval), p_value)
+    interval = drawn.confidence_interval
+    return Estimate(statistic(values), float(interval.low), float(interval.high), p_value)
 
 
 def correlation(x: np.ndarray, y: np.ndarray) -> Estimate:

@@ -113,7 +113,7 @@ def named(condition: str) -> str:
     return condition.partition(",")[0]
 
 
-def of_rows(statistic: Callable[[Any], estimates.Estimate]) -> Statistic:
+def of_rows(statistic: Callable[[Any], estimates.Estimate | None]) -> Statistic:
     """Returns the statistic that has an estimate from the rows of a condition, in a DataFrame with that column."""
 
     def of_condition(frame: Any, condition: str) -> estimates.Estimate | None:
