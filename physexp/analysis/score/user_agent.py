@@ -27,7 +27,7 @@ from physexp.analysis.score import actors, protocol
 _LONGEST = 200  # Characters of a text in an answer.
 _METHODS = ("select_action", "observe_first", "observe", "update")
 
-_is_here = False  # Whether this is such a process.
+_is_here = False  # Whether this process is the one of a user's function.
 
 
 class TargetError(ValueError):
@@ -35,7 +35,7 @@ class TargetError(ValueError):
 
 
 def refuse_here() -> None:
-    """Raises TargetError in such a process: the function's module plays episodes when it is imported."""
+    """Raises TargetError in the process of a user's function, where an import would play episodes again."""
     if _is_here:
         raise TargetError(
             'the module plays episodes when it is imported; put its own calls below `if __name__ == "__main__":`'
