@@ -65,6 +65,13 @@ class Options:
     )
     visualize_reward: bool = checked(False, checks.flag, help="colour the floor by the outcome of an episode")
 
+    def __init_subclass__(cls) -> None:
+        """Lists the options in the docstring of a domain's class, for `help`."""
+        declared = {name: value for name, value in vars(cls).items() if isinstance(value, dataclasses.Field)}
+        own = {name: field.metadata.get("help", "") for name, field in declared.items()}
+        lines = [f"  {name}: {text}" for name, text in {**checks.help_of(cls), **own}.items()]
+        cls.__doc__ = "\n".join([cls.__doc__ or "The options.", "", "Attributes:", *lines])
+
     def __post_init__(self) -> None:
         checks.check_fields(self)
         exact = self.substeps * self.physics_timestep
