@@ -56,23 +56,6 @@ def test_features_need_no_gl_at_all():
     assert "OpenGL" not in found["loaded"]
 
 
-def test_the_backend_is_settled_before_dm_control_is_imported():
-    code = """
-import os, sys
-settled = []
-class Spy:
-    def find_spec(self, name, path=None, target=None):
-        if name == "dm_control" and not settled:
-            settled.append(os.environ.get("MUJOCO_GL"))
-sys.meta_path.insert(0, Spy())
-import physexp.suite
-found["settled"] = settled
-found["backend"] = os.environ["MUJOCO_GL"]
-"""
-    found, _ = interpreters.run(code, MUJOCO_GL=None)
-    assert found["settled"] == [found["backend"]]
-
-
 def test_triton_is_loaded_before_gl_since_after_mesa_it_ends_the_process(tmp_path):
     """Torch's CUDA builds bring it, and its LLVM and Mesa's bear each other in this order only."""
     (tmp_path / "triton" / "_C").mkdir(parents=True)

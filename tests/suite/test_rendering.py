@@ -242,27 +242,6 @@ single.close(), batch.close()
     assert found["counts"] == [0, 0, 0, 1, 2]
 
 
-FORGETFUL = {
-    "kept": "from physexp.suite.engine import gl\ngl.renderer_name()",
-    "closed in part, and dropped": "env.close()\nbatch.itself = batch\ndel env, batch",
-    "exits": "import sys\nsys.exit(0)",
-}
-
-
-@needs_gl
-@pytest.mark.parametrize("end", FORGETFUL.values(), ids=FORGETFUL)
-def test_a_process_that_forgets_to_close_its_renderers_ends_in_silence(end):
-    code = f"""
-from physexp import suite
-env = suite.load("which_is_heavier", "pixels", {{"random": 0}})
-batch = suite.load_batch("which_is_heavier", "pixels", 2, {{"random": 0}})
-env.reset(), env.step(0), batch.reset(), batch.step([0, 1])
-print({{}}, flush=True)
-{end}
-"""
-    assert interpreters.run(code) == ({}, "")
-
-
 @needs_gl
 @pytest.mark.filterwarnings("error:The given NumPy array")
 def test_torch_takes_every_image_as_it_is():

@@ -95,16 +95,6 @@ def test_the_masses_act_as_if_they_were_compiled_into_the_model(seed, pokes_firs
         assert not pokes_first or highest > CEILING, "the ceiling was not reached"
 
 
-def test_heavy_and_light_masses_follow_their_own_distributions(seed):
-    # At difficulty 100 a mass above 0.5 is the heavy one but for a probability of 0.5 ** 100.
-    masses = _draw(seed, 100, 5000)
-    is_heavy = masses > 0.5
-    assert (is_heavy.sum(axis=1) == 1).all()
-    assert stats.kstest(masses[is_heavy], stats.beta(100, 1).cdf).pvalue > P_VALUE
-    assert stats.kstest(masses[~is_heavy], stats.beta(1, 100).cdf).pvalue > P_VALUE
-    assert stats.chisquare(is_heavy.sum(axis=0)).pvalue > P_VALUE, "a block is heavy more often than others"
-
-
 @pytest.mark.parametrize("difficulty", [1, 5])
 def test_the_masses_of_an_episode_are_independent(seed, difficulty):
     # The largest of four independent masses has the product of their distribution functions, F and G three times.
