@@ -57,8 +57,8 @@ class Frame:
 def recorded(name: str) -> recording.Episode:
     """Returns the episode that a picture shows."""
     target, seed, index = EPISODES[name]
-    network, config = finding.find_agent(target)
-    return recording.reenact(network, config, seed, index, None)
+    agent = finding.find_agent(target)
+    return recording.reenact(agent.network, agent.config, seed, index, None)
 
 
 def frames(episode: recording.Episode) -> list[Frame]:

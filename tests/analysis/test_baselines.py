@@ -1,4 +1,4 @@
-"""Experimenters that nobody trained: what they know they see, and they say no more."""
+"""Baselines of Towers, which are rules rather than trained agents."""
 
 import numpy as np
 import pytest
@@ -38,7 +38,7 @@ def test_the_rule_is_right_whatever_varies(seed, task, task_kwargs):
 
 
 @pytest.mark.parametrize("task", TASKS)
-def test_the_lookup_is_right_where_it_has_seen_all_and_often_wrong_where_towers_vary(seed, task):
+def test_the_lookup_is_right_but_for_towers_that_vary(seed, task):
     right, length = _right(task, "lookup", seed)
     ideal = domains.find("towers").ideal(task, {}, 0.98, resolution=0.001)
     interactions, _, _ = ideal.outcomes()

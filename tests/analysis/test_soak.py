@@ -22,16 +22,16 @@ FULL = "PHYSEXP_SOAK" in os.environ
 FULL_STEPS = {"features": 5_000_000, "pixels": 300_000}
 SHORT_STEPS = {"features": 1_600, "pixels": 400}
 SIZES = {"features": 128 if FULL else 32, "pixels": 32 if FULL else 16}
-LABELS = 0.02  # How often random play gives an answer: episodes of all lengths are played.
-WARM_UP = 60  # Batched steps: all sixteen towers are compiled, every buffer is there.
-SLOWER = 1.05 if FULL else 2.0  # So short a part measures seconds, in which much else may happen.
-GROWTH = 16e6  # Bytes; that is three for each step of the full length, and the allocator's own noise.
+LABELS = 0.02  # Probability of an answer in random play, so that episodes have all lengths.
+WARM_UP = 60  # Batched steps, which compile all sixteen towers and fill every buffer.
+SLOWER = 1.05 if FULL else 2.0  # A short run measures seconds, which other processes disturb.
+GROWTH = 16e6  # Bytes: three for each step of the full length, within the allocator's noise.
 
 
 class Players:
     """Plays a batch: every other environment with the trained agent of the task, the rest at random.
 
-    Where there is no agent that can be stepped here, all are played at random.
+    All environments of a task without such an agent are played at random.
     """
 
     def __init__(self, domain, task, size, seed):
@@ -46,7 +46,7 @@ class Players:
         self.started, self.ended, self.rewards = size, 0, set()
 
     def _learned(self, timestep):
-        """What the agent does, [B]."""
+        """The agent's actions, [B]."""
         fresh = torch.from_numpy(timestep.step_type == dm_env.StepType.FIRST)
         for part in self._state:
             part[:, fresh] = 0  # An episode starts: so does the memory.

@@ -43,12 +43,12 @@ def replay(
       ValueError: if a target is no agent, agents play different tasks, or `output` is no path for a replay.
     """
     writing.check_output(output)
-    agents = [finding.find_agent(target, task_kwargs)[:2] for target in targets]
-    network, config = agents[0]
-    for target, (_, other) in zip(targets[1:], agents[1:], strict=True):
-        if _played(other) != _played(config):
+    agents = [finding.find_agent(target, task_kwargs) for target in targets]
+    network, config, _ = agents[0]
+    for target, other in zip(targets[1:], agents[1:], strict=True):
+        if _played(other.config) != _played(config):
             raise ValueError(
-                f"{targets[0]} plays {words.task_name(config)}, and {target} plays {words.task_name(other)}; "
+                f"{targets[0]} plays {words.task_name(config)}, and {target} plays {words.task_name(other.config)}; "
                 "compare agents that play the same"
             )
     chosen = list(selection.select(network, config, count, select, interaction, seed, tell))
@@ -63,14 +63,13 @@ def _played(config: config_lib.TrainConfig) -> tuple[str, str, suite.Options]:
     return config.domain, config.task, suite.options(config.domain)(**{**config.task_kwargs, "random": 0})
 
 
-def _episodes(targets, agents, instance, interaction: str) -> list[Episode]:
-    """Returns the episodes of all agents on one instance."""
+def _episodes(
+    targets: Sequence[str], agents: Sequence[finding.Agent], instance: selection.Instance, interaction: str
+) -> list[Episode]:
+    """Returns the episodes of all agents on one instance; the first agent's is repeated, the others play it."""
     seed, episode, actions = instance
-    (network, config), *others = agents
-    title = targets[0] if interaction == "learned" else f"{targets[0]}, {interaction} interaction"
-    first = recording.reenact(network, config, seed, episode, actions, title)
-    rest = [
-        recording.reenact(other, other_config, seed, episode, None, target)
-        for target, (other, other_config) in zip(targets[1:], others, strict=True)
+    titles = [targets[0] if interaction == "learned" else f"{targets[0]}, {interaction} interaction", *targets[1:]]
+    return [
+        recording.reenact(agent.network, agent.config, seed, episode, None if number else actions, title)
+        for number, (agent, title) in enumerate(zip(agents, titles, strict=True))
     ]
-    return [first, *rest]

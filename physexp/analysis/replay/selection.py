@@ -1,6 +1,6 @@
 """The selection of episodes for a replay."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Literal
 
 import numpy as np
@@ -12,6 +12,9 @@ from physexp.analysis.training import callbacks, playing
 from physexp.analysis.training import config as config_lib
 
 Selection = Literal["any", "wrong", "right", "longest", "hardest"]
+Instance = tuple[int, int, Sequence[int]]
+"""Seed, index and actions of an episode."""
+
 _MAX_EPISODES = 10_000  # Played in search of enough.
 
 
@@ -23,7 +26,7 @@ def select(
     interaction: str = "learned",
     seed: int = playing.SEED,
     tell: callbacks.Tell = callbacks.ignore,
-) -> Iterator[tuple[int, int, np.ndarray]]:
+) -> Iterator[Instance]:
     """Plays episodes and chooses some.
 
     Args:
@@ -54,7 +57,7 @@ def select(
     if not len(order):
         raise ValueError(f"none of {size} episodes is {selection}; choose another selection")
     for index in order[:count]:
-        yield int(played.seed[index]), int(played.episode[index]), played.actions_of(index)
+        yield int(played.seed[index]), int(played.episode[index]), played.actions_of(index).tolist()
 
 
 def _order(played: episodes.Episodes, selection: Selection, hardness: np.ndarray | None) -> np.ndarray:
