@@ -167,7 +167,7 @@ def _bare_network_rate(task: measuring.Task) -> float:
                 _, state = network.step(network.encode({"pixels": seen}), state)
         network.zero_grad()
         logits, values = network.unroll(network.encode({"pixels": images.flatten(0, 1)}), batch_sizes)
-        sum(losses.actor_critic_losses(logits, values, actions, returns, returns)).backward()
+        torch.stack(losses.actor_critic_losses(logits, values, actions, returns, returns)).sum().backward()
         if repetition == 0:  # The first one warms up.
             start = time.perf_counter()
             continue
