@@ -1,4 +1,4 @@
-"""Names of the figures of an evaluation, in their order."""
+"""Names of the statistics of an evaluation, in their order."""
 
 NAMES = [
     "episodes",
@@ -11,4 +11,4 @@ NAMES = [
 ]
 
 IDEAL = ["ideal_return", "share_of_ideal"]
-"""Those of `physexp evaluate` where an ideal experimenter is known."""
+"""Further ones of `physexp evaluate` in tasks with a known ideal experimenter."""

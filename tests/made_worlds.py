@@ -1,4 +1,4 @@
-"""Made-up worlds in the place of simulations: what an action tells is given."""
+"""Made-up worlds in place of simulations: the reading of each action is given."""
 
 import types
 
@@ -12,10 +12,7 @@ COUNTS = [tower.num_bodies(pattern) for pattern in tower.PATTERNS]
 
 
 class MadeWorld:
-    """Hypotheses whose moments are the sequences of actions until then.
-
-    `tells` maps a sequence of actions to what it makes visible: a number for each pattern.
-    """
+    """Hypotheses with sequences of actions as states; `tells` maps a sequence to a reading for each pattern."""
 
     start = ()
 

@@ -29,18 +29,10 @@ _FIST = conditions.with_variation(conditions.with_belief(conditions.BY_LABEL["F-
 PLAYERS = {ONE: _FIST, MANY: conditions.with_step_variation(_FIST)}
 """The agents of `timing`, by the control steps in training; both with variation."""
 
-
-def _trial(timestep: float) -> base.Trial:
-    return generalization.make_trial(f"steps{timestep:g}", variation=1.0, control_timestep=timestep)
-
-
 STEPS = {
-    0.05: generalization.TRIALS["steps of 0.05 s"],
-    0.075: _trial(0.075),
-    0.1: generalization.TRIALS["varied"],
-    0.125: _trial(0.125),
-    0.15: generalization.TRIALS["steps of 0.15 s"],
-}
+    timestep: generalization.make_trial(f"steps{timestep:g}", variation=1.0, control_timestep=timestep)
+    for timestep in (0.05, 0.075, 0.1, 0.125, 0.15)
+} | {0.1: generalization.TRIALS["varied"]}  # 0.1 s is the default.
 """The trials of `timing`, by the length of the control step, s."""
 FRICTION = generalization.TRIALS["friction 0.48"]
 """A trial unlike the training of either."""
@@ -225,14 +217,6 @@ def _shortest_over_usual(player: str, column: str) -> claims.Statistic:
     return claims.of_all(ratio)
 
 
-def _right_at_worst(timed: Timed) -> estimates.Estimate:
-    return estimates.median(_by_step(timed.agents, MANY).right.min(axis=1))
-
-
-def _better_than_rule(timed: Timed) -> estimates.Estimate:
-    return estimates.mean(_by_step(timed.agents, MANY).right[_SHORTEST] - timed.rule.right[_SHORTEST])
-
-
 def _better_than_one(timed: Timed) -> estimates.Estimate | None:
     many, one = (_by_step(timed.agents, player).right[_SHORTEST] for player in (MANY, ONE))
     return estimates.difference_of_pairs(many, one) if len(one) else None
@@ -288,10 +272,14 @@ EXPERIMENTS = {
         prepare=prepare_timing,
         load=load_timing,
         statistics={
-            "right": claims.of_all(_right_at_worst),
+            "right": claims.of_all(lambda timed: estimates.median(_by_step(timed.agents, MANY).right.min(axis=1))),
             "same_time": _shortest_over_usual(MANY, "time"),
             "not_same_steps": _shortest_over_usual(MANY, "interactions"),
-            "better_than_rule": claims.of_all(_better_than_rule),
+            "better_than_rule": claims.of_all(
+                lambda timed: estimates.mean(
+                    _by_step(timed.agents, MANY).right[_SHORTEST] - timed.rule.right[_SHORTEST]
+                )
+            ),
             "better_than_one": claims.of_all(_better_than_one),
             "one_same_time": _shortest_over_usual(ONE, "time"),
             "one_counts": claims.of_all(_too_many_if_short),
