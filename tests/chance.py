@@ -1,12 +1,12 @@
-"""How rarely a test of what is drawn at random may fail although all is right."""
+"""A test of random draws that fails by chance once in 100 million comparisons."""
 
 from scipy import stats
 
-P_VALUE = 1e-8  # Of a single comparison; a run of all tests makes some hundreds of them.
+P_VALUE = 1e-8  # For one comparison; a run of all tests makes some hundreds.
 
 
 def assert_drawn(counts, probabilities):
-    """Asserts that none of some counts is one that its probability makes that rare."""
+    """Asserts that no count is too rare for its probability."""
     total = int(sum(counts))
     for place, (count, probability) in enumerate(zip(counts, probabilities, strict=True)):
         found = stats.binomtest(int(count), total, float(probability))

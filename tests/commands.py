@@ -1,9 +1,8 @@
-"""Real processes in hundredths of a second: forked from a server that has made the imports of `physexp`.
+"""Commands in processes of their own, in hundredths of a second: forked from a server that has imported `physexp`.
 
-The server (`multiprocessing`'s forkserver) is started by the first test that needs it. What it forks has a process id,
-a group, a working directory, an environment and streams of its own, and is signalled and killed as any other; so has
-what it spawns. Tests of what a start itself imports, or of an environment variable that an import looks at, start
-Python instead.
+The first test that needs the server (`multiprocessing`'s forkserver) starts it. A forked process has its own id, group,
+working directory, environment and streams, and is signalled and killed as any other; so is its offspring. Tests of a
+start's own imports, or of an environment variable that an import reads, start Python instead.
 """
 
 import contextlib
@@ -33,7 +32,7 @@ context.set_forkserver_preload(
         "physexp.analysis.training.publishing",
         "physexp.analysis.replay",
         "physexp.analysis.experiments.reproduce",
-        "physexp.suite.engine.rendering",  # Which opens no context before it draws: one could not be forked.
+        "physexp.suite.engine.rendering",  # It opens no context before it draws: one could not be forked.
     ]
 )
 
@@ -59,18 +58,18 @@ class _Spawned(multiprocessing.context.ForkServerProcess):
 
 
 class _Spawning(type(context)):
-    """What code under test gets for `multiprocessing.get_context("spawn")`."""
+    """The context that code under test gets for `multiprocessing.get_context("spawn")`."""
 
     Process = _Spawned
 
 
 def spawn_quickly() -> None:
-    """Has this process fork from the server what it would otherwise spawn, and that do the same."""
+    """Makes this process and its descendants fork from the server in place of spawning."""
     multiprocessing.context._concrete_contexts["spawn"] = _Spawning()
 
 
 def _surround(group, cwd, variables, streams, mask, server) -> None:
-    """Gives a process that the server has forked what it would have from its parent if that had spawned it."""
+    """Gives a forked process everything that it would inherit from its parent if that had spawned it."""
     signal.pthread_sigmask(signal.SIG_SETMASK, mask)
     os.setpgid(0, group)
     os.environ.clear()
@@ -78,7 +77,7 @@ def _surround(group, cwd, variables, streams, mask, server) -> None:
     os.chdir(cwd)
     for number, stream in zip((1, 2), streams, strict=True):
         os.dup2(stream.detach(), number)
-    # As they are when Python starts: what goes to a pipe is written in blocks, errors in lines.
+    # As when Python starts: output to a pipe is written in blocks, errors in lines.
     sys.stdout = os.fdopen(1, "w", closefd=False)
     sys.stderr = os.fdopen(2, "w", buffering=1, errors="backslashreplace", closefd=False)
     forkserver._forkserver._forkserver_address = server
@@ -87,7 +86,7 @@ def _surround(group, cwd, variables, streams, mask, server) -> None:
 
 
 class Process:
-    """A function that runs in a process forked from the server; it is used like `subprocess.Popen`.
+    """A function that runs in a process forked from the server, used like `subprocess.Popen`.
 
     Attributes:
       pid: of the process, and of the group that it leads.
@@ -99,7 +98,7 @@ class Process:
         """Starts `function(*args)`, after `first()`.
 
         Args:
-          function, args, first: what a pickle can hold: functions at the top level of a module.
+          function, args, first: values that can be pickled; functions at the top level of a module.
           cwd: its working directory; this process's by default.
           env: all of its environment variables; this process's by default.
           stderr: `subprocess.STDOUT` sends errors where the output goes.
@@ -131,7 +130,7 @@ class Process:
         return self.returncode
 
     def wait(self) -> int:
-        """Waits for the end, for as long as the process gets on; one that hangs is killed, and an error."""
+        """Waits for the end as long as the process makes progress; kills a process that hangs and raises an error."""
         patience = Patience(self.pid)
         while self.poll() is None:
             self._process.join(1.0)
@@ -141,7 +140,7 @@ class Process:
         return self.returncode
 
     def communicate(self) -> tuple[str, str]:
-        """Waits for the end; returns what was written to stdout and to stderr."""
+        """Waits for the end; returns the texts of stdout and stderr."""
         self.wait()
         return self.stdout.read(), "" if self.stderr is None else self.stderr.read()
 
@@ -153,7 +152,7 @@ class Process:
         self.send_signal(signal.SIGKILL)
 
     def kill_all(self) -> None:
-        """Ends the process and what it has started, other than groups of their own."""
+        """Ends the process and its descendants, apart from groups of their own."""
         self.kill()  # It has no group before it has begun.
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(self.pid, signal.SIGKILL)
@@ -168,7 +167,7 @@ class Process:
 
 
 class _Stream:
-    """What a process writes, read by a thread so that no pipe is ever full."""
+    """The output of a process, read by a thread so that no pipe is ever full."""
 
     def __init__(self, reader):
         self._written: list[bytes] = []
@@ -180,17 +179,17 @@ class _Stream:
             self._written.extend(file)
 
     def so_far(self) -> str:
-        """Returns the lines that were written until now."""
+        """Returns the text so far."""
         return b"".join(self._written).decode(errors="replace")
 
     def read(self) -> str:
-        """Returns all that is written, when everybody who might write is gone."""
-        wait_until(lambda: not self._thread.is_alive(), "the end of what a process and its descendants write")
+        """Returns the whole text, after all processes that could write have ended."""
+        wait_until(lambda: not self._thread.is_alive(), "the end of the output of a process and its descendants")
         return self.so_far()
 
 
 class _Started(multiprocessing.context.ForkServerProcess):
-    """What `Process` starts; `writers` are its stdout and stderr."""
+    """The process behind a `Process`; `writers` are its stdout and stderr."""
 
     def __getstate__(self):
         streams = [reduction.DupFd(number) for number in self.writers]
@@ -205,7 +204,7 @@ def _child(streams, surroundings, first, function, args):
     os.setpgid(0, 0)
     _surround(group=os.getpid(), streams=streams, **surroundings)
     faulthandler.enable()
-    # What it spawns would import that as the program.
+    # Its spawned processes would import that as the program.
     sys.modules["__main__"] = types.ModuleType("__main__")
     import torch
 
@@ -247,7 +246,7 @@ def run(*words, check: bool = False, **kwargs) -> subprocess.CompletedProcess:
 
 
 def bound() -> None:
-    """Has permissions bind root as they bind others: to be called in a process, before the function."""
+    """Makes permissions bind root as they bind others; for `first` of a `Process`."""
     header = struct.pack("Ii", 0x20080522, 0)  # The version of the structure; this process.
     data = ctypes.create_string_buffer(24)
     libc = ctypes.CDLL(None, use_errno=True)

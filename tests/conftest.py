@@ -24,7 +24,7 @@ commands.spawn_quickly()
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
-    """Where PHYSEXP_PACKAGES_ARE_HERE is set, a test that misses a package fails instead of being skipped."""
+    """Fails a test that misses a Debian package if PHYSEXP_PACKAGES_ARE_HERE is set; otherwise it is skipped."""
     report = yield
     if report.skipped and "apt-get install" in str(report.longrepr) and os.environ.get("PHYSEXP_PACKAGES_ARE_HERE"):
         report.outcome, report.longrepr = "failed", str(report.longrepr)
@@ -38,7 +38,7 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture
 def untrained(tmp_path):
-    """A run whose checkpoint holds a network as it is before training."""
+    """A run whose checkpoint holds an untrained network."""
     config = config_lib.TrainConfig(
         domain="which_is_heavier", task="features", task_kwargs={"difficulty": 10.0}, agent=a3c.A3CConfig(num_workers=1)
     )

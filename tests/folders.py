@@ -1,4 +1,4 @@
-"""What is in a folder."""
+"""The contents of a folder."""
 
 import os
 from pathlib import Path
@@ -6,7 +6,7 @@ import stat
 
 
 def contents(folder: Path) -> dict[str, bytes | str | int]:
-    """Returns by name the content of every file, the target of every link, and the mode of whatever else there is."""
+    """Returns by name the content of every file, the target of every link, and the mode of everything else."""
     found: dict[str, bytes | str | int] = {}
     for path in sorted(folder.rglob("*")):
         mode = path.lstat().st_mode

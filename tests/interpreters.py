@@ -1,4 +1,4 @@
-"""Python in a process of its own, which has imported nothing: for tests of what an import or a start does."""
+"""Python in a fresh process, for tests of the effects of an import or a start."""
 
 import json
 import os
@@ -7,7 +7,7 @@ import sys
 
 
 def run(code: str, **environment: str | None) -> tuple[dict, str]:
-    """Returns what `code` leaves in its dictionary `found`, and what it says on stderr; None unsets a variable."""
+    """Returns the dictionary `found` that `code` has filled, and its standard error; None unsets a variable."""
     # PyOpenGL's platform follows from the backend, which this process may have chosen otherwise.
     variables = {**os.environ, "PYOPENGL_PLATFORM": None, **environment}
     variables = {name: value for name, value in variables.items() if value is not None}

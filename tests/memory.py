@@ -6,7 +6,7 @@ import gc
 import os
 import sys
 
-_LARGEST_BLOCK = 512  # Bytes: what is larger, Python takes from the C library too.
+_LARGEST_BLOCK = 512  # Bytes: Python takes larger blocks from the C library too.
 _libc = ctypes.CDLL(None)
 
 
@@ -34,7 +34,7 @@ _libc.mallinfo2.restype = _AllocatorFigures
 
 
 def resident_bytes() -> int:
-    """What this process holds; what has been freed goes back to the system first, and does not count."""
+    """Returns the resident memory of this process after freed memory has gone back to the system."""
     gc.collect()
     _libc.malloc_trim(0)
     with open("/proc/self/statm") as statm:
@@ -42,7 +42,7 @@ def resident_bytes() -> int:
 
 
 def allocated_bytes() -> int:
-    """What has been asked for and not given back, whatever pages it lies in; small objects count as the largest."""
+    """Returns the allocated memory of this process; every small object counts as the largest one."""
     sys._clear_type_cache()  # It keeps up to 4096 names, and dm_control makes new ones at each reset.
     gc.collect()
     figures = _libc.mallinfo2()
@@ -50,13 +50,13 @@ def allocated_bytes() -> int:
 
 
 def open_files() -> int:
-    """How many files this process has open; what nobody holds any more is closed first, and does not count."""
+    """Returns the number of open files of this process after a garbage collection."""
     gc.collect()
     return len(os.listdir("/proc/self/fd"))
 
 
 def growth(action: Callable[[], object], count: int, num_warm_up: int) -> int:
-    """By how many bytes doing something so often makes what this process uses grow, once it is warm."""
+    """Returns the growth of allocated memory over `count` calls of an action, after a warm-up."""
     for _ in range(num_warm_up):
         action()
     before = allocated_bytes()

@@ -1,4 +1,4 @@
-"""Screens on which nobody looks: for programs that open windows, and for pages in a browser."""
+"""Virtual screens for programs that open windows, and photographs of pages in a browser."""
 
 from collections.abc import Iterator
 import contextlib
@@ -20,7 +20,7 @@ needs_browser = pytest.mark.skipif(shutil.which("chromium") is None, reason="nee
 
 @contextlib.contextmanager
 def screen(size: str = "1280x1024x24") -> Iterator[str]:
-    """Starts an X server, which takes a number that no other has; yields its DISPLAY."""
+    """Starts an X server with a free number; yields its DISPLAY."""
     reader, writer = os.pipe()
     command = ["Xvfb", "-displayfd", str(writer), "-screen", "0", size, "-nolisten", "tcp"]
     with (
@@ -37,7 +37,7 @@ def screen(size: str = "1280x1024x24") -> Iterator[str]:
 
 
 def photographed(page: Path, scratch: Path, width: int = 1200, height: int = 2400) -> np.ndarray:
-    """Returns what a browser shows of a page that is a file, uint8 [height, width, 3]."""
+    """Returns a photograph of a page in a browser, uint8 [height, width, 3]."""
     photograph = scratch / "photograph.png"
     confined = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run"]
     files = [f"--user-data-dir={scratch / 'profile'}", f"--screenshot={photograph}"]

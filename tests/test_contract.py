@@ -1,6 +1,6 @@
 """The numbers of the paper's tasks, which users' code is written against, through the public interface alone.
 
-Batches, seeds, refused input and the leaks of what is untouched are tested for every task in `tests/suite`.
+Batches, seeds, refused input and leaks are tested for every task in `tests/suite`.
 """
 
 import chance

@@ -1,4 +1,4 @@
-"""What a user gets who installs a wheel, or from a repository's address, instead of a checkout."""
+"""Installations from a wheel and from a repository's address work like a checkout."""
 
 import ast
 import importlib.metadata

@@ -135,7 +135,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def _of_value(kind: Any) -> dict[str, Any]:
-    """Returns what argparse needs to know of the values of a type."""
+    """Returns the settings of argparse for values of a type."""
     if get_origin(kind) is tuple:
         return _of_value(get_args(kind)[0]) | {"nargs": "*"}
     if get_origin(kind) is Literal:

@@ -1,4 +1,4 @@
-"""The demonstration: from nothing to an agent that experiments, in a minute or two."""
+"""The demonstration: trains an agent that experiments in a minute or two."""
 
 from pathlib import Path
 import sys
@@ -12,7 +12,7 @@ EPISODES = 2000
 
 
 def config() -> config_lib.TrainConfig:
-    """Returns what a demo trains."""
+    """Returns the configuration of the demonstration."""
     agent = config_lib.preset("which_is_heavier", "features").replace(frames=FRAMES)
     return config_lib.TrainConfig(domain="which_is_heavier", task="features", agent=agent)
 
@@ -21,7 +21,7 @@ def run(folder: Path) -> None:
     """Trains Which is Heavier into a folder, prints how the agent does, and draws its learning curve.
 
     Raises:
-      ValueError: if the folder holds another run than one of a demo. That of a demo is moved aside within it.
+      ValueError: if the folder holds a run of another configuration. An earlier demonstration is moved aside.
     """
     demo, wanted = run_lib.Run(folder), config()
     if (folder / "config.json").exists():

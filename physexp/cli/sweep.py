@@ -60,7 +60,15 @@ class Sweep:
 
     def _command(self, config: config_lib.TrainConfig) -> str:
         """Returns the shell command of one run."""
-        words = ["physexp", "sweep", config.task_name, "--learners", config.agent.algorithm, "--seeds", "1"]
+        words: list[object] = [
+            "physexp",
+            "sweep",
+            config.task_name,
+            "--learners",
+            config.agent.algorithm,
+            "--seeds",
+            "1",
+        ]
         words += ["--first-seed", config.agent.seed, "--episodes", self.episodes, "--jobs", "1"]
         words += ["--results-dir", self.results_dir, *(["--frames", self.frames] if self.frames else [])]
         return shlex.join(map(str, words))
