@@ -1,6 +1,6 @@
-"""Tools of the attacks: children that are killed at a chosen call, byte or moment, or confined, and what came of them.
+"""Tools of the attacks: children that are killed at a chosen call, byte or moment, or confined.
 
-To add an attack: write a function at the top level of a module, hand it to `run` with a way to die or a confinement,
+To add an attack: write a function at the top level of a module, pass it to `run` with a way to die or a confinement,
 and look at the folder that it leaves.
 """
 
@@ -24,40 +24,27 @@ import commands
 import numpy as np
 
 _FILE_CALLS = {
-    "open",
-    "write",
-    "flush",
-    "fsync",
-    "replace",
-    "rename",
-    "link",
-    "unlink",
-    "remove",
-    "mkdir",
-    "rmdir",
-    "close",
-    "truncate",
-    "flock",
-    "scandir",
+    *("open", "write", "flush", "fsync", "close", "truncate", "flock", "scandir"),
+    *("replace", "rename", "link", "unlink", "remove", "mkdir", "rmdir"),
 }
 """Names of C functions that touch files, before and after each of which a child may die."""
 
 
 def repetitions(default: int, share: float = 1.0) -> int:
-    """How often to attack: `default`, or the share of PHYSEXP_ATTACKS where that is set."""
+    """Returns the number of attacks: `default`, or a share of PHYSEXP_ATTACKS if that is set."""
     asked = os.environ.get("PHYSEXP_ATTACKS")
     return default if asked is None else max(1, round(share * int(asked)))
 
 
 def generator() -> random.Random:
-    """Random numbers; PHYSEXP_ATTACKS_SEED has those of an earlier attack again."""
+    """Returns random numbers; PHYSEXP_ATTACKS_SEED repeats those of an earlier attack."""
     seed = int(os.environ.get("PHYSEXP_ATTACKS_SEED") or np.random.SeedSequence().entropy % 2**32)
     print("\nPHYSEXP_ATTACKS_SEED", seed)
     return random.Random(seed)
 
 
 class Tally(collections.Counter):
-    """Counts what came of attacks, and prints it at the end."""
+    """Counts the outcomes of attacks, and prints them at the end."""
 
     def __init__(self, what: str):
         super().__init__()
@@ -76,7 +63,7 @@ class Tally(collections.Counter):
 
 @dataclasses.dataclass(frozen=True)
 class AtCall:
-    """Dies by SIGKILL at the n-th time that a function which touches files is entered or left."""
+    """Dies by SIGKILL at the n-th entry into, or exit from, a function that touches files."""
 
     number: int
 
@@ -93,7 +80,7 @@ class AtCall:
 
 @dataclasses.dataclass(frozen=True)
 class AtByte:
-    """The kernel kills the process when a file would grow beyond so many bytes: those before are written."""
+    """Has the kernel kill the process when a file would grow beyond a number of bytes."""
 
     number: int
 
@@ -105,7 +92,7 @@ class AtByte:
 
 @dataclasses.dataclass(frozen=True)
 class AtMoment:
-    """The kernel kills the process after so many seconds."""
+    """Has the kernel kill the process after a time."""
 
     seconds: float
 
@@ -116,14 +103,14 @@ class AtMoment:
 
 @dataclasses.dataclass(frozen=True)
 class Extent:
-    """How much of each there is in an undisturbed run of a function: the range that deaths are drawn from."""
+    """The number of calls, bytes and seconds of an undisturbed run, from which deaths are drawn."""
 
     calls: int
     bytes: int
     seconds: float
 
     def draw(self, generator: random.Random):
-        """Any of the ways to die, anywhere in the run."""
+        """Returns a random way to die, anywhere in the run."""
         way = generator.choice([AtCall, AtCall, AtByte, AtMoment])
         if way is AtCall:
             return AtCall(generator.randrange(self.calls))
@@ -166,7 +153,7 @@ def _profile(count) -> None:
 
 @dataclasses.dataclass(frozen=True)
 class FullAtByte:
-    """The disk takes no file of more than so many bytes (EFBIG)."""
+    """Lets the disk take no file of more than a number of bytes (EFBIG)."""
 
     number: int
 
@@ -177,7 +164,7 @@ class FullAtByte:
 
 @dataclasses.dataclass(frozen=True)
 class Memory:
-    """The process may have so many bytes more than it has."""
+    """Limits the memory that the process may take beyond its own."""
 
     number: int
 
@@ -188,18 +175,19 @@ class Memory:
 
 @dataclasses.dataclass(frozen=True)
 class SmallDisk:
-    """The disk below a folder has room for what is there and so many bytes more (ENOSPC)."""
+    """Limits the room on the disk of a folder to its present content and some bytes more (ENOSPC)."""
 
     folder: Path
     room: int
 
     def __call__(self):
-        """Puts a file system of this process's own in the folder's place; what is in it is copied back at the end."""
+        """Mounts a small file system in the folder's place, whose content is copied back at the end."""
         saved = Path(tempfile.mkdtemp()) / "saved"
         shutil.copytree(self.folder, saved)
-        in_own_mounts()
+        _in_own_mounts()
         pages = sum(-(-path.stat().st_size // 4096) for path in saved.rglob("*") if path.is_file())
-        mount("tmpfs", self.folder, f"size={4096 * max(1, pages) + self.room}")
+        options = f"size={4096 * max(1, pages) + self.room}"
+        _call("mount", b"none", os.fsencode(self.folder), b"tmpfs", 0, options.encode())
         shutil.copytree(saved, self.folder, dirs_exist_ok=True)
         child = os.fork()
         if not child:
@@ -207,63 +195,50 @@ class SmallDisk:
         _, status = os.waitpid(child, 0)
         shutil.rmtree(saved)
         shutil.copytree(self.folder, saved)
-        unmount(self.folder)
+        _call("umount2", os.fsencode(self.folder), _LAZILY)
         shutil.rmtree(self.folder)
         shutil.copytree(saved, self.folder)
         shutil.rmtree(saved.parent)
         os._exit(os.waitstatus_to_exitcode(status))
 
 
-def in_own_mounts() -> None:
-    """Gives this process mounts of its own, that end with it.
+_LAZILY = 2  # Even while it is in use.
 
-    Raises:
-      OSError: where this user may not.
-    """
+
+def _in_own_mounts() -> None:
+    """Gives this process mounts of its own, that end with it; raises OSError if this user may not."""
     new_mounts, new_user, recursive_and_private = 0x20000, 0x10000000, 0x4000 | 0x40000
-    libc = ctypes.CDLL(None, use_errno=True)
     user, group = os.getuid(), os.getgid()
-    if libc.unshare(new_mounts if user == 0 else new_mounts | new_user):
-        raise OSError(ctypes.get_errno(), "cannot have mounts of one's own")
+    _call("unshare", new_mounts if user == 0 else new_mounts | new_user)
     if user:
         Path("/proc/self/setgroups").write_text("deny")
         Path("/proc/self/uid_map").write_text(f"0 {user} 1")
         Path("/proc/self/gid_map").write_text(f"0 {group} 1")
-    if libc.mount(b"none", b"/", None, recursive_and_private, None):
-        raise OSError(ctypes.get_errno(), "cannot have mounts of one's own")
+    _call("mount", b"none", b"/", None, recursive_and_private, None)
 
 
-def mount(kind: str, folder: Path, options: str) -> None:
-    """Mounts a file system; raises OSError if that cannot be."""
-    libc = ctypes.CDLL(None, use_errno=True)
-    if libc.mount(b"none", os.fsencode(folder), kind.encode(), 0, options.encode()):
-        raise OSError(ctypes.get_errno(), "cannot mount")
-
-
-def unmount(folder: Path) -> None:
-    """Takes it away again, even while it is in use."""
-    lazily = 2
-    libc = ctypes.CDLL(None, use_errno=True)
-    if libc.umount2(os.fsencode(folder), lazily):
-        raise OSError(ctypes.get_errno(), "cannot unmount")
+def _call(name, *arguments) -> None:
+    """Calls a function of the C library; raises OSError if it fails."""
+    if getattr(ctypes.CDLL(None, use_errno=True), name)(*arguments):
+        raise OSError(ctypes.get_errno(), f"cannot have mounts of one's own: {name} failed")
 
 
 # Children.
 
 
 def barrier(parties: int):
-    """Something that children wait at for each other."""
+    """Returns a barrier for children."""
     return commands.context.Barrier(parties)
 
 
 @dataclasses.dataclass(frozen=True)
 class End:
-    """How a child ended.
+    """The end of a child.
 
     Attributes:
       code: its exit status; below zero the signal that killed it.
-      said: what it wrote to stdout and stderr.
-      seconds: how long it took.
+      said: its stdout and stderr.
+      seconds: its duration.
     """
 
     code: int
@@ -275,7 +250,7 @@ class End:
         return self.code < 0
 
     def assert_refused(self, words: str = "") -> None:
-        """Asserts that a command has failed with one readable line, which contains these words."""
+        """Asserts that a command has failed with one readable line that contains these words."""
         assert self.code in (1, 2), (self.code, self.said)
         assert "Traceback" not in self.said, self.said
         errors = [line for line in self.said.splitlines() if line.startswith("physexp: ")]
@@ -289,7 +264,7 @@ class Child(commands.Process):
         super().__init__(function, *args, first=first, stderr=subprocess.STDOUT)
 
     def end(self) -> End:
-        """Waits for its end; what it has started goes with it."""
+        """Waits for its end, and ends all that it has started."""
         self.wait()
         self.kill_all()
         return End(self.returncode, self.stdout.read(), self.seconds)
@@ -301,5 +276,5 @@ def run(function, *args, first=None) -> End:
 
 
 def litter(folder: Path) -> list[str]:
-    """What no reader looks at: files and folders of writers that have not cleaned up."""
+    """Returns the temporary files and folders of killed writers."""
     return [str(path.relative_to(folder)) for path in folder.rglob(".*") if path.name != ".lock"]

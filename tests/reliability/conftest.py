@@ -1,4 +1,4 @@
-"""What the attacks share."""
+"""A folder with one of everything, for all attacks."""
 
 import attacks
 import pytest
