@@ -128,3 +128,15 @@ def test_variables_are_not_saved_after_a_worker_died_in_an_update(tmp_path, cont
     run_all([context.Process(target=die_with, args=(agent._lock,))])
     with pytest.raises(core.WorkerError, match="a worker was killed in the middle of an update"):
         agent.save()
+
+
+def make_environment_of_one(seed, num_environments, num_threads):
+    if num_environments > 1:
+        raise OSError("no license")
+    return suite.load_batch("which_is_heavier", "features", num_environments, {"random": seed}, num_threads)
+
+
+def test_an_error_in_a_worker_ends_training_in_one_line_that_names_it():
+    agent = agent_lib.A3C(make_environment_of_one, CONFIG)
+    with pytest.raises(core.WorkerError, match=r"^worker [01]: OSError\('no license'\) at .*\.py:\d+$"):
+        list(agent.updates())

@@ -89,41 +89,25 @@ def test_the_same_seed_gives_the_same_weights_to_the_last_bit(uninterrupted, tmp
 
 
 def train_until_killed(path, beyond, seconds):
-    """Trains on, and is killed some time after the first row beyond some frames."""
-    run = run_lib.Run(path)
+    """Trains on, and is killed some time after the first checkpoint beyond some frames."""
 
-    def report(row):
-        if row["frames"] > beyond and run.checkpointer.paths() and not signal.getitimer(signal.ITIMER_REAL)[0]:
+    def watch(frames, variables):
+        if frames > beyond and not signal.getitimer(signal.ITIMER_REAL)[0]:
             signal.setitimer(signal.ITIMER_REAL, seconds)
 
     signal.signal(signal.SIGALRM, signal.SIG_DFL)  # Ends the process as SIGKILL does.
-    trainer.train(run, report)
-
-
-def killed(agent, folder):
-    """A run that was killed before its end."""
-    generator = np.random.default_rng(seeds.fresh_seed())
-    for attempt in range(1, 21):
-        run = trainers.create(
-            folder / str(attempt),
-            agent.algorithm,
-            frames=FRAMES,
-            seed=agent.seed,
-            checkpoint_seconds=CHECKPOINT_SECONDS,
-        )
-        beyond = int(generator.integers(FRAMES // (3 * attempt)))
-        seconds = generator.uniform(1e-6, CHECKPOINT_SECONDS / attempt)
-        print("killed", seconds, "s after the first row beyond frame", beyond)
-        with commands.Process(train_until_killed, run.path, beyond, seconds) as process:
-            _, errors = process.communicate()
-        assert process.returncode in (0, -signal.SIGALRM), errors
-        if 0 < int(run.checkpointer.latest()[0]["frames"]) < FRAMES:
-            return run
-    raise AssertionError("all runs ended before they were killed")
+    trainer.train(run_lib.Run(path), on_checkpoint=watch)
 
 
 def test_a_run_killed_at_any_moment_resumes_to_the_same_weights(uninterrupted, tmp_path):
-    run = killed(uninterrupted.config.agent, tmp_path)
+    agent, generator = uninterrupted.config.agent, np.random.default_rng(seeds.fresh_seed())
+    run = trainers.create(
+        tmp_path / "run", agent.algorithm, frames=FRAMES, seed=agent.seed, checkpoint_seconds=CHECKPOINT_SECONDS
+    )
+    beyond, seconds = int(generator.integers(FRAMES // 3)), generator.uniform(1e-6, CHECKPOINT_SECONDS / 2)
+    with commands.Process(train_until_killed, run.path, beyond, seconds) as process:
+        _, errors = process.communicate()
+    assert process.returncode in (0, -signal.SIGALRM), errors
     with trainers.trainer(run) as process:
         _, errors = process.communicate()
     assert process.returncode == 0, errors

@@ -139,14 +139,6 @@ def test_a_run_is_found_with_the_options_it_was_trained_with(untrained):
         finding.find_agent(str(untrained.path), {"difficulty": 5})
 
 
-def test_whole_rounds_are_played_until_there_are_enough_steps(untrained):
-    network = finding.load_network(untrained)
-    played = playing.play(network, untrained.config, 1, num_steps=5000)
-    assert played.length.sum() >= 5000
-    assert len(played) % 256 == 0  # Nothing is cut off, which would leave out long episodes.
-    assert played.length[:-256].sum() < 5000
-
-
 def test_a_belief_learner_with_other_hyperparameters_is_found(tmp_path):
     run = trainers.create(tmp_path / "run", "belief", frames=100, memory="lstm", max_interactions=39)
     trainer.train(run)

@@ -182,31 +182,6 @@ def test_a_run_keeps_its_configuration_and_the_versions(tmp_path):
     assert {"python", "physexp", "mujoco", "dm-control", "torch", "numpy"} <= set(content["versions"])
 
 
-# The agent.
-
-
-def test_keeping_the_agent_alone_goes_on_after_a_kill(run):
-    checkpoint(run)
-    checkpoints = folders.contents(run.path / "checkpoints")
-    run.keep_agent_only()
-    agent = run.agent_path.read_bytes()
-    (run.path / "checkpoints").mkdir()
-    for name, content in checkpoints.items():
-        (run.path / "checkpoints" / name).write_bytes(content)
-    run.keep_agent_only()
-    assert folders.contents(run.path).keys() == {"config.json", "agent.safetensors"}
-    assert run.agent_path.read_bytes() == agent
-
-
-def test_a_damaged_agent_is_named_in_one_line(run):
-    checkpoint(run)
-    run.keep_agent_only()
-    run.agent_path.write_bytes(run.agent_path.read_bytes()[:-1])
-    with pytest.raises(ValueError, match=r"agent\.safetensors is damaged") as caught:
-        run.variables({"w": torch.ones(2)})
-    assert "\n" not in str(caught.value)
-
-
 # The lock.
 
 
