@@ -1,10 +1,10 @@
 """The report: every figure, and the table of claims, as Markdown."""
 
 import collections
-import dataclasses
+from collections.abc import Sequence
 import math
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from physexp.agents import files
 from physexp.analysis.data import plots, provenance, text
@@ -24,34 +24,16 @@ _INTRODUCTION = (
 )
 
 
-@dataclasses.dataclass(frozen=True)
-class _Tested:
-    """A claim, its verdict, corrected, and the experiment that it is of."""
+_VERDICTS = (claims_lib.FAILS, claims_lib.UNDECIDED, claims_lib.HOLDS)
+_HEADER = ("verdict", "claim", "condition", "statistic", "estimate", "95 % interval", "wanted", "section", "experiment")
+
+
+class _Row(NamedTuple):
+    """A claim, its corrected verdict, and the name of its experiment."""
 
     claim: claims_lib.Tested
     verdict: str
-    experiment: base.Experiment
-
-    @property
-    def words(self) -> str:
-        """Its verdict, and whether it counts."""
-        return f"{self.verdict} (sanity check)" if self.claim.is_check else self.verdict
-
-
-@dataclasses.dataclass(frozen=True)
-class _Shown:
-    """An experiment with a figure, its table (a header and rows of words), and a sentence on missing agents."""
-
-    experiment: base.Experiment
-    table: list[tuple[str, ...]]
-    missing: str
-
-
-_VERDICTS = (claims_lib.FAILS, claims_lib.UNDECIDED, claims_lib.HOLDS)
-_TABLES = {
-    "Claims of the paper": lambda claim: claim.section != claims_lib.OURS,
-    "Claims of ours": lambda claim: claim.section == claims_lib.OURS,
-}
+    experiment: str
 
 
 def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Path:
@@ -66,46 +48,108 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
     """
     if not results.path.is_dir():
         raise ValueError(f"{results.path} is no folder; `physexp reproduce` makes one with results")
-    shown: list[_Shown] = []
-    tested: list[_Tested] = []
+    rows: list[_Row] = []
+    sections: list[str] = []
     missing = []
     for experiment in EXPERIMENTS.values():
         try:
-            frame = experiment.load(results)
+            data = experiment.load(results)
         except ValueError as error:
-            missing.append(f"{experiment.name}: {error}")
-            tell(f"left out {missing[-1]}")
+            missing.append(f"Left out: {experiment.name}: {error}")
+            tell(f"left out {experiment.name}: {error}")
             continue
-        plots.save(experiment.figure(frame), results.path / "figures", experiment.name)
-        table = experiment.table(frame) if experiment.table else []
-        shown.append(_Shown(experiment, table, _missing(experiment, results)))
-        found = experiment.test(frame)
+        plots.save(experiment.figure(data), results.path / "figures", experiment.name)
+        sections += _section(experiment, data, results)
+        found = experiment.test(data)
         verdicts = claims_lib.corrected(found)
-        tested += [_Tested(claim, verdict, experiment) for claim, verdict in zip(found, verdicts, strict=True)]
+        rows += [_Row(claim, verdict, experiment.name) for claim, verdict in zip(found, verdicts, strict=True)]
         tell(f"drew {experiment.name}")
-    path, runs = results.path / "report.md", results.load("runs", ["run", "commit", "config"])
-    files.write_atomically(path, _markdown(shown, tested, missing, runs).encode())
+    ours = [row for row in rows if row.claim.section == claims_lib.OURS]
+    papers = [row for row in rows if row.claim.section != claims_lib.OURS]
+    runs = results.load("runs", ["run", "commit", "config"])
+    paragraphs = [
+        "# Results",
+        *summary.paragraphs([(row.claim, row.verdict) for row in papers if not row.claim.is_check], runs.config),
+        _INTRODUCTION,
+        *_table_of_claims("Claims of the paper", papers),
+        *_table_of_claims("Claims of ours", ours),
+        *sections,
+        *missing,
+        "## Provenance",
+        *_provenance(runs),
+    ]
+    path = results.path / "report.md"
+    files.write_atomically(path, ("\n\n".join(paragraphs) + "\n").encode())
     return path
 
 
-def _missing(experiment: base.Experiment, results: base.Results) -> str:
-    """Returns a sentence about the planned agents that are not trained yet; nothing where there are none."""
+def _section(experiment: base.Experiment, data: Any, results: base.Results) -> list[str]:
+    """Returns the paragraphs about an experiment."""
+    paragraphs = [
+        f'<a id="{_anchor(experiment.name)}"></a>',
+        f"## {experiment.title} ({experiment.section})",
+        f"![{experiment.title}](figures/{experiment.name}.png)",
+        experiment.caption,
+    ]
+    if experiment.table and (table := experiment.table(data)):
+        paragraphs.append(_markdown_table(table))
     finished = set(results.load("runs", ["run"]).run)
     seeds = collections.defaultdict(list)
     for job in sweep.jobs([experiment], conditions.OBSERVATIONS, conditions.SEEDS.__getitem__):
         if job.config.name not in finished:
             condition, _, seed = job.config.name.rpartition("-seed")
             seeds[condition].append(seed)
-    words = "; ".join(f"{condition} ({', '.join(its)})" for condition, its in seeds.items())
-    return f"Planned, and not trained yet (seeds): {words}." if words else ""
+    if seeds:
+        words = "; ".join(f"{condition} ({', '.join(its)})" for condition, its in seeds.items())
+        paragraphs.append(f"Planned, and not trained yet (seeds): {words}.")
+    return paragraphs
 
 
-def _summary(tested: list[_Tested], runs: Any) -> dict[str, list[str]]:
-    """Returns the paragraphs at the beginning, and the points below each."""
-    claims = [(one.claim, one.verdict) for one in tested if one.claim.section != claims_lib.OURS]
-    counted = [(claim, verdict) for claim, verdict in claims if not claim.is_check]
-    sentences = " ".join(filter(None, [summary.in_numbers(counted), summary.of_workers(runs.config)]))
-    return {sentences: [], **summary.of_claims(counted), _INTRODUCTION: []}
+def _table_of_claims(title: str, rows: Sequence[_Row]) -> list[str]:
+    """Returns the paragraphs about claims: failures first, sanity checks last, and the reasons of failures."""
+    if not rows:
+        return []
+    rows = sorted(rows, key=lambda row: (row.claim.is_check, _VERDICTS.index(row.verdict)))
+    counted = [row.verdict for row in rows if not row.claim.is_check]
+    tally = ", ".join(f"{counted.count(verdict)} {verdict}" for verdict in reversed(_VERDICTS))
+    failing = [row.claim for row in rows if row.verdict == claims_lib.FAILS and row.claim.reason]
+    return [
+        f"## {title}",
+        f"{tally}; sanity checks: {len(rows) - len(counted)}.",
+        _markdown_table([_HEADER, *map(_cells, rows)]),
+        *dict.fromkeys(f'Why "{claim.text}" fails: {claim.reason}' for claim in failing),
+    ]
+
+
+def _cells(row: _Row) -> tuple[str, ...]:
+    claim, estimate = row.claim, row.claim.estimate
+    return (
+        f"**{row.verdict} (sanity check)**" if claim.is_check else f"**{row.verdict}**",
+        claim.text,
+        conditions.spelled_out(claim.condition),
+        f"{claim.statistic}; found in these data" if claim.is_found else claim.statistic,
+        _number(estimate.value),
+        f"{_number(estimate.low)} to {_number(estimate.high)}",
+        f"{claim.wanted}: “{claim.quote}”" if claim.quote else claim.wanted,
+        claim.section,
+        f"[{row.experiment}](#{_anchor(row.experiment)})",
+    )
+
+
+def _number(value: float) -> str:
+    if math.isnan(value):
+        return "unknown"
+    return f"{value:.3g}" if math.isfinite(value) else ("-∞" if value < 0 else "∞")
+
+
+def _anchor(experiment: str) -> str:
+    return experiment.replace("_", "-")
+
+
+def _markdown_table(rows: Sequence[Sequence[str]]) -> str:
+    """Returns a header and rows as a table."""
+    lines = ["| " + " | ".join(row) + " |" for row in rows]
+    return "\n".join([lines[0], "|" + "---|" * len(rows[0]), *lines[1:]])
 
 
 def _provenance(runs: Any) -> list[str]:
@@ -116,89 +160,3 @@ def _provenance(runs: Any) -> list[str]:
         f"Agents: {len(runs)}, trained by the source of these commits: {made}.",
         f"Figures and verdicts: made by {provenance.shortened(provenance.commit())}.",
     ]
-
-
-def _tables(tested: list[_Tested]) -> dict[str, list[_Tested]]:
-    """Returns the claims of each table, failures first and sanity checks last."""
-    tables = {}
-    for title, belongs in _TABLES.items():
-        rows = [one for one in tested if belongs(one.claim)]
-        tables[title] = sorted(rows, key=lambda one: (one.claim.is_check, _VERDICTS.index(one.verdict)))
-    return {title: rows for title, rows in tables.items() if rows}
-
-
-def _tally(rows: list[_Tested]) -> str:
-    counted = [one.verdict for one in rows if not one.claim.is_check]
-    tally = ", ".join(f"{counted.count(verdict)} {verdict}" for verdict in reversed(_VERDICTS))
-    return f"{tally}; sanity checks: {len(rows) - len(counted)}"
-
-
-_HEADER = ("verdict", "claim", "condition", "statistic", "estimate", "95 % interval", "wanted", "section", "experiment")
-
-
-def _row(one: _Tested) -> tuple[str, ...]:
-    """Returns a claim under `_HEADER`, without verdict and experiment at its ends."""
-    claim, estimate = one.claim, one.claim.estimate
-    return (
-        claim.text,
-        conditions.spelled_out(claim.condition),
-        f"{claim.statistic}; found in these data" if claim.is_found else claim.statistic,
-        _number(estimate.value),
-        f"{_number(estimate.low)} to {_number(estimate.high)}",
-        f"{claim.wanted}: “{claim.quote}”" if claim.quote else claim.wanted,
-        claim.section,
-    )
-
-
-def _number(value: float) -> str:
-    if math.isnan(value):
-        return "unknown"
-    return f"{value:.3g}" if math.isfinite(value) else ("-∞" if value < 0 else "∞")
-
-
-def _reasons(rows: list[_Tested]) -> list[str]:
-    """Returns our explanations of the claims that fail, each once."""
-    failing = [one.claim for one in rows if one.verdict == claims_lib.FAILS and one.claim.reason]
-    return list(dict.fromkeys(f'Why "{claim.text}" fails: {claim.reason}' for claim in failing))
-
-
-def _anchor(experiment: base.Experiment) -> str:
-    return experiment.name.replace("_", "-")
-
-
-def _markdown(shown: list[_Shown], tested: list[_Tested], missing: list[str], runs: Any) -> str:
-    lines = ["# Results", ""]
-    for paragraph, points in _summary(tested, runs).items():
-        lines += [paragraph, "", *(f"- {point}" for point in points), ""] if points else [paragraph, ""]
-    for title, rows in _tables(tested).items():
-        lines += [f"## {title}", "", f"{_tally(rows)}.", ""]
-        lines += _header(_HEADER)
-        lines += [
-            " | ".join((f"| **{one.words}**", *_row(one), f"[{one.experiment.name}](#{_anchor(one.experiment)}) |"))
-            for one in rows
-        ]
-        lines += [""] + [part for reason in _reasons(rows) for part in (reason, "")]
-    for one in shown:
-        experiment, table = one.experiment, one.table
-        lines += [
-            f'<a id="{_anchor(experiment)}"></a>',
-            "",
-            f"## {experiment.title} ({experiment.section})",
-            "",
-            f"![{experiment.title}](figures/{experiment.name}.png)",
-            "",
-            experiment.caption,
-            "",
-        ]
-        if table:
-            lines += [*_header(table[0]), *("| " + " | ".join(row) + " |" for row in table[1:]), ""]
-        if one.missing:
-            lines += [one.missing, ""]
-    lines += [part for line in missing for part in (f"Left out: {line}", "")]
-    lines += ["## Provenance", "", *(part for line in _provenance(runs) for part in (line, ""))]
-    return "\n".join(lines).rstrip() + "\n"
-
-
-def _header(names) -> list[str]:
-    """Returns the first two lines of a Markdown table."""
-    return ["| " + " | ".join(names) + " |", "|" + "---|" * len(names)]

@@ -2,6 +2,7 @@
 
 import collections
 from collections.abc import Sequence
+import itertools
 import json
 
 from physexp.analysis.experiments import claims as claims_lib
@@ -11,32 +12,30 @@ Tested = tuple[claims_lib.Tested, str]
 """A claim under one condition, and its verdict."""
 
 
-def of_claims(tested: Sequence[Tested]) -> dict[str, list[str]]:
-    """Returns headings, and below each a point for each claim with that verdict.
+def paragraphs(tested: Sequence[Tested], configs: Sequence[str]) -> list[str]:
+    """Returns the number of claims of each verdict, and below a heading for each verdict a point for each claim.
 
     Args:
       tested: the claims of the paper, without sanity checks.
+      configs: the configurations of the runs, in JSON.
     """
     held, failed, is_open = _groups(tested)
+    numbers = (
+        f"Claims of the paper: {len(held) + len(failed) + len(is_open)}. Held in every condition in which they were "
+        f"tested: {len(held)}. Failed in at least one: {len(failed)}. Undecided in at least one, and failed in none: "
+        f"{len(is_open)}."
+    )
     points = {
         "Replicated:": [f"{_named(its)} ({_count(len(its), 'condition')})." for its in held],
         "Not replicated:": [" ".join([_failure(its), *_openings(its)]) for its in failed],
         "Undecided:": [" ".join([f"{_named(its)}.", *_openings(its)]) for its in is_open],
     }
-    return {heading: its for heading, its in points.items() if its}
-
-
-def in_numbers(tested: Sequence[Tested]) -> str:
-    """Returns the number of claims of each verdict, in words."""
-    held, failed, is_open = map(len, _groups(tested))
-    return (
-        f"Claims of the paper: {held + failed + is_open}. Held in every condition in which they were tested: {held}. "
-        f"Failed in at least one: {failed}. Undecided in at least one, and failed in none: {is_open}."
-    )
+    lists = [(heading, "\n".join(f"- {point}" for point in its)) for heading, its in points.items() if its]
+    return [f"{numbers} {_workers(configs)}".strip(), *itertools.chain.from_iterable(lists)]
 
 
 def _groups(tested: Sequence[Tested]) -> list[list[list[Tested]]]:
-    """Returns claims, each under all of its conditions: those that hold, that fail somewhere, and the others."""
+    """Returns claims with all of their conditions: those that hold, those that fail somewhere, and the others."""
     by_text = collections.defaultdict(list)
     for claim, verdict in tested:
         by_text[claim.text, claim.section].append((claim, verdict))
@@ -48,12 +47,8 @@ def _groups(tested: Sequence[Tested]) -> list[list[list[Tested]]]:
     return [groups[one] for one in (claims_lib.HOLDS, claims_lib.FAILS, claims_lib.UNDECIDED)]
 
 
-def of_workers(configs: Sequence[str]) -> str:
-    """Returns a sentence about the A3C agents that had one worker; nothing where there are none.
-
-    Args:
-      configs: the configurations of the runs, in JSON.
-    """
+def _workers(configs: Sequence[str]) -> str:
+    """Returns a sentence about the A3C agents with one worker; nothing where there are none."""
     agents = [json.loads(config)["agent"] for config in configs]
     workers = [agent["num_workers"] for agent in agents if agent["algorithm"] == "a3c"]
     if not (alone := workers.count(1)):
@@ -70,7 +65,7 @@ def _count(number: int, noun: str) -> str:
 
 
 def _named(its: Sequence[Tested]) -> str:
-    """Returns a claim, with the section of the paper, which may claim the same of another task elsewhere."""
+    """Returns a claim with its section, since the paper claims some things of several tasks."""
     return f"Section {its[0][0].section}: {its[0][0].text}"
 
 

@@ -320,7 +320,8 @@ class Meter:
         """Returns the number of agents and frames to go, and the time left once a speed is known."""
         stored = self._results.load("runs", ["run", "frames", "seconds"]).set_index("run")
         done = total = left = 0.0
-        speeds, remaining = defaultdict(list), defaultdict(float)
+        speeds: dict[tuple[str, str], list[tuple[float, float]]] = defaultdict(list)
+        remaining: dict[tuple[str, str], float] = defaultdict(float)
         for job in self._jobs:
             kind, budget = (job.config.task_name, job.config.agent.algorithm), job.config.agent.frames
             if job.config.name in stored.index:
