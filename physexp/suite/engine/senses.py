@@ -1,32 +1,29 @@
-"""The senses: how a task shows its state, as features or as pixels.
+"""The senses: how a task shows its state, as features or as pixels; one environment and a batch share one."""
 
-One environment and a batch share the same sense, so their observations are equal.
-"""
-
-import abc
 from collections.abc import Mapping
-from typing import ClassVar
 
 import numpy as np
 
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import rendering
 
+Shapes = Mapping[str, tuple[int, ...]]
+"""Shapes of features, by name."""
 
-class Sense(abc.ABC):
-    """Turns fields of the simulation's state into observations."""
 
-    fields: ClassVar[tuple[str, ...]]
+class Features:
+    """Sensor values as float32 arrays."""
+
+    fields: tuple[str, ...] = ("sensordata",)
     """The fields of `MjData` that are looked at."""
 
-    needs_gl: ClassVar[bool]
-    """Whether images are drawn, instead of readings taken."""
+    needs_gl = False
+    """Whether images are drawn."""
 
-    @abc.abstractmethod
-    def blank(self, shapes: Mapping[str, tuple[int, ...]], size: int) -> dict[str, np.ndarray]:
-        """Returns arrays for the observations of `size` environments, from the shapes of the features by name."""
+    def blank(self, shapes: Shapes, size: int) -> dict[str, np.ndarray]:
+        """Returns arrays for the observations of `size` environments."""
+        return {name: np.zeros((size, *shape), np.float32) for name, shape in shapes.items()}
 
-    @abc.abstractmethod
     def look(
         self,
         apparatus: apparatus_lib.Apparatus,
@@ -44,29 +41,6 @@ class Sense(abc.ABC):
           rows: rows of the observations, int [N].
           observations: arrays with a leading axis that `rows` index; written to.
         """
-
-    @abc.abstractmethod
-    def close(self) -> None:
-        """Frees the resources that the sense holds."""
-
-
-class Features(Sense):
-    """Sensor values as float32 arrays."""
-
-    fields = ("sensordata",)
-    needs_gl = False
-
-    def blank(self, shapes: Mapping[str, tuple[int, ...]], size: int) -> dict[str, np.ndarray]:
-        return {name: np.zeros((size, *shape), np.float32) for name, shape in shapes.items()}
-
-    def look(
-        self,
-        apparatus: apparatus_lib.Apparatus,
-        state: Mapping[str, np.ndarray],
-        camera: np.ndarray,
-        rows: np.ndarray,
-        observations: Mapping[str, np.ndarray],
-    ) -> None:
         for name in apparatus.readings:
             observations[name][rows] = apparatus.read(name, state["sensordata"])
 
@@ -74,16 +48,19 @@ class Features(Sense):
         """Does nothing: features hold no resources."""
 
 
-class Pixels(Sense):
-    """One image, `pixels`, from the task's camera. The GL context is made when the first image is drawn."""
+class Pixels:
+    """One image, `pixels`, from the task's camera, with the methods of `Features`.
 
-    fields = apparatus_lib.LOOKED_AT
+    The GL context is made when the first image is drawn.
+    """
+
+    fields: tuple[str, ...] = apparatus_lib.LOOKED_AT
     needs_gl = True
 
     def __init__(self) -> None:
         self._renderer: rendering.Renderer | None = None
 
-    def blank(self, shapes: Mapping[str, tuple[int, ...]], size: int) -> dict[str, np.ndarray]:
+    def blank(self, shapes: Shapes, size: int) -> dict[str, np.ndarray]:
         return {"pixels": np.zeros((size, rendering.SIZE, rendering.SIZE, 3), np.uint8)}
 
     def look(
@@ -103,3 +80,6 @@ class Pixels(Sense):
         if self._renderer is not None:
             self._renderer.close()
             self._renderer = None
+
+
+Sense = Features | Pixels
