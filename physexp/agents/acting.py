@@ -1,6 +1,6 @@
 """Acting with a network: one episode in any environment, or a round of whole episodes side by side in a batch."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import dm_env
@@ -91,12 +91,8 @@ def play_round(
             kept = torch.from_numpy(np.flatnonzero(going)).to(network.device)
             active, state = active[going], tuple(part[:, kept] for part in state)
             timestep = timestep._replace(observation={k: v[going] for k, v in timestep.observation.items()})
-    actions, rewards = (np.zeros((len(steps), len(lengths)), dtype) for dtype in (np.int64, np.float32))
-    for t, (active, made, reward) in enumerate(steps):
-        actions[t, active], rewards[t, active] = made, reward
     return rounds.Round(
-        actions,
-        rewards,
+        *_padded(steps, len(lengths)),
         lengths,
         environment.correct_answers,
         torch.cat(encoded) if keep_inputs else None,
@@ -104,6 +100,16 @@ def play_round(
         torch.cat(log_probabilities) if keep_behaviour else None,
         torch.cat(values) if keep_behaviour else None,
     )
+
+
+def _padded(
+    steps: Sequence[tuple[np.ndarray, np.ndarray, np.ndarray]], num_environments: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Returns actions and rewards, [T, B], from those of the active environments at each step."""
+    actions, rewards = (np.zeros((len(steps), num_environments), dtype) for dtype in (np.int64, np.float32))
+    for t, (active, taken, reward) in enumerate(steps):
+        actions[t, active], rewards[t, active] = taken, reward
+    return actions, rewards
 
 
 class RecurrentActor(core.EpisodicActor):
