@@ -56,7 +56,7 @@ class Variables(Generic[Network]):
         """Moves everything into memory that other processes can share; returns self."""
         self.network.share_memory()
         for value in self.tensors().values():
-            value.share_memory_()  # type: ignore[no-untyped-call]
+            value.share_memory_()
         return self
 
     def tensors(self) -> dict[str, torch.Tensor]:
@@ -197,7 +197,7 @@ def clipped_gradients(
       DivergedError: if the loss or the norm is not finite; it holds these arrays.
     """
     network.zero_grad()
-    loss.backward()  # type: ignore[no-untyped-call]
+    loss.backward()
     norm = torch.nn.utils.clip_grad_norm_(network.parameters(), MAX_GRADIENT_NORM)
     if not (torch.isfinite(loss) and torch.isfinite(norm)):
         raise core.DivergedError(f"loss {loss.item()} with gradient norm {norm.item()}", arrays())
