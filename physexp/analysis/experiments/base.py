@@ -50,7 +50,7 @@ class Results:
     It holds::
 
         tables/                        runs, learning curves, evaluations and episodes: see `data.results`
-        agents/                        the weights of some agents
+        agents/                        trained agents of some conditions
         runs/NAME/                     the folder of a run that is being trained, or was trained here
         ideal/, generalization/, timing/, noise/
                                        returns of the ideal experimenters, and of rules without training
