@@ -79,20 +79,20 @@ class Network(core.Actor):
         self._actor.observe(action, next_timestep)
 
 
-def _random(asked: protocol.Question, first: int) -> core.Actor:
-    return Baseline(lambda generator: int(generator.integers(asked.num_actions)), first)
+def _random(question: protocol.Question, first: int) -> core.Actor:
+    return Baseline(lambda generator: int(generator.integers(question.num_actions)), first)
 
 
-def _at_once(asked: protocol.Question, first: int) -> core.Actor:
-    unplayed = episodes.Episode(protocol.drawn(asked, 1)[0], np.zeros(0, np.int64), np.zeros(0), [])
-    likeliest = int(protocol.ideal(asked).beliefs(unplayed)[0].argmax())
-    return Baseline(lambda generator: asked.num_interactions + likeliest, first)
+def _at_once(question: protocol.Question, first: int) -> core.Actor:
+    unplayed = episodes.Episode(protocol.drawn(question, 1)[0], np.zeros(0, np.int64), np.zeros(0), [])
+    likeliest = int(protocol.ideal(question).beliefs(unplayed)[0].argmax())
+    return Baseline(lambda generator: question.num_interactions + likeliest, first)
 
 
 BASELINES: Mapping[str, Callable[[protocol.Question, int], core.Actor]] = {
     "random": _random,
     "at_once": _at_once,
-    "silent": lambda asked, first: Baseline(lambda generator: 0, first),
-    "ideal": lambda asked, first: protocol.ideal(asked).actor(),
+    "silent": lambda question, first: Baseline(lambda generator: 0, first),
+    "ideal": lambda question, first: protocol.ideal(question).actor(),
 }
 """Experimenters for every task: random actions, the likeliest answer at once, no answer, and the ideal experimenter."""

@@ -33,18 +33,18 @@ class DataSet:
           of: the steps of a task.
           target: the name of the player, one word.
         """
-        asked = of.asked
+        question = of.question
         self._is_judged = of.is_judged
-        self._observed = asked.observation_spec
-        name = f"{asked.domain}-{asked.task}"
+        self._observed = question.observation_spec
+        name = f"{question.domain}-{question.task}"
         identity = f"physexp/{name}/{target}-v0"
         path = folder.resolve() / identity / "data"  # Minari finds no sizes below a relative path.
         path.mkdir(parents=True)
         self._storage = MinariStorage.new(
             path,
-            observation_space=adapters.observation_space(asked.observation_spec),
-            action_space=gymnasium.spaces.Discrete(asked.num_actions),
-            env_spec=gymnasium.spec(environments.environment_id(asked.domain, asked.task)),
+            observation_space=adapters.observation_space(question.observation_spec),
+            action_space=gymnasium.spaces.Discrete(question.num_actions),
+            env_spec=gymnasium.spec(environments.environment_id(question.domain, question.task)),
             jpeg_encoding=False,  # It would change images.
         )
         self._storage.update_metadata(
@@ -52,7 +52,7 @@ class DataSet:
                 "dataset_id": identity,
                 "minari_version": minari.__version__,
                 "algorithm_name": target,
-                "description": f"{asked.question} Episodes of {name}, played by {target}.",
+                "description": f"{question.question} Episodes of {name}, played by {target}.",
                 "requirements": ["physexp[minari]"],
             }
         )

@@ -65,23 +65,23 @@ def export(
     if seed == protocol.SEED:
         raise ValueError(f"seed is {seed}, whose episodes are scored; give another one")
     minari_name = targets.file_name(target.name) if as_minari else None
-    writers = {asked: _Writer(folder, asked, seed, minari_name) for asked in questions}
-    names, begun = [asked.name for asked in questions], time.monotonic()
+    writers = {question: _Writer(folder, question, seed, minari_name) for question in questions}
+    names, begun = [question.name for question in questions], time.monotonic()
     facts = {"target": target.name, "greedy": target.greedy, "seed": seed, "episodes": num_episodes}
     facts["agent"] = target.describe(names)
     defining = {**facts, "tasks": names, "versions": provenance.versions()}
     with playing.session(folder, target, timeout, defining) as session:
         shutil.rmtree(folder / MINARI, ignore_errors=True)  # Of an interrupted session.
-        for asked, its in itertools.groupby(session.play(questions, num_episodes, seed), lambda one: one[0]):
+        for question, its in itertools.groupby(session.play(questions, num_episodes, seed), lambda one: one[0]):
             for _, episode in its:
-                writers[asked].add(episode)
+                writers[question].add(episode)
                 show(session.num_played)
-            writers[asked].write()
+            writers[question].write()
         written = {
             **facts,
             **{"complete": not session.problem, "problem": session.problem},
             **provenance.made_since(begun),
-            "tasks": {writer.asked.name: writer.facts() for writer in writers.values() if writer.num_episodes},
+            "tasks": {writer.question.name: writer.facts() for writer in writers.values() if writer.num_episodes},
         }
         files.write_atomically(folder / FILE, (json.dumps(written, indent=1) + "\n").encode())
         session.raise_problem()
@@ -91,10 +91,10 @@ def export(
 class _Writer:
     """Writes the episodes of a task, part by part."""
 
-    def __init__(self, folder: Path, asked: protocol.Question, seed: int, minari_name: str | None):
-        self.asked, self.num_episodes = asked, 0
-        self._steps = steps.Steps(asked, suite.environment_seed(seed, 0))
-        self._folder = folder / f"{asked.domain}-{asked.task}" / TABLE
+    def __init__(self, folder: Path, question: protocol.Question, seed: int, minari_name: str | None):
+        self.question, self.num_episodes = question, 0
+        self._steps = steps.Steps(question, suite.environment_seed(seed, 0))
+        self._folder = folder / f"{question.domain}-{question.task}" / TABLE
         self._pending: list[dict[str, np.ndarray]] = []
         self._num_pending, self._num_parts = 0, 0
         self._num_right, self._num_steps, self._return = 0, 0, 0.0
@@ -109,7 +109,7 @@ class _Writer:
         self.num_episodes += 1
         self._num_steps += count
         self._num_right += bool(episode.rewards[-1] > 0)
-        self._return += float(self.asked.discount ** np.arange(count) @ episode.rewards)
+        self._return += float(self.question.discount ** np.arange(count) @ episode.rewards)
         if self._num_pending >= _ROWS:
             self.write()
 
@@ -132,7 +132,7 @@ class _Writer:
 
     def facts(self) -> dict[str, Any]:
         """Returns the task's question, the meanings of its columns, and means of its episodes."""
-        asked = self.asked
+        question = self.question
         names = ("question", "discount", "step_limit", "num_interactions", "action_names", "label_names")
         return {
             "episodes": self.num_episodes,
@@ -140,9 +140,9 @@ class _Writer:
             "success_rate": self._num_right / self.num_episodes,
             "mean_return": self._return / self.num_episodes,
             "judged": self._steps.is_judged,
-            **{name: getattr(asked, name) for name in names},
+            **{name: getattr(question, name) for name in names},
             "observations": {
                 name: {"shape": list(spec.shape), "dtype": spec.dtype.name}
-                for name, spec in asked.observation_spec.items()
+                for name, spec in question.observation_spec.items()
             },
         }

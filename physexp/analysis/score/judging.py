@@ -67,19 +67,19 @@ def judge(
       BrokenExecutor: if a process was killed.
     """
     if len(played) == 1:
-        ((asked, its),) = played.items()
-        return {asked.name: _judged(asked, its, show)}
+        ((question, its),) = played.items()
+        return {question.name: _judged(question, its, show)}
     context, others = processes.spawning(), set(multiprocessing.active_children())
     pool = futures.ProcessPoolExecutor(min(processes.num_cores(), len(played)), context, initializer=processes.begin)
     try:
         with processes.without_script(), processes.inherited_by_workers():
-            begun = {pool.submit(_judged_by_worker, asked.name, its): len(its) for asked, its in played.items()}
+            begun = {pool.submit(_judged_by_worker, question.name, its): len(its) for question, its in played.items()}
         done = 0
         for future in futures.as_completed(begun):
             future.result()
             done += begun[future]
             show(done)
-        return {asked.name: future.result() for asked, future in zip(played, begun, strict=True)}
+        return {question.name: future.result() for question, future in zip(played, begun, strict=True)}
     except BaseException:
         for worker in set(multiprocessing.active_children()) - others:
             processes.kill(worker)
@@ -88,14 +88,14 @@ def judge(
         pool.shutdown(cancel_futures=True)
 
 
-def _judged(asked: protocol.Question, played: Sequence[episodes.Episode], show: Callable[[int], None]) -> Judged:
-    judge, found = Judge(protocol.ideal(asked)), []
+def _judged(question: protocol.Question, played: Sequence[episodes.Episode], show: Callable[[int], None]) -> Judged:
+    judge, found = Judge(protocol.ideal(question)), []
     for episode in played:
         found.append(judge(episode))
         show(len(found))
-    return Judged(found, reference.of(asked, len(played)))
+    return Judged(found, reference.of(question, len(played)))
 
 
 def _judged_by_worker(name: str, played: Sequence[episodes.Episode]) -> Judged:
-    (asked,) = protocol.named([name])  # A question equals itself alone, within one process.
-    return _judged(asked, played, lambda done: None)
+    (question,) = protocol.named([name])  # A question equals itself alone, within one process.
+    return _judged(question, played, lambda done: None)

@@ -73,26 +73,26 @@ def read(
 
 def _row(folder: Path, questions: Sequence[protocol.Question], verify: Callable[[Path], None]) -> Row:
     found = scoring.read(folder)
-    _check(folder, found, [asked.name for asked in questions])
+    _check(folder, found, [question.name for question in questions])
     verify(folder)
     played = scoring.task_scores(log.read(folder), questions)
     earned = scores.over(played, questions)
-    names = {one.asked.name for one in played}
+    names = {one.question.name for one in played}
     counts = {}
     for domain in earned["domains"]:
-        tasks = [asked.name for asked in questions if asked.domain == domain]
+        tasks = [question.name for question in questions if question.domain == domain]
         counts[domain] = sum(name in names for name in tasks), len(tasks)
     return Row(folder.name, earned["whole"], earned["domains"], counts, found)
 
 
 def _check(folder: Path, found: Mapping[str, Any], names: Sequence[str]) -> None:
     """Refuses less than the whole protocol, and tasks that no row has."""
-    asked = found["protocol"]
+    extent = found["protocol"]
     if not found["complete"]:
         raise ValueError(f"{folder} is not complete: {found.get('problem')}; score again, elsewhere")
-    if asked["episodes"] != protocol.EPISODES:
-        raise ValueError(f"{folder} has {asked['episodes']} episodes of each task; a row has {protocol.EPISODES:,}")
-    if others := [name for name in asked["tasks"] or ["no task"] if name not in names]:
+    if extent["episodes"] != protocol.EPISODES:
+        raise ValueError(f"{folder} has {extent['episodes']} episodes of each task; a row has {protocol.EPISODES:,}")
+    if others := [name for name in extent["tasks"] or ["no task"] if name not in names]:
         raise ValueError(f"{folder} is of {others[0]}; a row is of {', '.join(names)}")
 
 

@@ -61,10 +61,10 @@ def digest(observation: Mapping[str, np.ndarray]) -> int:
     return int.from_bytes(hashed.digest(), "little")
 
 
-def taken(asked: protocol.Question, seed: int, number: int, episode: episodes.Episode) -> dict[str, Any]:
+def taken(question: protocol.Question, seed: int, number: int, episode: episodes.Episode) -> dict[str, Any]:
     """Returns the columns `TAKEN` of the episode of an index in the environment of a seed, T rows."""
     count = len(episode.actions)
-    keys = {"domain": asked.domain, "task": asked.task, "seed": seed, "episode": number}
+    keys = {"domain": question.domain, "task": question.task, "seed": seed, "episode": number}
     return {
         **{name: np.full(count, value) for name, value in keys.items()},
         "step": np.arange(count),
@@ -73,16 +73,16 @@ def taken(asked: protocol.Question, seed: int, number: int, episode: episodes.Ep
     }
 
 
-def played(asked: protocol.Question, number: int, episode: episodes.Episode) -> dict[str, Any]:
+def played(question: protocol.Question, number: int, episode: episodes.Episode) -> dict[str, Any]:
     """Returns the columns `PLAYED` of the episode of an index, T rows."""
     digests = np.array([digest(before.observation) for before in episode.timesteps[:-1]], np.uint64)
-    return {**taken(asked, protocol.ENVIRONMENT_SEED, number, episode), "observation": digests}
+    return {**taken(question, protocol.ENVIRONMENT_SEED, number, episode), "observation": digests}
 
 
-def judged(asked: protocol.Question, actions: np.ndarray, found: mistakes.Actions) -> dict[str, Any]:
+def judged(question: protocol.Question, actions: np.ndarray, found: mistakes.Actions) -> dict[str, Any]:
     """Returns the columns `JUDGED` of the actions of one episode, T rows, from their judgement."""
     are_last = np.arange(len(actions)) == len(actions) - 1
-    costs = mistakes.costs(found, actions >= asked.num_interactions, are_last)
+    costs = mistakes.costs(found, actions >= question.num_interactions, are_last)
     kinds, table = np.array(list(costs), object), np.array(list(costs.values()))
     costliest = kinds[table.argmax(axis=0)]
     costliest[table.max(axis=0) <= _NO_REGRET] = None
@@ -113,9 +113,9 @@ def read(folder: Path) -> pyarrow.Table:
     return untrusted.read_table(folder / FILE, SCHEMA)
 
 
-def of_task(found: pyarrow.Table, asked: protocol.Question) -> dict[str, np.ndarray]:
+def of_task(found: pyarrow.Table, question: protocol.Question) -> dict[str, np.ndarray]:
     """Returns the columns of one task's rows, in their order."""
-    is_its = compute.and_(compute.equal(found["domain"], asked.domain), compute.equal(found["task"], asked.task))
+    is_its = compute.and_(compute.equal(found["domain"], question.domain), compute.equal(found["task"], question.task))
     return as_columns(found.filter(is_its))
 
 

@@ -45,12 +45,12 @@ class Player:
         processes.kill(self._process)
         self._ours.close()
 
-    def make(self, asked: protocol.Question, first: int) -> core.Actor:
+    def make(self, question: protocol.Question, first: int) -> core.Actor:
         """Returns the agent's actor for a task and its first episode; raises PlayerError if the agent fails."""
         if self._process is None:
             self._start()
-        self.call(f"({asked.name}, before the first episode)", asked, self._timeout + _START_SECONDS)
-        return _Actor(self, asked, first)
+        self.call(f"({question.name}, before the first episode)", question, self._timeout + _START_SECONDS)
+        return _Actor(self, question, first)
 
     def call(self, place: str, message: Any, timeout: float | None = None) -> dict[str, Any]:
         """Sends a message and returns the answer; raises PlayerError, with the place, if the agent fails."""
@@ -105,24 +105,24 @@ class Player:
 class _Actor(core.Actor):
     """An actor of a player's process, to which each time step is sent once."""
 
-    def __init__(self, player: Player, asked: protocol.Question, first: int):
-        self._player, self._asked, self._number = player, asked, first - 1
+    def __init__(self, player: Player, question: protocol.Question, first: int):
+        self._player, self._question, self._number = player, question, first - 1
         self._message: tuple[int | None, dm_env.TimeStep]
 
     def observe_first(self, timestep):
         self._number, self._step, self._message = self._number + 1, 0, (None, timestep)
 
     def select_action(self, observation):
-        place = f"({self._asked.name}, episode {self._number}, step {self._step})"
+        place = f"({self._question.name}, episode {self._number}, step {self._step})"
         action = self._player.call(place, self._message).get("action")
-        if not isinstance(action, int) or not 0 <= action < self._asked.num_actions:
+        if not isinstance(action, int) or not 0 <= action < self._question.num_actions:
             raise PlayerError(
                 f"{self._player.name} chose {action}, which is no action {place}; return an integer from 0 to "
-                f"{self._asked.num_actions - 1}"
+                f"{self._question.num_actions - 1}"
             )
         return action
 
     def observe(self, action: int, next_timestep: dm_env.TimeStep) -> None:
         self._step, self._message = self._step + 1, (action, next_timestep)
         if next_timestep.last():
-            self._player.call(f"({self._asked.name}, episode {self._number}, the end)", self._message)
+            self._player.call(f"({self._question.name}, episode {self._number}, the end)", self._message)

@@ -48,9 +48,9 @@ class Session:
           ValueError: if a stored episode does not follow from its actions.
         """
         try:
-            for asked in questions:
-                for episode in self._play(asked, num_episodes, seed):
-                    yield asked, episode
+            for question in questions:
+                for episode in self._play(question, num_episodes, seed):
+                    yield question, episode
         except player.PlayerError as error:
             if not self.num_played:
                 raise
@@ -64,22 +64,22 @@ class Session:
                 f"{self.problem}; the episodes before it are in {folder}, and the same command goes on after them"
             )
 
-    def _play(self, asked: protocol.Question, num_episodes: int, seed: int) -> Iterator[episodes.Episode]:
-        kept = self._kept.get(asked.name, ())[:num_episodes]
-        environment = protocol.load(asked, seed)
+    def _play(self, question: protocol.Question, num_episodes: int, seed: int) -> Iterator[episodes.Episode]:
+        kept = self._kept.get(question.name, ())[:num_episodes]
+        environment = protocol.load(question, seed)
         for number, actions in enumerate(kept):
             try:
                 yield episodes.replay(environment, actions, number)
             except ValueError as error:
                 raise ValueError(
-                    f"{self._file.name}: {asked.name}, episode {number}: {error}; another version has played it, so "
+                    f"{self._file.name}: {question.name}, episode {number}: {error}; another version has played it, so "
                     "remove the folder"
                 ) from None
         if len(kept) < num_episodes:
-            actor = self._make(asked, len(kept))
+            actor = self._make(question, len(kept))
             for number in range(len(kept), num_episodes):
                 played = episodes.play(environment, actor, number)
-                self._file.write(json.dumps([asked.name, played.actions.tolist()]).encode() + b"\n")
+                self._file.write(json.dumps([question.name, played.actions.tolist()]).encode() + b"\n")
                 self._file.flush()
                 self.num_played += 1
                 yield played

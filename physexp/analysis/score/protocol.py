@@ -80,26 +80,26 @@ def question(domain: str, task: str) -> Question:
     )
 
 
-def ideal(asked: Question) -> ideal_base.Solution:
+def ideal(question: Question) -> ideal_base.Solution:
     """Returns the ideal experimenter of a task; raises ValueError if none is known."""
-    known = domains.find(asked.domain)
+    known = domains.find(question.domain)
     if known.ideal is None:
         raise ValueError(
-            f"{asked.name} has no score: no ideal experimenter is known; "
+            f"{question.name} has no score: no ideal experimenter is known; "
             f"choose from {', '.join(one.name for one in observing('all'))}"
         )
-    return known.ideal(asked.task, {}, asked.discount)
+    return known.ideal(question.task, {}, question.discount)
 
 
-def load(asked: Question, seed: int = SEED) -> suite.Environment:
+def load(question: Question, seed: int = SEED) -> suite.Environment:
     """Returns the environment of a task, the first one of a batch with this seed."""
-    return suite.load(asked.domain, asked.task, {"random": suite.environment_seed(seed, 0)})
+    return suite.load(question.domain, question.task, {"random": suite.environment_seed(seed, 0)})
 
 
-def drawn(asked: Question, num_episodes: int) -> np.ndarray:
+def drawn(question: Question, num_episodes: int) -> np.ndarray:
     """Returns the hidden properties of the first episodes, [N, ...]."""
     seeds = np.full(num_episodes, ENVIRONMENT_SEED)
-    return suite.load_task(asked.domain, asked.task).draw(seeds, np.arange(num_episodes))
+    return suite.load_task(question.domain, question.task).draw(seeds, np.arange(num_episodes))
 
 
 def named(names: Sequence[str]) -> tuple[Question, ...]:

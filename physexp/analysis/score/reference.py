@@ -30,19 +30,19 @@ class Reference:
 
 
 @functools.cache
-def of(asked: protocol.Question, num_episodes: int) -> Reference | None:
+def of(question: protocol.Question, num_episodes: int) -> Reference | None:
     """Plays the ideal experimenter; returns None if it cannot play from the observations of the task.
 
     The hidden property determines how it plays, so it plays one episode of each.
     """
-    solution = protocol.ideal(asked)
+    solution = protocol.ideal(question)
     try:
         actor = solution.actor()
     except ValueError:
         return None
-    drawn = protocol.drawn(asked, num_episodes)
+    drawn = protocol.drawn(question, num_episodes)
     _, first, counts = np.unique(drawn, axis=0, return_index=True, return_counts=True)
-    environment = protocol.load(asked)
+    environment = protocol.load(question)
     played = [episodes.play(environment, actor, int(number)) for number in first]
     environment.close()
     gains = [mistakes.information(solution.beliefs(episode))[:-1] for episode in played]
@@ -51,11 +51,11 @@ def of(asked: protocol.Question, num_episodes: int) -> Reference | None:
     return Reference(float(counts @ lengths / num_episodes), counts @ padded / num_episodes)
 
 
-def random_return(asked: protocol.Question) -> float:
+def random_return(question: protocol.Question) -> float:
     """Returns the expected return of uniformly random actions; one of the L answers is right in each episode."""
-    num_labels = asked.num_actions - asked.num_interactions
-    goes_on = asked.num_interactions / asked.num_actions
-    steps = np.arange(asked.step_limit)
+    num_labels = question.num_actions - question.num_interactions
+    goes_on = question.num_interactions / question.num_actions
+    steps = np.arange(question.step_limit)
     answer = rules.WRONG + (rules.RIGHT - rules.WRONG) / num_labels
-    answered = np.sum((asked.discount * goes_on) ** steps) * (1 - goes_on) * answer
-    return float(answered + asked.discount ** steps[-1] * goes_on**asked.step_limit * rules.WRONG)
+    answered = np.sum((question.discount * goes_on) ** steps) * (1 - goes_on) * answer
+    return float(answered + question.discount ** steps[-1] * goes_on**question.step_limit * rules.WRONG)

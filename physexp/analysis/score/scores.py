@@ -26,7 +26,7 @@ class TaskScore:
     """The score of an agent on one task, from N episodes.
 
     Attributes:
-      asked: the task.
+      question: the task.
       ideal, at_once, floor: returns of the optimum, of the likeliest answer given at once, and of the better of that
         and of no answer.
       costs: of each episode by kind of mistake, as shares of ideal - floor, float64 [N] each.
@@ -38,7 +38,7 @@ class TaskScore:
       known: statistics of the ideal experimenter, where they are known.
     """
 
-    asked: protocol.Question
+    question: protocol.Question
     ideal: float
     at_once: float
     floor: float
@@ -64,7 +64,7 @@ class TaskScore:
             "ideal": self.ideal,
             "floor": self.floor,
             "at_once": self.at_once,
-            "random": reference.random_return(self.asked),
+            "random": reference.random_return(self.question),
             "score": float(self.scores.mean()),
             "interval": _interval(_resampled(self.scores, seed)),
             "raw_score": float(self.raw.mean()),
@@ -83,29 +83,29 @@ class TaskScore:
 
 
 def of_task(
-    asked: protocol.Question, columns: Mapping[str, np.ndarray], known: reference.Reference | None = None
+    question: protocol.Question, columns: Mapping[str, np.ndarray], known: reference.Reference | None = None
 ) -> TaskScore:
     """Returns the score of a task.
 
     Args:
-      asked: the task.
+      question: the task.
       columns: the log's columns of its rows: whole episodes, one after the other.
       known: statistics of the ideal experimenter over the same number of episodes, where they are known.
     """
     first = columns["step"] == 0
     index = np.cumsum(first) - 1
     last = np.append(first[1:], True)
-    are_answers = columns["action"] >= asked.num_interactions
-    factors = asked.discount ** columns["step"].astype(float)
+    are_answers = columns["action"] >= question.num_interactions
+    factors = question.discount ** columns["step"].astype(float)
     ideal, at_once = float(columns["value"][0]), float(columns["answering"][0])
-    floor = max(at_once, rules.WRONG * asked.discount ** (asked.step_limit - 1))
+    floor = max(at_once, rules.WRONG * question.discount ** (question.step_limit - 1))
 
     def discounted(values: np.ndarray) -> np.ndarray:
         return np.bincount(index, factors * values)
 
     costs = mistakes.costs(mistakes.Actions(*(columns[name] for name in log.ACTIONS)), are_answers, last)
     return TaskScore(
-        asked=asked,
+        question=question,
         ideal=ideal,
         at_once=at_once,
         floor=floor,
@@ -121,8 +121,8 @@ def of_task(
 
 def summary(found: Sequence[TaskScore]) -> dict[str, Any]:
     """Returns the metrics of all tasks, at least one, of their domains, and over the domains."""
-    tasks = {one.asked.name: one.metrics(seed) for seed, one in enumerate(found)}
-    return {"tasks": tasks, **over(found, [one.asked for one in found])}
+    tasks = {one.question.name: one.metrics(seed) for seed, one in enumerate(found)}
+    return {"tasks": tasks, **over(found, [one.question for one in found])}
 
 
 def over(found: Sequence[TaskScore], questions: Sequence[protocol.Question]) -> dict[str, Any]:
@@ -132,10 +132,10 @@ def over(found: Sequence[TaskScore], questions: Sequence[protocol.Question]) -> 
       found: the scores of the tasks that were played.
       questions: all tasks, at least one; the score of a task that was not played is 0.
     """
-    played = {one.asked.name: (one.scores.mean(), _resampled(one.scores, seed)) for seed, one in enumerate(found)}
+    played = {one.question.name: (one.scores.mean(), _resampled(one.scores, seed)) for seed, one in enumerate(found)}
     of_tasks: dict[str, list[tuple[float, np.ndarray]]] = {}
-    for asked in questions:
-        of_tasks.setdefault(asked.domain, []).append(played.get(asked.name, (0.0, np.zeros(_RESAMPLES))))
+    for question in questions:
+        of_tasks.setdefault(question.domain, []).append(played.get(question.name, (0.0, np.zeros(_RESAMPLES))))
     means = {name: np.mean([mean for mean, _ in parts]) for name, parts in of_tasks.items()}
     resampled = {name: np.mean([drawn for _, drawn in parts], axis=0) for name, parts in of_tasks.items()}
     return {

@@ -68,9 +68,9 @@ def score(
       ValueError: if the folder holds something else, no ideal experimenter is known, or a number makes no sense.
     """
     check(num_episodes, protocol.MAX_EPISODES, timeout)
-    for asked in questions:
-        protocol.ideal(asked)  # Refuses a task without one before anything is played.
-    names = [asked.name for asked in questions]
+    for question in questions:
+        protocol.ideal(question)  # Refuses a task without one before anything is played.
+    names = [question.name for question in questions]
     extent = {"seed": protocol.SEED, "episodes": num_episodes, "tasks": names}
     facts = {"version": protocol.VERSION, "target": target.name, "greedy": target.greedy, "protocol": extent}
     agent, begun = target.describe(names), time.monotonic()
@@ -78,7 +78,7 @@ def score(
     with playing.session(folder, target, timeout, defining) as session:
         played = _play(session, questions, num_episodes, lambda: show(session.num_played // 2))
         judged = judging.judge(
-            {asked: [episode for _, episode in its] for asked, its in played.items()},
+            {question: [episode for _, episode in its] for question, its in played.items()},
             lambda done: show((session.num_played + done) // 2),
         )
         outcome = {"complete": not session.problem, "problem": session.problem}
@@ -96,9 +96,9 @@ def _play(
     session: playing.Session, questions: Sequence[protocol.Question], num_episodes: int, show: Callable[[], None]
 ) -> _Played:
     found: dict[protocol.Question, list[tuple[dict[str, Any], episodes.Episode]]] = defaultdict(list)
-    for asked, episode in session.play(questions, num_episodes, protocol.SEED):
-        columns = log.played(asked, len(found[asked]), episode)
-        found[asked].append((columns, dataclasses.replace(episode, timesteps=[])))
+    for question, episode in session.play(questions, num_episodes, protocol.SEED):
+        columns = log.played(question, len(found[question]), episode)
+        found[question].append((columns, dataclasses.replace(episode, timesteps=[])))
         show()
     return found
 
@@ -108,9 +108,9 @@ def _write(
 ) -> dict[str, Any]:
     """Writes the log, and then its metrics beside facts; returns these two."""
     found = log.table(
-        {**columns, **log.judged(asked, episode.actions, actions)}
-        for asked, its in played.items()
-        for (columns, episode), actions in zip(its, judged[asked.name].actions, strict=True)
+        {**columns, **log.judged(question, episode.actions, actions)}
+        for question, its in played.items()
+        for (columns, episode), actions in zip(its, judged[question.name].actions, strict=True)
     )
     log.write(folder, found)
     ideals = {name: one.ideal for name, one in judged.items()}
@@ -138,8 +138,12 @@ def task_scores(
       questions: the tasks.
       ideals: statistics of the ideal experimenter by task, where they are known.
     """
-    parts = [(asked, log.of_task(found, asked)) for asked in questions]
-    return [scores.of_task(asked, columns, ideals.get(asked.name)) for asked, columns in parts if len(columns["step"])]
+    parts = [(question, log.of_task(found, question)) for question in questions]
+    return [
+        scores.of_task(question, columns, ideals.get(question.name))
+        for question, columns in parts
+        if len(columns["step"])
+    ]
 
 
 def read(folder: Path) -> dict[str, Any]:

@@ -24,20 +24,20 @@ class Steps:
     """The steps of a task's episodes.
 
     Attributes:
-      asked: the task.
+      question: the task.
       is_judged: whether an ideal experimenter gives beliefs and values.
       schema: names and types of the columns; arrays are lists, their last index the fastest.
     """
 
-    def __init__(self, asked: protocol.Question, environment_seed: int):
+    def __init__(self, question: protocol.Question, environment_seed: int):
         """Describes the columns of a task, played with a seed of the environment."""
-        self.asked, self._seed = asked, environment_seed
-        self._task = suite.load_task(asked.domain, asked.task)
-        self.is_judged = protocol.is_judged(asked.domain)
-        self._judge = judging.Judge(protocol.ideal(asked)) if self.is_judged else None
-        hidden = protocol.drawn(asked, 1)[0]
-        num_labels = len(asked.label_names)
-        judged = {"belief": num_labels, f"{NEXT}belief": num_labels, "values": asked.num_actions}
+        self.question, self._seed = question, environment_seed
+        self._task = suite.load_task(question.domain, question.task)
+        self.is_judged = protocol.is_judged(question.domain)
+        self._judge = judging.Judge(protocol.ideal(question)) if self.is_judged else None
+        hidden = protocol.drawn(question, 1)[0]
+        num_labels = len(question.label_names)
+        judged = {"belief": num_labels, f"{NEXT}belief": num_labels, "values": question.num_actions}
         self.schema = pyarrow.schema(
             [
                 *_KEYS,
@@ -52,7 +52,7 @@ class Steps:
         )
 
     def _observed(self, prefix: str) -> list[pyarrow.Field]:
-        specs = self.asked.observation_spec
+        specs = self.question.observation_spec
         return [
             pyarrow.field(f"{prefix}{OBSERVED}{name}", _type(spec.dtype, spec.shape)) for name, spec in specs.items()
         ]
@@ -63,13 +63,13 @@ class Steps:
         last = np.arange(count) == count - 1
         is_lost = last & (episode.rewards == 0)  # Every other end is right or wrong.
         found = {
-            **log.taken(self.asked, self._seed, number, episode),
+            **log.taken(self.question, self._seed, number, episode),
             "terminated": last & ~is_lost,
             "truncated": is_lost,
             "hidden": np.repeat(episode.hidden[None], count, axis=0),
             "answer": np.repeat(self._task.answers(episode.hidden[None]), count),
         }
-        for name in self.asked.observation_spec:
+        for name in self.question.observation_spec:
             seen = np.array([timestep.observation[name] for timestep in episode.timesteps])
             found[f"{OBSERVED}{name}"], found[f"{NEXT}{OBSERVED}{name}"] = seen[:-1], seen[1:]
         if self._judge is not None:

@@ -55,12 +55,12 @@ class Target:
         can = self.questions
         if not tasks:
             usual = protocol.observing(observations)
-            return usual if can is None else tuple(asked for asked in can if asked in usual) or can
+            return usual if can is None else tuple(question for question in can if question in usual) or can
         found = protocol.named(tasks)
-        for asked in found:
-            if can is not None and asked not in can:
+        for question in found:
+            if can is not None and question not in can:
                 raise ValueError(
-                    f"{self.name} does not play {asked.name}; it plays {', '.join(one.name for one in can)}"
+                    f"{self.name} does not play {question.name}; it plays {', '.join(one.name for one in can)}"
                 )
         return found
 
@@ -95,7 +95,7 @@ def find(name: str, greedy: bool = False) -> Target:
     if name in actors.BASELINES:
         return Target(name, greedy, None, actors.BASELINES[name])
     if makers := _baselines_of_domains().get(name):
-        return Target(name, greedy, tuple(makers), lambda asked, first: makers[asked]())
+        return Target(name, greedy, tuple(makers), lambda question, first: makers[question]())
     if "," in name or _is_team(name):
         return _team(name, greedy)
     return _agent(name, greedy)
@@ -135,7 +135,7 @@ def _agent(name: str, greedy: bool) -> Target:
         name,
         greedy,
         (protocol.question(config.domain, config.task),),
-        lambda asked, first: actors.Network(agent.network, greedy, first),
+        lambda question, first: actors.Network(agent.network, greedy, first),
         describe,
     )
 
@@ -152,18 +152,18 @@ def _team(name: str, greedy: bool) -> Target:
             raise ValueError(f"{part} is no trained agent; a team is of trained agents, so give it alone")
         for member in _shipped(part) if _is_team(part) else [part]:
             agent = _agent(member, greedy)
-            (asked,) = agent.questions or ()
-            if asked in members:
-                raise ValueError(f"both {members[asked].name} and {member} play {asked.name}; name one of them")
-            members[asked] = agent
+            (question,) = agent.questions or ()
+            if question in members:
+                raise ValueError(f"both {members[question].name} and {member} play {question.name}; name one of them")
+            members[question] = agent
 
-    def make(asked: protocol.Question, first: int) -> core.Actor:
-        of_member = members[asked].make
+    def make(question: protocol.Question, first: int) -> core.Actor:
+        of_member = members[question].make
         assert of_member is not None
-        return of_member(asked, first)
+        return of_member(question, first)
 
     def describe(tasks: Collection[str]) -> dict[str, Any]:
-        each = {asked.name: agent.describe(tasks) for asked, agent in members.items() if asked.name in tasks}
+        each = {question.name: agent.describe(tasks) for question, agent in members.items() if question.name in tasks}
         sums = {name: sum(one[name] for one in each.values()) for name in ("frames", "seconds")}
         algorithms = dict.fromkeys(one["algorithm"] for one in each.values())
         return {"algorithm": ", ".join(algorithms), **sums, "agents": each}

@@ -42,7 +42,7 @@ def refuse_here() -> None:
         )
 
 
-def make_actor(name: str, asked: protocol.Question) -> core.Actor:
+def make_actor(name: str, question: protocol.Question) -> core.Actor:
     """Returns an actor for a task from a user's function, `module:function`; raises TargetError if it makes none."""
     module, _, attribute = name.partition(":")
     if (here := str(Path.cwd())) not in sys.path:
@@ -55,7 +55,7 @@ def make_actor(name: str, asked: protocol.Question) -> core.Actor:
         raise TargetError(f"{module} has no {attribute}; name a function that it has") from None
     count = _num_parameters(function)
     if count == 1:
-        made = function(asked)
+        made = function(question)
         if all(callable(getattr(made, method, None)) for method in _METHODS):
             return made
         if callable(made):
@@ -88,8 +88,8 @@ def serve(connection: socket.socket, name: str) -> None:
         answer: dict[str, Any] = {}
         try:
             match pickle.load(messages):
-                case protocol.Question() as asked:
-                    actor = make_actor(name, asked)
+                case protocol.Question() as question:
+                    actor = make_actor(name, question)
                 case None, timestep:
                     actor.observe_first(timestep)
                     answer["action"] = _plain(actor.select_action(timestep.observation))

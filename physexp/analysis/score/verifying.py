@@ -36,19 +36,21 @@ def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dic
     questions = protocol.named(written["protocol"]["tasks"])
     counts = _counts(path, len(logged), written, len(questions))
     left = enumerate(logged, 1)
-    for asked, count in zip(questions, counts, strict=True):
-        environment, judge = protocol.load(asked), judging.Judge(protocol.ideal(asked))
+    for question, count in zip(questions, counts, strict=True):
+        environment, judge = protocol.load(question), judging.Judge(protocol.ideal(question))
         for number, (done, columns) in zip(range(count), left, strict=False):
-            place = f"{path}: {asked.name}, episode {number}"
+            place = f"{path}: {question.name}, episode {number}"
             try:
                 episode = episodes.replay(environment, columns["action"].tolist(), number)
             except ValueError as error:
                 raise ValueError(f"{place}: {error}") from None
-            judged = log.judged(asked, episode.actions, judge(episode))
-            _compare(place, columns, {**log.played(asked, number, episode), **judged})
+            judged = log.judged(question, episode.actions, judge(episode))
+            _compare(place, columns, {**log.played(question, number, episode), **judged})
             show(done)
         environment.close()
-    ideals = {asked.name: reference.of(asked, count) for asked, count in zip(questions, counts, strict=True) if count}
+    ideals = {
+        question.name: reference.of(question, count) for question, count in zip(questions, counts, strict=True) if count
+    }
     again = scoring.metrics(found, questions, ideals)
     _compare_metrics(folder / scoring.FILE, {name: written[name] for name in again}, again)
     return {
