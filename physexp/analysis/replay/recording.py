@@ -45,12 +45,6 @@ class Shapes:
     are_placed: np.ndarray
     geoms: np.ndarray
 
-    def index(self, thing: str) -> int:
-        """Returns the index of a thing; raises LookupError if the scene has no such thing."""
-        if thing not in self.names:
-            raise LookupError(f"the task names a thing {thing!r}; the scene has {', '.join(self.names)}")
-        return self.names.index(thing)
-
 
 @dataclasses.dataclass(frozen=True)
 class Episode:
@@ -171,11 +165,7 @@ class EpisodeRecorder(environment_loop.Observer):
 
     @property
     def episode(self) -> Episode:
-        """Returns the episode so far.
-
-        Raises:
-          RuntimeError: if the same seed, index and actions lead to other observations.
-        """
+        """Returns the episode so far; raises RuntimeError if playing it again leads to other observations."""
         if self._rebuilder is None:
             self._rebuilder = _Rebuilder(self._remade_task())
         observations = {name: np.stack([seen[name] for seen in self._seen]) for name in self._seen[0]}

@@ -97,16 +97,11 @@ def _command(data_port: int) -> list[str]:
 
 
 def _free_port(preferred: int = 0) -> int:
-    """Returns a free port of the loopback, the preferred one if possible.
-
-    A viewer that finds its port taken hands its data to the viewer there, and ends.
-    """
-    for port in (preferred, 0):
-        with socket.socket() as candidate:
-            candidate.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            try:
-                candidate.bind((_LOOPBACK, port))
-            except OSError:
-                continue
-            return candidate.getsockname()[1]
-    raise RuntimeError("no port of this machine is free; close programs that listen on ports")
+    """Returns a free port of the loopback, since a viewer hands its data to another viewer on its port, and ends."""
+    with socket.socket() as candidate:
+        candidate.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            candidate.bind((_LOOPBACK, preferred))
+        except OSError:
+            candidate.bind((_LOOPBACK, 0))
+        return candidate.getsockname()[1]

@@ -215,7 +215,7 @@ class EpisodeWriter:
         self._write_arrows("world/hidden/action", episode.true_positions)
         revealed = self._task.reveal(episode.hidden)
         for number, (thing, text) in enumerate(revealed.marks.items()):
-            entity, k = f"world/hidden/mark_{thing}", shapes.index(thing)
+            entity, k = f"world/hidden/mark_{thing}", shapes.names.index(thing)
             place = (0, 0, shapes.sizes[k].max() + _TEXT_ABOVE[number % 2])
             self._log(
                 entity, rr.Points3D([place], labels=[text], colors=[palette.MARK], radii=[0.006], show_labels=True)
@@ -223,10 +223,12 @@ class EpisodeWriter:
             self._follow(entity, k, poses)
         for first, second in revealed.joined:
             entity = f"world/hidden/{first}_to_{second}"
-            self._log(entity, self._bar(shapes.index(first), shapes.index(second)))
-            self._follow(entity, shapes.index(first), poses)
+            self._log(entity, self._bar(shapes.names.index(first), shapes.names.index(second)))
+            self._follow(entity, shapes.names.index(first), poses)
         for first, second in revealed.tied:
-            self._write_band(f"world/hidden/{first}_to_{second}", [shapes.index(first), shapes.index(second)])
+            self._write_band(
+                f"world/hidden/{first}_to_{second}", [shapes.names.index(first), shapes.names.index(second)]
+            )
 
     def _write_band(self, entity: str, ends: list[int]) -> None:
         """Writes a line between two moving shapes."""
@@ -329,7 +331,7 @@ class EpisodeWriter:
         origins, vectors = np.zeros((2, len(steps), 3))
         for frame, step in enumerate(steps):
             if episode.actions[step] < len(interactions):
-                origins[frame] = positions[frame, episode.shapes.index(interactions[episode.actions[step]].thing)]
+                origins[frame] = positions[frame, episode.shapes.names.index(interactions[episode.actions[step]].thing)]
                 # The first frame shows the controls that are about to be sent.
                 vectors[frame] = _arrow(interactions[episode.actions[step]], episode.controls[max(frame, 1)])
         self._log(entity, rr.Arrows3D.from_fields(colors=[palette.ACTION], radii=[0.012]))

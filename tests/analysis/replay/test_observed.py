@@ -118,7 +118,7 @@ def test_blocks_move_by_the_clock_from_one_noisy_reading_to_the_next(tmp_path):
     # A control step has four physics steps. A share s of the way has passed after 3 s^2 - 2 s^3 of the time.
     shares = np.array([0, 0.15625, 0.5, 0.84375])[:, None]
     expected = [before + shares * (after - before) for before, after in itertools.pairwise(heights)]
-    shown = episode.positions[:, [episode.shapes.index(f"block_{k}") for k in range(4)], 2]
+    shown = episode.positions[:, [episode.shapes.names.index(f"block_{k}") for k in range(4)], 2]
     np.testing.assert_allclose(shown, 0.05 + np.concatenate([*expected, heights[-1:]]), atol=1e-12)
 
 
