@@ -136,9 +136,18 @@ def reaching(num_agents, generator, near=0.5, direct=1.0):
 
 
 def few_steps(
-    num_agents, generator, belief=0.5, a3c=20.0, papers=10.0, fist=0.6, direct=1.0, frame=0.0005, learned=1.0, loss=0.5,
+    num_agents,
+    generator,
+    belief=0.5,
+    a3c=20.0,
+    papers=10.0,
+    fist=0.6,
+    direct=1.0,
+    frame=0.0005,
+    learned=1.0,
+    loss=0.5,
     error=0.02,
-):  # fmt: skip
+):
     """All learners in training and afterwards.
 
     The environment steps of `belief` and `a3c` are in shares of those that the belief learner may need; `papers` are
