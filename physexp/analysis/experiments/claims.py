@@ -139,7 +139,7 @@ def test(claims: Sequence[Claim], statistics: Mapping[str, Statistic], data: Any
     Args:
       claims: the claims.
       statistics: by their ids.
-      data: what the statistics take.
+      data: the first argument of the statistics.
     """
     found = [(claim, condition, statistics[claim.id](data, condition)) for claim in claims for condition in claim.on]
     return [claim.tested(condition, estimate) for claim, condition, estimate in found if estimate is not None]
