@@ -7,7 +7,6 @@ import secrets
 import numpy as np
 
 from physexp import suite
-from physexp.suite.domains import towers
 
 # From the operating system, or from PHYSEXP_TEST_SEED to replay a failure.
 SEED = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
@@ -15,9 +14,19 @@ EVERY_PATTERN = np.arange(16)
 INTO_THE_TOWER, AWAY, LEFT, RIGHT = range(4)  # The fist's actions: +x, -x, +y, -y. It starts at x = -0.32 m.
 
 
+@functools.cache
+def _load_task(domain, **options):
+    return suite.load_task(domain, suite.TASKS_BY_DOMAIN[domain][0], options)
+
+
+def drawn(domain, seeds, indices, **options):
+    """Returns the hidden properties of some episodes of a domain."""
+    return _load_task(domain, **options).draw(seeds, indices)
+
+
 def episode_with(pattern: int, environment_seed: int) -> int:
     """The first episode with this pattern; one in thirty at least has it, so a thousand are enough."""
-    patterns = towers.draw_patterns(np.full(1000, environment_seed), np.arange(1000))
+    patterns = drawn("towers", np.full(1000, environment_seed), np.arange(1000))
     return int(np.flatnonzero(patterns == pattern)[0])
 
 

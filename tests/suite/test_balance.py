@@ -30,7 +30,7 @@ def _placings(rng, count: int) -> np.ndarray:
 @pytest.mark.parametrize("control_timestep, time_limit", [(0.1, 4.0), (0.08, 8.0), (0.2, 8.0)])
 def test_the_beam_tilts_to_the_heavier_pan_whatever_was_there_before(seed, control_timestep, time_limit):
     rng = np.random.default_rng(seed)
-    drawn = balance.draw_weights(*rng.integers(2**31, size=(2, 72)), 1)
+    drawn = episodes.drawn("balance", *rng.integers(2**31, size=(2, 72)))
     weights = np.concatenate([np.tile(_hardest(), (3, 1)), drawn])
     kwargs = {"random": seed, "control_timestep": control_timestep, "time_limit": time_limit}
     batch = suite.load_batch("balance", "features", len(weights), kwargs)
@@ -71,7 +71,7 @@ def test_labels_are_equally_likely_and_differences_within_their_range(seed):
     """Each label's share of 100 000 episodes is what its probability makes likely."""
     count = 100_000
     for difficulty in (1, 2, 3):
-        weights = balance.draw_weights(np.full(count, seed), np.arange(count), difficulty)
+        weights = episodes.drawn("balance", np.full(count, seed), np.arange(count), difficulty=difficulty)
         labels = suite.load_task("balance", "features").answers(weights)
         suspects = 7 - difficulty
         expected = np.where(np.arange(12) < 2 * suspects, 1 / (2 * suspects), 0)

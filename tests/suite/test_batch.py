@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from physexp import suite
-from physexp.suite.domains import towers
 from physexp.suite.engine import snapshots
 
 STEPS = 100  # Control steps to compare: some episodes of every task.
@@ -180,7 +179,7 @@ def test_two_batches_in_one_process_share_nothing(seed):
 def test_every_pattern_of_glue_is_played_alike_in_a_batch_and_alone(seed):
     """At the first episode with each pattern, two pushes."""
     batch, (single,) = _load_both("towers/direct_features", seed, 1)
-    patterns = towers.draw_patterns(np.full(1000, single.task.options.random), np.arange(1000))
+    patterns = single.task.draw(np.full(1000, single.task.options.random), np.arange(1000))
     for pattern in range(16):
         single.task.next_episode = int(np.flatnonzero(patterns == pattern)[0])
         _assert_same(batch.reset(episode=single.task.next_episode), [single.reset()])

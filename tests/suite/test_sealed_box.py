@@ -117,7 +117,7 @@ def test_who_only_waits_sees_a_box_that_stands_still_whatever_is_in_it(seed):
 def test_kinds_are_equally_likely_and_so_are_the_contents_of_one_kind(seed):
     """Each content's share of 100 000 episodes is what its probability makes likely."""
     count = 100_000
-    drawn = sealed_box.draw_contents(np.full(count, seed), np.arange(count))
+    drawn = episodes.drawn("sealed_box", np.full(count, seed), np.arange(count))
     kinds = [content.kind for content in sealed_box.ALL_CONTENTS]
     expected = np.array([1 / 4 / kinds.count(kind) for kind in kinds])
     assert [kinds.count(kind) for kind in range(4)] == [6, 12, 12, 12]

@@ -119,7 +119,7 @@ def test_observations_tell_nothing_but_the_poke_and_the_gate(seed, domain_name, 
 def test_strikes_are_equally_likely_and_so_are_the_pucks(seed):
     """Each puck's share of 100 000 episodes is what its probability makes likely."""
     count = 100_000
-    drawn = strike.draw_pucks(np.full(count, seed), np.arange(count))
+    drawn = episodes.drawn("strike", np.full(count, seed), np.arange(count))
     expected = np.full(len(ALL), 1 / len(ALL))
     chance.assert_drawn(np.bincount(drawn, minlength=len(ALL)), expected)
     answers = suite.load_task("strike", "features").answers(ALL)

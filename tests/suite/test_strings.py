@@ -53,7 +53,7 @@ class Player:
 @pytest.mark.parametrize("control_timestep", [0.1, 0.11, 0.25])
 def test_a_pull_moves_all_joined_pucks_past_no_clamp(seed, control_timestep):
     rng = np.random.default_rng(seed)
-    drawn = strings.draw_slacks(*rng.integers(2**31, size=(2, 100)), 1)
+    drawn = episodes.drawn("strings", *rng.integers(2**31, size=(2, 100)))
     slacks = np.concatenate([np.repeat(_extremes(), 8, axis=0), drawn])
     kwargs = {"random": seed, "control_timestep": control_timestep, "time_limit": 60 * control_timestep}
     player = Player(rng, suite.load_batch("strings", "features", len(slacks), kwargs), slacks)
@@ -99,7 +99,7 @@ def test_graphs_follow_the_prior_and_slacks_are_within_their_range(seed):
     """Each graph's share of 100 000 episodes is what its probability makes likely."""
     count = 100_000
     for difficulty in (1, 2, 3.5):
-        slacks = strings.draw_slacks(np.full(count, seed), np.arange(count), difficulty)
+        slacks = episodes.drawn("strings", np.full(count, seed), np.arange(count), difficulty=difficulty)
         graphs = suite.load_task("strings", "features").answers(slacks)
         bands = np.array([0, 1, 1, 2, 1, 2, 2, 3])  # Bits of the labels' numbers.
         expected = difficulty ** (3 - bands) / (1 + difficulty) ** 3

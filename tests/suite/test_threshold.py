@@ -23,9 +23,7 @@ def _edges_of_intervals() -> np.ndarray:
 @pytest.mark.parametrize("control_timestep, time_limit", [(0.1, 1.5), (0.06, 3.0), (0.2, 3.0), (0.1, 10.0)])
 def test_a_push_moves_the_block_if_and_only_if_its_force_is_above_friction(seed, control_timestep, time_limit):
     rng = np.random.default_rng(seed)
-    frictions = np.concatenate(
-        [_edges_of_intervals(), threshold.draw_frictions(*rng.integers(2**31, size=(2, 48)), 1.0)]
-    )
+    frictions = np.concatenate([_edges_of_intervals(), episodes.drawn("threshold", *rng.integers(2**31, size=(2, 48)))])
     kwargs = {"random": seed, "control_timestep": control_timestep, "time_limit": time_limit}
     batch = suite.load_batch("threshold", "features", len(frictions), kwargs)
     first = batch.reset(hidden=frictions).observation
@@ -68,7 +66,7 @@ def test_labels_follow_the_prior_and_frictions_keep_away_from_the_levels(seed):
     """Each label's share of 100 000 episodes is what its probability makes likely."""
     count = 100_000
     for difficulty in (1.0, 2.0, 5.0):
-        frictions = threshold.draw_frictions(np.full(count, seed), np.arange(count), difficulty)
+        frictions = episodes.drawn("threshold", np.full(count, seed), np.arange(count), difficulty=difficulty)
         labels = suite.load_task("threshold", "features").answers(frictions)
         # Beta(1, d) has the distribution function 1 - (1 - x)^d.
         edges = 1 - (1 - np.arange(threshold.NUM_LEVELS + 1) / threshold.NUM_LEVELS) ** difficulty

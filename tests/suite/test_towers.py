@@ -4,13 +4,12 @@ import functools
 import itertools
 
 from chance import P_VALUE
-from episodes import EVERY_PATTERN, SEED, batch_of, episode_with
+from episodes import EVERY_PATTERN, SEED, batch_of, drawn, episode_with
 import numpy as np
 import pytest
 from scipy import stats
 
 from physexp import suite
-from physexp.suite.domains import towers
 from physexp.suite.parts import tower
 
 EDGE = 0.1  # m, of a cube
@@ -42,7 +41,7 @@ def test_numbers_of_actions_and_steps_are_those_of_the_paper(actuator, num_inter
 
 
 def test_the_count_is_uniform_and_so_is_the_pattern_given_the_count(seed):
-    patterns = towers.draw_patterns(np.full(20_000, seed), np.arange(20_000))
+    patterns = drawn("towers", np.full(20_000, seed), np.arange(20_000))
     assert stats.chisquare(np.bincount(COUNTS[patterns], minlength=6)[1:]).pvalue > P_VALUE
     for count, number in zip(range(1, 6), (1, 4, 6, 4, 1), strict=True):  # Binomial coefficients of 4.
         seen = np.bincount(patterns, minlength=16)[count == COUNTS]

@@ -68,20 +68,6 @@ def num_suspects(difficulty: float) -> int:
     return NUM_BLOCKS + 1 - int(difficulty)
 
 
-def draw_weights(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
-    """Returns the weights of the blocks in some episodes, kg, float64 [N, NUM_BLOCKS].
-
-    The odd block and the sign of its difference are drawn uniformly, the difference uniformly within `DIFFERENCES`.
-    """
-    draws = seeding.uniforms(seeds, episodes, 2)
-    labels = np.floor(draws[:, 0] * 2 * num_suspects(difficulty)).astype(np.int64)
-    least, greatest = DIFFERENCES
-    differences = WEIGHT * (least + (greatest - least) * draws[:, 1])
-    weights = np.full((len(labels), NUM_BLOCKS), WEIGHT)
-    weights[np.arange(len(labels)), labels // 2] += np.where(labels % 2, -differences, differences)
-    return weights
-
-
 def _tilt(angles: np.ndarray) -> np.ndarray:
     """Returns to which side the beam tilts, -1, 0 or 1, from its angle, rad [N, 1]; right is positive."""
     return (angles > _READ).astype(float) - (angles < -_READ)
@@ -160,8 +146,17 @@ class Balance(contract.Task):
     largest_hidden = WEIGHT * (1 + DIFFERENCES[1])
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-        """Returns the weights of the blocks, in kilograms, float64 [N, NUM_BLOCKS]."""
-        return draw_weights(seeds, episodes, self.options.difficulty)
+        """Returns the weights of the blocks in some episodes, kg, float64 [N, NUM_BLOCKS].
+
+        The odd block and the sign of its difference are drawn uniformly, the difference uniformly within `DIFFERENCES`.
+        """
+        draws = seeding.uniforms(seeds, episodes, 2)
+        labels = np.floor(draws[:, 0] * 2 * num_suspects(self.options.difficulty)).astype(np.int64)
+        least, greatest = DIFFERENCES
+        differences = WEIGHT * (least + (greatest - least) * draws[:, 1])
+        weights = np.full((len(labels), NUM_BLOCKS), WEIGHT)
+        weights[np.arange(len(labels)), labels // 2] += np.where(labels % 2, -differences, differences)
+        return weights
 
     def answers(self, hidden: np.ndarray) -> np.ndarray:
         differences = hidden - WEIGHT

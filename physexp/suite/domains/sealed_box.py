@@ -94,11 +94,6 @@ class Options(options_lib.Options):
     )
 
 
-def draw_contents(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-    """Returns the contents of the boxes of some episodes: indices of `ALL_CONTENTS`, int64 [N]."""
-    return priors.choose(PRIOR, seeding.uniforms(seeds, episodes, 1)[:, 0])
-
-
 def _share(forces: np.ndarray) -> np.ndarray:
     """Returns the share of the greatest force that was pushed with, positive to the right, from the force, N [N, 1]."""
     return forces / max(PUSHES.values())
@@ -174,8 +169,8 @@ class SealedBox(contract.Task):
     largest_hidden = len(ALL_CONTENTS) - 1
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-        """Returns the contents: indices of `ALL_CONTENTS`, int64 [N]."""
-        return draw_contents(seeds, episodes)
+        """Returns the contents of the boxes of some episodes: indices of `ALL_CONTENTS`, int64 [N]."""
+        return priors.choose(PRIOR, seeding.uniforms(seeds, episodes, 1)[:, 0])
 
     def answers(self, hidden: np.ndarray) -> np.ndarray:
         return KINDS[hidden]

@@ -62,11 +62,6 @@ class Options(options_lib.Options):
     )
 
 
-def draw_pucks(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-    """Returns the pucks of some episodes: indices of `PUCKS`, int64 [N]."""
-    return (len(PUCKS) * seeding.uniforms(seeds, episodes, 1)[:, 0]).astype(np.int64)
-
-
 def properties(pucks: np.ndarray, goal_distance: float) -> tuple[np.ndarray, np.ndarray]:
     """Returns masses, kg, and forces of friction, N, float64 [N] each, of pucks: indices of `PUCKS`, int [N].
 
@@ -136,8 +131,8 @@ class Strike(contract.Task):
     largest_hidden = len(PUCKS) - 1
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-        """Returns the pucks: indices of `PUCKS`, int64 [N]."""
-        return draw_pucks(seeds, episodes)
+        """Returns the pucks of some episodes: indices of `PUCKS`, int64 [N]."""
+        return (len(PUCKS) * seeding.uniforms(seeds, episodes, 1)[:, 0]).astype(np.int64)
 
     def answers(self, hidden: np.ndarray) -> np.ndarray:
         return np.array([strike for strike, *_ in PUCKS])[hidden]

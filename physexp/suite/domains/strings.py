@@ -76,17 +76,6 @@ def is_joined(graphs: np.ndarray) -> np.ndarray:
     return np.asarray(graphs)[:, None] >> np.arange(len(PAIRS)) & 1 == 1
 
 
-def draw_slacks(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
-    """Returns the slacks of the bands of some episodes, m, 0 for no band, float64 [N, number of pairs].
-
-    The pairs that are joined follow the prior; slacks are uniform within `SLACKS`.
-    """
-    draws = seeding.uniforms(seeds, episodes, 2 * len(PAIRS))
-    joined, slack = np.split(draws, 2, axis=1)
-    least, greatest = SLACKS
-    return np.where(joined * (1 + difficulty) < 1, least + (greatest - least) * slack, 0.0)
-
-
 def _is_away(positions: np.ndarray) -> np.ndarray:
     """Returns 1 for each puck that is away from home and 0 for the others, from positions on rails, m [N, pucks]."""
     return (np.abs(positions) > _AWAY).astype(float)
@@ -143,8 +132,14 @@ class Strings(contract.Task):
     largest_hidden = SLACKS[1]
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-        """Returns the slacks of the bands, m, 0 for no band, float64 [N, number of pairs]."""
-        return draw_slacks(seeds, episodes, self.options.difficulty)
+        """Returns the slacks of the bands of some episodes, m, 0 for no band, float64 [N, number of pairs].
+
+        The pairs that are joined follow the prior; slacks are uniform within `SLACKS`.
+        """
+        draws = seeding.uniforms(seeds, episodes, 2 * len(PAIRS))
+        joined, slack = np.split(draws, 2, axis=1)
+        least, greatest = SLACKS
+        return np.where(joined * (1 + self.options.difficulty) < 1, least + (greatest - least) * slack, 0.0)
 
     def answers(self, hidden: np.ndarray) -> np.ndarray:
         return (hidden > 0) @ 2 ** np.arange(len(PAIRS))

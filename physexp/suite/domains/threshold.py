@@ -72,16 +72,6 @@ def prior(difficulty: float) -> np.ndarray:
     return -np.diff(above**difficulty)
 
 
-def draw_frictions(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
-    """Returns the frictions of some episodes, N, float64 [N].
-
-    The label follows `prior`; friction is uniform between the forces of two neighbouring levels, away from both.
-    """
-    draws = seeding.uniforms(seeds, episodes, 2)
-    labels = priors.choose(prior(difficulty), draws[:, 0])
-    return LEVEL_SPACING * (labels + MARGIN + (1 - 2 * MARGIN) * draws[:, 1])
-
-
 def _is_right(positions: np.ndarray) -> np.ndarray:
     """Returns whether a block leans on the right-hand stop, from its position on the rail, m."""
     return positions > TRAVEL / 2
@@ -144,8 +134,13 @@ class Threshold(contract.Task):
     largest_hidden = LEVEL_SPACING * (NUM_LEVELS - MARGIN)
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-        """Returns frictions, in newtons, float64 [N]."""
-        return draw_frictions(seeds, episodes, self.options.difficulty)
+        """Returns the frictions of some episodes, N, float64 [N].
+
+        The label follows `prior`; friction is uniform between the forces of two neighbouring levels, away from both.
+        """
+        draws = seeding.uniforms(seeds, episodes, 2)
+        labels = priors.choose(prior(self.options.difficulty), draws[:, 0])
+        return LEVEL_SPACING * (labels + MARGIN + (1 - 2 * MARGIN) * draws[:, 1])
 
     def answers(self, hidden: np.ndarray) -> np.ndarray:
         return (hidden // LEVEL_SPACING).astype(np.int64)

@@ -79,15 +79,6 @@ PRIOR = 1 / tower.NUM_BLOCKS / _PATTERNS_OF_COUNT[NUM_BODIES - 1]
 """Probability of each glue pattern, [16], where the count is uniform and the pattern is uniform given the count."""
 
 
-def draw_patterns(seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-    """Returns the glue patterns of some episodes, drawn from `PRIOR`: indices in `tower.PATTERNS`, int64 [N]."""
-    draws = seeding.uniforms(seeds, episodes, 2)
-    counts = 1 + (draws[:, 0] * tower.NUM_BLOCKS).astype(np.int64)
-    by_count = np.argsort(NUM_BODIES, kind="stable")
-    starts = np.concatenate([[0], np.cumsum(_PATTERNS_OF_COUNT)[:-1]])
-    return by_count[starts[counts - 1] + (draws[:, 1] * _PATTERNS_OF_COUNT[counts - 1]).astype(np.int64)]
-
-
 @functools.lru_cache(maxsize=32)
 def _composed(scene: str) -> dict[int, str]:
     """Returns the MJCF by structure, as far as this process has composed it in a scene, and can be added to."""
@@ -147,8 +138,12 @@ class Towers(contract.Task):
         )
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-        """Returns indices of glue patterns in `tower.PATTERNS`, int64 [N]."""
-        return draw_patterns(seeds, episodes)
+        """Returns the glue patterns of some episodes, drawn from `PRIOR`: indices in `tower.PATTERNS`, int64 [N]."""
+        draws = seeding.uniforms(seeds, episodes, 2)
+        counts = 1 + (draws[:, 0] * tower.NUM_BLOCKS).astype(np.int64)
+        by_count = np.argsort(NUM_BODIES, kind="stable")
+        starts = np.concatenate([[0], np.cumsum(_PATTERNS_OF_COUNT)[:-1]])
+        return by_count[starts[counts - 1] + (draws[:, 1] * _PATTERNS_OF_COUNT[counts - 1]).astype(np.int64)]
 
     def answers(self, hidden: np.ndarray) -> np.ndarray:
         return NUM_BODIES[hidden] - 1
