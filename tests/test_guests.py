@@ -1,6 +1,7 @@
 """The settings of a calling process stay as they are, and results do not depend on them."""
 
 import interpreters
+import pytest
 
 ODD = """
 import random, signal, warnings
@@ -61,7 +62,7 @@ for task in ("features", "pixels"):
     "load_pretrained": """
 from physexp import agents, suite
 from physexp.agents import environment_loop
-for learner in ("a3c", "belief"):
+for learner in ("belief",):
     environment = suite.load("towers", "fist_features", {"random": 0})
     actor = agents.load_pretrained("towers", "fist_features", agent=learner, seed=1)
     result.append(environment_loop.EnvironmentLoop(environment, actor).run(3))
@@ -69,7 +70,6 @@ for learner in ("a3c", "belief"):
     environment.close()
 """,
     "train": """
-from physexp.agents.a3c import config as a3c
 from physexp.agents.belief import config as belief
 from physexp.agents.ppo import config as ppo
 from physexp.analysis.training import playing
@@ -77,7 +77,6 @@ from physexp.analysis.training import config as config_lib, run as run_lib, trai
 agents = [
     ppo.PPOConfig(num_threads=1, num_environments=16, num_minibatches=2, frames=500),
     belief.BeliefConfig(frames_per_update=64, frames=500),
-    a3c.A3CConfig(num_workers=1, envs_per_worker=16, frames=500),
 ]
 if __name__ == "__main__":
     for agent in agents:
@@ -113,6 +112,7 @@ def run(start, folder):
     return found
 
 
+@pytest.mark.long
 def test_settings_stay_and_results_do_not_depend_on_them(tmp_path):
     usual, odd = run("", tmp_path / "usual"), run(ODD, tmp_path / "odd")
     for act in ACTS:

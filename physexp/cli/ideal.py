@@ -1,9 +1,7 @@
 """The command that prints what an ideal experimenter achieves."""
 
 from collections.abc import Iterator, Mapping, Sequence
-import contextlib
 import dataclasses
-import sys
 from typing import Any
 
 from physexp.analysis import domains
@@ -52,31 +50,16 @@ class Ideal:
         of_task = {name: value for name, value in self.task_kwargs.items() if name not in names}
         discount = domains.find(domain).discount if self.discount is None else self.discount
         solution = ideal(task, of_task, discount, **own)
-        with _waiting(f"searching for the ideal experimenter of {domain}/{task}"):
+        with printing.waiting(f"searching for the ideal experimenter of {domain}/{task}"):
             figures = solution.figures()
         if not self.json:
             printing.tell(*_earned(f"{domain}/{task}", discount, figures))
-        with _waiting("playing at random, for comparison"):
+        with printing.waiting("playing at random, for comparison"):
             summary = solution.summary()
         if self.json:
             printing.show(summary, as_json=True)
         else:
             printing.tell(*_compared(summary))
-
-
-@contextlib.contextmanager
-def _waiting(line: str) -> Iterator[None]:
-    """Returns a context that tells what is going on: with a clock on a terminal, elsewhere once if it takes long."""
-    if not sys.stderr.isatty():
-        with printing.warned_if_slow(f"{line}; that can take minutes"):
-            yield
-        return
-    from rich import console, progress
-
-    columns = progress.SpinnerColumn(), progress.TextColumn("{task.description}"), progress.TimeElapsedColumn()
-    with progress.Progress(*columns, console=console.Console(stderr=True), transient=True) as shown:
-        shown.add_task(line, total=None)
-        yield
 
 
 def _earned(name: str, discount: float, figures: Mapping[str, Any]) -> Iterator[str]:

@@ -30,9 +30,14 @@ def of_task(words: Sequence[str], more: Callable[[str], Sequence[type]] = lambda
     return Group("task_kwargs", names[0] if len(names) == 1 else "the domain", holders)
 
 
-def of_agent(words: Sequence[str]) -> Group:
-    """Returns the options of the domain of a trained agent; by default they are as the agent was trained."""
-    return of_task(words)._replace(default="the agent's")
+def task_groups(words: Sequence[str], agent: str | None = None) -> list[Group]:
+    """Returns the options of a command that begins with a task."""
+    return [of_task(words)]
+
+
+def agent_groups(words: Sequence[str], agent: str | None = None) -> list[Group]:
+    """Returns the options of a command that begins with a trained agent; by default they are the agent's."""
+    return [of_task(words)._replace(default="the agent's")]
 
 
 def task_of(words: Sequence[str]) -> tuple[str, str]:

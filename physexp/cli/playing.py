@@ -1,14 +1,13 @@
 """Commands that play episodes."""
 
-from collections.abc import Sequence
 import dataclasses
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from physexp.agents import config as agent_config
 from physexp.cli import options as options_lib
 from physexp.cli import printing
-from physexp.cli.arguments import AGENT, TASK, Group, option, word
+from physexp.cli.arguments import AGENT, TASK, option, word
 
 _INTERACTION = "learned, or random: interaction actions are replaced by uniformly drawn ones (paper, Section 5.3)"
 _SEED = "seed of the environments and actions; by default one that training never uses"
@@ -18,6 +17,8 @@ _SEED = "seed of the environments and actions; by default one that training neve
 class Evaluate:
     """Play episodes with a trained agent and measure how well it answers, beside the ideal experimenter."""
 
+    groups: ClassVar = staticmethod(options_lib.agent_groups)
+
     target: str = word("AGENT", AGENT)
     episodes: int = option(1000, "number of episodes")
     interaction: Literal["learned", "random"] = option("learned", _INTERACTION)
@@ -26,11 +27,6 @@ class Evaluate:
     seed: int | None = option(None, _SEED)
     json: bool = option(False, "print JSON")
     task_kwargs: dict[str, Any] = dataclasses.field(default_factory=dict)
-
-    @classmethod
-    def groups(cls, words: Sequence[str], agent: str | None) -> list[Group]:
-        """Returns the options that choose among the agents of a domain."""
-        return [options_lib.of_agent(words)]
 
     def run(self) -> None:
         """Plays and prints the statistics."""
@@ -45,7 +41,7 @@ class Evaluate:
         figures = played.summary(config.agent.discount)
         if not self.json:
             printing.show(figures, as_json=False)  # Before a search that may take minutes.
-        with printing.warned_if_slow(f"searching for the ideal experimenter of {config.task_name}"):
+        with printing.waiting(f"searching for the ideal experimenter of {config.task_name}"):
             best = playing.ideal_return(config)
         share = {} if best is None else {"ideal_return": best, "share_of_ideal": figures["mean_return"] / best}
         if self.json:
@@ -58,6 +54,8 @@ class Evaluate:
 class Replay:
     """Write episodes of a trained agent for the rerun viewer: the scene, observations, beliefs and actions."""
 
+    groups: ClassVar = staticmethod(options_lib.agent_groups)
+
     target: str = word("AGENT", AGENT)
     compare: str | None = option(None, "a second agent, shown beside the first on the same instances", "AGENT")
     episodes: int = option(4, "number of episodes")
@@ -68,11 +66,6 @@ class Replay:
     view: bool = option(False, "open the viewer afterwards")
     web: bool = option(False, "open the viewer in a browser afterwards")
     task_kwargs: dict[str, Any] = dataclasses.field(default_factory=dict)
-
-    @classmethod
-    def groups(cls, words: Sequence[str], agent: str | None) -> list[Group]:
-        """Returns the options that choose among the agents of a domain."""
-        return [options_lib.of_agent(words)]
 
     def run(self) -> None:
         """Plays, writes the file and opens the viewer if asked."""
@@ -98,15 +91,12 @@ class Play:
     Tasks with features need no OpenGL.
     """
 
+    groups: ClassVar = staticmethod(options_lib.task_groups)
+
     words: tuple[str, ...] = word("DOMAIN TASK", TASK, "+")
     seed: int | None = option(None, "seed of the environment; by default one from the operating system")
     view: bool = option(False, "show the scene in rerun's viewer as well; this needs a display")
     task_kwargs: dict[str, Any] = dataclasses.field(default_factory=dict)
-
-    @classmethod
-    def groups(cls, words: Sequence[str], agent: str | None) -> list[Group]:
-        """Returns the options of the domain."""
-        return [options_lib.of_task(words)]
 
     def run(self) -> None:
         """Plays until the player stops."""

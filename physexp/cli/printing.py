@@ -1,7 +1,7 @@
 """Prints the output of commands: figures, tables and lines, for people or as JSON.
 
-All text of a command passes through here, since any may come from the files of others: no control character and no
-escape sequence of theirs reaches a terminal.
+All text of a command passes through here, since it may come from the files of strangers: their control characters and
+escape sequences reach no terminal.
 """
 
 from collections.abc import Iterator
@@ -14,14 +14,14 @@ import threading
 
 from physexp.analysis.data import text
 
-_PATIENCE = 2.0  # Seconds that people wait before they wonder.
+_PATIENCE = 2.0  # Seconds after which people wonder whether anything happens.
 
 
 def prepare() -> None:
-    """Makes the standard streams take all that is printed.
+    """Prepares the standard streams.
 
-    A stream that the caller has closed goes nowhere: work is done all the same, and no file that is opened later takes
-    its number. Letters that standard output cannot encode, as in a Latin-1 terminal, are replaced.
+    A closed stream is replaced by /dev/null, so that the work is done and no file that is opened later takes its
+    number. Letters that standard output cannot encode, as in a Latin-1 terminal, are replaced.
     """
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:
@@ -38,9 +38,15 @@ def warn(*lines: str) -> None:
 
 
 @contextlib.contextmanager
-def warned_if_slow(line: str) -> Iterator[None]:
-    """Returns a context in which a line is printed to standard error if it takes more than moments."""
-    timer = threading.Timer(_PATIENCE, warn, [line])
+def waiting(line: str) -> Iterator[None]:
+    """Returns a context that shows a line on standard error: with a spinner on a terminal, elsewhere if it is slow."""
+    if sys.stderr.isatty():
+        from rich import console
+
+        with console.Console(stderr=True, markup=False).status(text.plain(line)):
+            yield
+        return
+    timer = threading.Timer(_PATIENCE, warn, [f"{line}; that can take minutes"])
     timer.start()
     try:
         yield

@@ -172,9 +172,8 @@ class Leaderboard:
         from physexp.analysis.score import leaderboard
         from physexp.analysis.training import progress
 
-        slowly = "playing the actions of rows again; that takes a minute a row, and once for each row that changes"
         count = len(leaderboard.folders(self.results_dir))
-        with printing.warned_if_slow(slowly), progress.bar("rows", count) as show:
+        with progress.bar("rows", count) as show:
             paths, refused = leaderboard.write(self.results_dir, show)
         printing.tell(*map(str, paths))
         if refused:
