@@ -8,8 +8,7 @@ def _hypotheses():
 
     from physexp.suite.domains import strike
 
-    number = len(strike.PUCKS)
-    return np.arange(number), np.full(number, 1 / number)
+    return np.arange(len(strike.PUCKS)), strike.PRIOR
 
 
 DOMAIN = base.search_domain(

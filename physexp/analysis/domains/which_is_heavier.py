@@ -34,7 +34,7 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks
 
     With noise, it is a policy that takes the noise into account. With variation, it is the policy without variation,
     which reads all heights as if the force were the usual one. The upper bound is the value without noise and
-    variation: once the force of all pokes is known, each poke tells a mass exactly.
+    variation: once the force of all pokes is known, each poke reveals a mass exactly.
     """
     from physexp import suite
     from physexp.analysis.ideal import bounds, calibration, noisy, odd_one_out

@@ -121,6 +121,6 @@ class Solution(abc.ABC):
 _Numbers = TypeVar("_Numbers", float, np.ndarray)
 
 
-def worth_of_answers(beliefs: _Numbers) -> _Numbers:
+def answer_values(beliefs: _Numbers) -> _Numbers:
     """Returns the values of answers that are right with these probabilities, a number or an array of any shape."""
     return rules.WRONG + (rules.RIGHT - rules.WRONG) * beliefs

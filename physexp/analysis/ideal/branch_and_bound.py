@@ -36,7 +36,7 @@ class Criterion:
         """Returns the value of an answer that is right with some probability."""
         if probability > 1 - PRECISION:
             return self.known
-        return base.worth_of_answers(probability) if self.guesses else -math.inf
+        return base.answer_values(probability) if self.guesses else -math.inf
 
     def act(self, value: float) -> float:
         """Returns the value of an interaction, given the expected value after it."""

@@ -89,7 +89,7 @@ class Player(core.EpisodicActor):
 
     def _choose(self, observation) -> int:
         beliefs, densities = self._posterior(self._logs[None])
-        answer, label = base.worth_of_answers(beliefs[0].max()), self._prior.num_things + int(beliefs[0].argmax())
+        answer, label = base.answer_values(beliefs[0].max()), self._prior.num_things + int(beliefs[0].argmax())
         left = self._exact.step_limit - self._num_touches
         last = self._exact.discount ** (left - 1) * answer  # Value of answering in the last step.
         if left == 1 or self._num_touches >= _MAX_TOUCHES:
@@ -131,4 +131,4 @@ class Player(core.EpisodicActor):
         logs = np.repeat(self._logs[None], _OUTCOMES, axis=0)
         logs[:, thing] += self._log_likelihoods(read[:, None], touched)
         beliefs, _ = self._posterior(logs)
-        return self._exact.discount * float(base.worth_of_answers(beliefs.max(1)).mean())
+        return self._exact.discount * float(base.answer_values(beliefs.max(1)).mean())

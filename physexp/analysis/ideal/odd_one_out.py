@@ -104,7 +104,7 @@ class Solution(base.Solution):
     @property
     def at_once(self) -> float:
         """Expected return of an answer without any touch."""
-        return base.worth_of_answers(1 / self.prior.num_things)
+        return base.answer_values(1 / self.prior.num_things)
 
     @property
     def random_value(self) -> float:
@@ -128,7 +128,7 @@ class Solution(base.Solution):
           Two float64 [N]; the value of a touch is -inf if all things are known.
         """
         beliefs, touch = self._beliefs_and_touch(known, left)
-        return base.worth_of_answers(beliefs.max(axis=1)), touch
+        return base.answer_values(beliefs.max(axis=1)), touch
 
     def _beliefs_and_touch(self, known: np.ndarray, left: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Returns the posterior, [N, K], and the value of one more touch of an unknown thing, [N]."""
@@ -149,7 +149,7 @@ class Solution(base.Solution):
         """Returns the best action, int64 [N]: the first unknown thing, or K plus the label; arguments of `values`."""
         beliefs, touch = self._beliefs_and_touch(known, left)
         label = self.prior.num_things + beliefs.argmax(axis=1)
-        return np.where(touch > base.worth_of_answers(beliefs.max(axis=1)), np.isnan(known).argmax(axis=1), label)
+        return np.where(touch > base.answer_values(beliefs.max(axis=1)), np.isnan(known).argmax(axis=1), label)
 
     def play(self, values: np.ndarray, read: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
         """Plays episodes without physics.
@@ -181,7 +181,9 @@ class Solution(base.Solution):
           ValueError: if the task observes images.
         """
         if self.find_read is None:
-            raise ValueError("the ideal experimenter reads values from features, not from images; choose such a task")
+            raise ValueError(
+                "the ideal experimenter reads values from features, not from images; choose a task with features"
+            )
         return _Player(self, self.find_read())
 
     def judge(self, episode: base.Episode) -> base.Judgement:
@@ -209,10 +211,10 @@ class Solution(base.Solution):
         left = np.maximum(self.step_limit - steps, 1)
         beliefs, touch = self._beliefs_and_touch(known, left)
         _, next_touch = self._beliefs_and_touch(known, np.maximum(left - 1, 1))
-        again = self.discount * np.maximum(base.worth_of_answers(beliefs.max(axis=1)), next_touch)
+        again = self.discount * np.maximum(base.answer_values(beliefs.max(axis=1)), next_touch)
         touches = np.where(is_known, again[:, None], touch[:, None])
         touches[left == 1] = rules.WRONG  # The episode ends unanswered.
-        values_of_actions = np.concatenate([touches, base.worth_of_answers(beliefs)], axis=1)
+        values_of_actions = np.concatenate([touches, base.answer_values(beliefs)], axis=1)
         is_informative = np.append(~is_known, np.zeros_like(is_known), axis=1)[np.arange(len(rows)), taken]
         parts = [slice(start, end) for start, end in zip(ends - lengths, ends, strict=True)]
         return [base.Judgement(beliefs[p], values_of_actions[p][:-1], is_informative[p][:-1]) for p in parts]
@@ -272,10 +274,10 @@ def _touch(
     if again and left == math.inf:  # Known things may be touched any number of times before an unknown one.
         values /= 1 - discount * again
     elif again:
-        worth = _worth_of_answer(num_things - known, largest, ratio, prior)
+        value = _answer_value(num_things - known, largest, ratio, prior)
         if left > 2:
-            worth = np.maximum(worth, _touch(prior, discount, known, left - 1, True)(_points(largest, ratio)))
-        values += discount * again * worth
+            value = np.maximum(value, _touch(prior, discount, known, left - 1, True)(_points(largest, ratio)))
+        values += discount * again * value
     if not known:
         return lambda points: np.full(len(points), values[0])
     shape = [len(axis) for axis in axes]
@@ -320,12 +322,12 @@ def _expected(known, largest, ratio, prior, after) -> np.ndarray:
         for start, width in ((np.zeros_like(below), below), (below, 1 - below)):
             levels = start[:, None] + width[:, None] * nodes
             value = quantile(levels.clip(1e-300, 1 - 1e-16))
-            worth = _worth_after(known, unknown, largest[:, None], ratio[:, None], value, prior, after)
-            total += chance * width * (worth @ weights)
+            worths = _value_after(known, unknown, largest[:, None], ratio[:, None], value, prior, after)
+            total += chance * width * (worths @ weights)
     return total
 
 
-def _worth_after(known, unknown, largest, ratio, value, prior, after) -> np.ndarray:
+def _value_after(known, unknown, largest, ratio, value, prior, after) -> np.ndarray:
     """Returns the values of states after one more thing turned out to have a value; arrays [N, 1] and [N, Q]."""
     value = value.clip(1e-300, 1 - 1e-16)
     if known:
@@ -334,15 +336,15 @@ def _worth_after(known, unknown, largest, ratio, value, prior, after) -> np.ndar
         largest = np.maximum(largest, value)
     else:
         largest, ratio = value, np.ones_like(value)
-    answer = _worth_of_answer(unknown - 1, largest, ratio, prior)
+    answer = _answer_value(unknown - 1, largest, ratio, prior)
     return answer if after is None else np.maximum(answer, after(_points(largest, ratio)))
 
 
-def _worth_of_answer(unknown: int, largest, ratio, prior) -> np.ndarray:
+def _answer_value(unknown: int, largest, ratio, prior) -> np.ndarray:
     """Returns the values of the best answers in states with `unknown` unknown things, at least one."""
     log_weight = prior.log_ratio(largest) + np.log(ratio)
     chance = _largest_is_touched(np.full(largest.shape, unknown), largest, log_weight, prior)
-    return base.worth_of_answers(np.maximum(chance, (1 - chance) / unknown))
+    return base.answer_values(np.maximum(chance, (1 - chance) / unknown))
 
 
 def _points(largest, ratio) -> np.ndarray:

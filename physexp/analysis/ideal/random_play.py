@@ -49,7 +49,7 @@ class _Belief:
 
     def prophet_return(self, discount: float) -> float:
         """Returns the best return if the interactions to come are known, times the probability."""
-        answer = self.probability * base.worth_of_answers(self.max_probability)
+        answer = self.probability * base.answer_values(self.max_probability)
         if not self.parts:
             return answer
         return max(answer, discount * sum(part.prophet_return(discount) for part in self.parts))
@@ -57,7 +57,7 @@ class _Belief:
     def return_at(self, discount: float, confidence: float) -> float:
         """Returns the return of answering once the likeliest label reaches a confidence, times the probability."""
         if self.max_probability >= confidence or not self.parts:
-            return self.probability * base.worth_of_answers(self.max_probability)
+            return self.probability * base.answer_values(self.max_probability)
         return discount * sum(part.return_at(discount, confidence) for part in self.parts)
 
     def all(self) -> Iterator["_Belief"]:
@@ -87,7 +87,7 @@ def bounds(histories: histories_lib.Histories, discount: float) -> Bounds:
     levels = sorted({round(belief.max_probability, 6) for root in trials for belief in root.all()})
     confidence = max(levels, key=functools.partial(mean_return, trials))
     return Bounds(
-        at_once=base.worth_of_answers(roots[0].max_probability),
+        at_once=base.answer_values(roots[0].max_probability),
         random_value=mean_return(roots, confidence),
         random_bound=float(np.mean([root.prophet_return(discount) for root in roots])),
     )

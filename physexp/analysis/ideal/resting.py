@@ -113,7 +113,7 @@ class _States:
         self._moves, self._chances, self._following = (np.array(column) for column in zip(*outcomes, strict=True))
         self._first = np.searchsorted(self._moves, np.arange(len(states) + 1) * apparatus.num_interactions)
         self.label = np.argmax(chances, axis=1)
-        self.answer = base.worth_of_answers(np.max(chances, axis=1))
+        self.answer = base.answer_values(np.max(chances, axis=1))
 
     def after(self, values: np.ndarray) -> np.ndarray:
         """Returns the expected value after each interaction, [S, A], from the values of the states, [S]."""
@@ -209,7 +209,7 @@ class Solution(base.Solution):
 
     def values(self, state: State, step: int) -> np.ndarray:
         """Returns the value of each action in a state after `step` interactions, interactions first, [A + L]."""
-        answers = base.worth_of_answers(self.apparatus.posterior(state))
+        answers = base.answer_values(self.apparatus.posterior(state))
         left = min(self.step_limit - step, len(self._best) + 1)
         if left <= 1:  # The episode ends unanswered.
             return np.append(np.full(self.apparatus.num_interactions, float(rules.WRONG)), answers)

@@ -32,7 +32,7 @@ class Solution(base.Solution):
         values = np.empty((len(episode.actions), num_actions))
         values[:, :num_interactions] = self.discount * rules.RIGHT
         values[self._task.rules.step_limit - 1 :, :num_interactions] = rules.WRONG  # The episode ends unanswered.
-        values[:, num_interactions:] = base.worth_of_answers(belief)
+        values[:, num_interactions:] = base.answer_values(belief)
         beliefs = np.repeat(belief[None], len(episode.actions) + 1, axis=0)
         return base.Judgement(beliefs, values, np.zeros(len(episode.actions), bool))
 

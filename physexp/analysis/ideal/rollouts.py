@@ -1,4 +1,4 @@
-"""Plays episodes with many single actors side by side, such as those of ideal experimenters."""
+"""Plays episodes with many single actors side by side, for example ideal experimenters."""
 
 from collections.abc import Iterator, Mapping, Sequence
 import dataclasses

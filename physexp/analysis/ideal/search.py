@@ -145,7 +145,7 @@ class Solution(base.Solution):
             left = self.hypotheses.task.rules.step_limit - step
             beliefs.append(self.histories.probabilities(support))
             interactions = self._interaction_values(history, support, left, action)
-            values.append(np.concatenate([interactions, base.worth_of_answers(beliefs[-1])]))
+            values.append(np.concatenate([interactions, base.answer_values(beliefs[-1])]))
             partition: histories_lib.Partition = [(1.0, support)]
             if action < num_interactions:
                 partition, history = self._judging.histories.successor(history, support, action)
