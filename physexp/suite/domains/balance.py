@@ -2,6 +2,7 @@
 
 import dataclasses
 
+from dm_control import mjcf
 import numpy as np
 
 from physexp import checks
@@ -73,6 +74,23 @@ def _tilt(angles: np.ndarray) -> np.ndarray:
     return (angles > _READ).astype(float) - (angles < -_READ)
 
 
+def _add_beam(room: arena.Laboratory) -> mjcf.Element:
+    """Adds the beam of the balance and returns its hinge."""
+    beam = room.mjcf_model.worldbody.add("body", name="beam", pos=[0, 0, 0.2])
+    beam.add("geom", name="beam", type="box", size=[ARM, 0.005, 0.005], mass=_BEAM_MASS, group=rendering.UNDRAWN_GROUP)
+    return beam.add(
+        "joint",
+        name="hinge",
+        type="hinge",
+        axis=[0, 1, 0],
+        limited=True,
+        range=[-STOP, STOP],
+        stiffness=_STIFFNESS,
+        damping=_DAMPING,
+        **_STOPPING,
+    )
+
+
 class Balance(contract.Task):
     """Six blocks beside a balance, which tells which of its pans is heavier."""
 
@@ -82,22 +100,7 @@ class Balance(contract.Task):
     def build(self) -> contract.Scene:
         room = arena.Laboratory(**_ROOM)
         room.mjcf_model.option.flag.contact = "disable"
-        world = room.mjcf_model.worldbody
-        beam = world.add("body", name="beam", pos=[0, 0, 0.2])
-        beam.add(
-            "geom", name="beam", type="box", size=[ARM, 0.005, 0.005], mass=_BEAM_MASS, group=rendering.UNDRAWN_GROUP
-        )
-        hinge = beam.add(
-            "joint",
-            name="hinge",
-            type="hinge",
-            axis=[0, 1, 0],
-            limited=True,
-            range=[-STOP, STOP],
-            stiffness=_STIFFNESS,
-            damping=_DAMPING,
-            **_STOPPING,
-        )
+        hinge = _add_beam(room)
         for side, sign in SIDES.items():
             room.add_scenery(f"{side}_pan", _PAN_HALF_SIZE, [sign * _REACH, 0, _PAN_HALF_SIZE[2]], _PAN_RGBA)
         blocks, loads = [], []
