@@ -60,8 +60,8 @@ class A3C(core.Agent):
 
     def updates(self, poll_seconds: float = 0.5) -> Generator[core.Update | None, None, None]:
         """Yields each update; when a worker dies, raises WorkerError and ends the others."""
-        self._start()
         try:
+            self._start()
             while self._workers:
                 self._receive(poll_seconds)
                 if self._is_stopping:
