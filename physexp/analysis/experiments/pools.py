@@ -4,8 +4,9 @@ from collections.abc import Mapping
 from concurrent import futures
 from concurrent.futures import process
 import contextlib
-import multiprocessing
+from multiprocessing import context
 import signal
+from typing import Any
 
 from physexp.agents import processes
 from physexp.analysis.experiments import base, sweep
@@ -17,16 +18,15 @@ class Processes:
     def __init__(self, num_processes: int):
         """Prepares to do so many jobs at a time."""
         self._threads = futures.ThreadPoolExecutor(num_processes)
-        self._context = processes.spawning()
+        self._context = _Context()
         self._is_stopping = False
-        self._asked: set[int | None] = set()
 
     def __enter__(self) -> "Processes":
         return self
 
     def __exit__(self, *_: object) -> None:
         self._is_stopping = True
-        for child in multiprocessing.active_children():  # Of a sweep that ends in order there are none.
+        for child in self._context.living():  # There are none after a sweep that ends in order.
             child.kill()
         self._threads.shutdown(cancel_futures=True)
 
@@ -37,9 +37,9 @@ class Processes:
     def stop(self) -> None:
         """Asks all jobs to write a checkpoint and to end; may be called by a signal's handler."""
         self._is_stopping = True
-        for child in multiprocessing.active_children():
-            if child.pid not in self._asked:  # A second request would end it at once.
-                self._asked.add(child.pid)
+        for child in self._context.living():
+            if child not in self._context.asked:  # A second request would end it at once.
+                self._context.asked.append(child)
                 child.terminate()
 
     def _work(self, job: sweep.Job, results: base.Results) -> Mapping[str, bytes]:
@@ -52,6 +52,23 @@ class Processes:
                 return future.result()
             except process.BrokenProcessPool:
                 raise RuntimeError("its process was killed; run the sweep again to go on from its checkpoint") from None
+
+
+class _Context(context.SpawnContext):
+    """Spawns processes and remembers them, since the caller may have other children."""
+
+    def __init__(self) -> None:
+        self.children: list[context.SpawnProcess] = []
+        self.asked: list[context.SpawnProcess] = []
+
+    def Process(self, *args: Any, **kwargs: Any) -> context.SpawnProcess:  # type: ignore[override]
+        """Returns a new process, as `multiprocessing` asks for it."""
+        self.children.append(context.SpawnProcess(*args, **kwargs))
+        return self.children[-1]
+
+    def living(self) -> list[context.SpawnProcess]:
+        """Returns the processes that have been started and have not ended."""
+        return [child for child in self.children if child.pid is not None and child.is_alive()]
 
 
 def _begin() -> None:
