@@ -114,12 +114,12 @@ def test_an_agent_is_replaced_only_on_request(published, tmp_path):
 
 
 @pytest.mark.parametrize("worst", [math.nan, 65_520.0])
-def test_weights_that_are_not_finite_are_refused_by_their_file(worst, published, tmp_path):
+def test_weights_that_are_not_finite_are_refused(worst, published, tmp_path):
     run = trainers.copy_of(published[0], tmp_path / "run")
     tensors, facts = run.checkpointer.latest()
     tensors["network/policy.bias"][0] = worst
-    path = run.checkpointer.save(tensors, facts)
-    where = str(path) if math.isnan(worst) else "weights are not finite in half precision"
+    run.checkpointer.save(tensors, facts)
+    where = f"{run.path}/checkpoints" if math.isnan(worst) else "weights are not finite in half precision"
     with pytest.raises(ValueError, match=f"^{where}.*policy.bias"):
         publishing.publish(run, tmp_path / "agents", num_episodes=1)
     assert not (tmp_path / "agents").exists()
