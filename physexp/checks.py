@@ -10,9 +10,8 @@ A dataclass declares an option with its default, its check and its help text in 
             checks.check_fields(self)
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 import dataclasses
-import functools
 import math
 import numbers
 import sys
@@ -58,45 +57,7 @@ def _declared(kind: type) -> dict[str, Mapping[str, Any]]:
     return found
 
 
-# Makers of checks.
-
-
-def at_least(minimum: float, unit: str = "") -> Check:
-    """Returns a check for finite numbers from a minimum up."""
-    return functools.partial(number, minimum=minimum, unit=unit)
-
-
-def above(minimum: float, unit: str = "") -> Check:
-    """Returns a check for finite numbers above a minimum."""
-    return functools.partial(number, minimum=minimum, unit=unit, strictly=True)
-
-
-def within(minimum: float, maximum: float, unit: str = "", without: float | None = None) -> Check:
-    """Returns a check for numbers from a minimum to a maximum, of which one may be excluded."""
-    return functools.partial(between, minimum=minimum, maximum=maximum, unit=unit, without=without)
-
-
-def whole(minimum: int, maximum: int = LARGEST) -> Check:
-    """Returns a check for integers from a minimum to a maximum."""
-    return functools.partial(integer, minimum=minimum, maximum=maximum)
-
-
-def among(*choices: float) -> Check:
-    """Returns a check for a number that is one of two or more."""
-    return functools.partial(one_of, choices=choices)
-
-
-def word(*choices: str) -> Check:
-    """Returns a check for one of some words."""
-    return functools.partial(one_word, choices=choices)
-
-
-def optional(check: Check) -> Check:
-    """Returns a check that accepts None as well."""
-    return lambda name, value: None if value is None else check(name, value)
-
-
-# Checks.
+# Values in messages.
 
 
 def shown(value: Any) -> str:
@@ -108,104 +69,115 @@ def shown(value: Any) -> str:
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
 
 
+# Kinds of values, Python's or NumPy's.
+
+
 def is_integer(value: Any) -> TypeGuard[int]:
-    """Whether a value is an integer, Python's or NumPy's; booleans and time differences are not."""
+    """Whether a value is an integer; booleans and time differences are not."""
     return isinstance(value, numbers.Integral) and hasattr(value, "__index__") and not isinstance(value, bool)
 
 
 def is_float(value: Any) -> bool:
-    """Whether a value is a floating-point number, Python's or NumPy's."""
+    """Whether a value is a floating-point number."""
     return isinstance(value, numbers.Real) and not isinstance(value, numbers.Rational)
 
 
 def is_flag(value: Any) -> bool:
-    """Whether a value is a boolean, Python's or NumPy's."""
+    """Whether a value is a boolean."""
     return type(value).__name__ == "bool"
 
 
 def is_number(value: Any) -> TypeGuard[float]:
-    """Whether a value is a number that a float can hold, Python's or NumPy's."""
+    """Whether a value is a number that a float can hold."""
     if is_integer(value):
         return abs(value) <= sys.float_info.max
     return is_float(value) and math.isfinite(value)
 
 
-def integer(name: str, value: Any, minimum: int, maximum: int = LARGEST) -> int:
-    """Returns `value` as an int.
+# Checks, and makers of checks. A check raises ValueError for a value that is not allowed.
 
-    Raises:
-      ValueError: if it is not an integer from `minimum` to `maximum`.
-    """
+
+def flag(name: str, value: Any) -> bool:
+    """Returns a boolean as a bool."""
+    if is_flag(value):
+        return bool(value)
+    raise ValueError(f"{name} is {shown(value)}; give True or False")
+
+
+def integer(name: str, value: Any, minimum: int, maximum: int = LARGEST) -> int:
+    """Returns an integer from `minimum` to `maximum` as an int."""
     if is_integer(value) and minimum <= value <= maximum:
         return int(value)
     most = f"<= {maximum}" if maximum < 2**32 else f"< 2**{maximum.bit_length()}"
     raise ValueError(f"{name} is {shown(value)}; give an integer >= {minimum} and {most}")
 
 
-def number(name: str, value: Any, minimum: float, unit: str = "", strictly: bool = False) -> float:
-    """Returns `value` as a float.
-
-    Raises:
-      ValueError: if it is not a finite number of at least (strictly: above) `minimum`.
-    """
-    if is_number(value) and value >= minimum and not (strictly and value == minimum):
-        return float(value)
-    sign, unit = ">" if strictly else ">=", unit and f" ({unit})"
-    raise ValueError(f"{name} is {shown(value)}; give a finite number {sign} {minimum}{unit}")
+def whole(minimum: int, maximum: int = LARGEST) -> Check:
+    """Returns a check for integers from a minimum to a maximum."""
+    return lambda name, value: integer(name, value, minimum, maximum)
 
 
-def between(
-    name: str, value: Any, minimum: float, maximum: float, unit: str = "", without: float | None = None
-) -> float:
-    """Returns `value` as a float.
+def at_least(minimum: float, unit: str = "", strictly: bool = False) -> Check:
+    """Returns a check for finite numbers from a minimum up, or strictly above it."""
+    allowed = f"{'>' if strictly else '>='} {minimum}" + (f" ({unit})" if unit else "")
 
-    Raises:
-      ValueError: if it is not a number from `minimum` to `maximum`, or if it is the number `without`.
-    """
-    if is_number(value) and minimum <= value <= maximum and value != without:
-        return float(value)
+    def check(name: str, value: Any) -> float:
+        if is_number(value) and value >= minimum and not (strictly and value == minimum):
+            return float(value)
+        raise ValueError(f"{name} is {shown(value)}; give a finite number {allowed}")
+
+    return check
+
+
+def above(minimum: float, unit: str = "") -> Check:
+    """Returns a check for finite numbers above a minimum."""
+    return at_least(minimum, unit, strictly=True)
+
+
+def within(minimum: float, maximum: float, unit: str = "", without: float | None = None) -> Check:
+    """Returns a check for numbers from a minimum to a maximum, of which one may be excluded."""
     allowed = f"{minimum:g} to {f'{maximum:g} {unit}'.strip()}" + ("" if without is None else f" but not {without:g}")
-    raise ValueError(f"{name} is {shown(value)}; give a number from {allowed}")
+
+    def check(name: str, value: Any) -> float:
+        if is_number(value) and minimum <= value <= maximum and value != without:
+            return float(value)
+        raise ValueError(f"{name} is {shown(value)}; give a number from {allowed}")
+
+    return check
 
 
-def discount(name: str, value: Any) -> float:
-    """Returns a discount factor as a float.
-
-    Raises:
-      ValueError: if it is not a number above 0 and at most 1.
-    """
-    return between(name, value, 0, 1, without=0)
+def between(name: str, value: Any, minimum: float, maximum: float, unit: str = "", without: Any = None) -> float:
+    """Returns a number within bounds as a float."""
+    return float(within(minimum, maximum, unit, without)(name, value))
 
 
-def one_of(name: str, value: Any, choices: Sequence[float]) -> float:
-    """Returns `value` as a float.
-
-    Raises:
-      ValueError: if it is not one of the choices, two or more numbers.
-    """
-    if is_number(value) and value in choices:
-        return float(value)
-    *others, last = (f"{choice:g}" for choice in choices)
-    raise ValueError(f"{name} is {shown(value)}; give {', '.join(others)} or {last}")
+discount = within(0, 1, without=0)
+"""The check of a discount factor."""
 
 
-def one_word(name: str, value: Any, choices: Sequence[str]) -> str:
-    """Returns `value`.
+def among(*choices: float) -> Check:
+    """Returns a check for a number that is one of two or more."""
 
-    Raises:
-      ValueError: if it is not one of the choices.
-    """
-    if isinstance(value, str) and value in choices:
-        return value
-    raise ValueError(f"{name} is {shown(value)}; choose from {', '.join(choices)}")
+    def check(name: str, value: Any) -> float:
+        if is_number(value) and value in choices:
+            return float(value)
+        *others, last = (f"{choice:g}" for choice in choices)
+        raise ValueError(f"{name} is {shown(value)}; give {', '.join(others)} or {last}")
+
+    return check
 
 
-def flag(name: str, value: Any) -> bool:
-    """Returns `value` as a bool.
+def word(*choices: str) -> Check:
+    """Returns a check for one of some words."""
 
-    Raises:
-      ValueError: if it is not a boolean, Python's or NumPy's.
-    """
-    if is_flag(value):
-        return bool(value)
-    raise ValueError(f"{name} is {shown(value)}; give True or False")
+    def check(name: str, value: Any) -> str:
+        if isinstance(value, str) and value in choices:
+            return value
+        raise ValueError(f"{name} is {shown(value)}; choose from {', '.join(choices)}")
+
+    return check
+
+
+def optional(check: Check) -> Check:
+    """Returns a check that accepts None as well."""
+    return lambda name, value: None if value is None else check(name, value)
