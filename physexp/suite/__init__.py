@@ -81,7 +81,8 @@ def load(
       task_name: one of `TASKS_BY_DOMAIN[domain_name]`.
       task_kwargs: `random` (a seed or a RandomState), `control_timestep` (s), `time_limit` (s), and the domain's own:
         the fields of `options(domain_name)`.
-      environment_kwargs: `raise_exception_on_physics_error`, and `flat_observation`: one vector, `observations`.
+      environment_kwargs: `raise_exception_on_physics_error`, if the simulation diverges, instead of ending the episode;
+        and `flat_observation`: one vector, `observations`, of all arrays sorted by name, as in dm_control.
       visualize_reward: colour the floor by the outcome at the end of an episode.
 
     Raises:
@@ -106,8 +107,8 @@ def load_batch(
 
     Args:
       domain_name, task_name, task_kwargs: as for `load`.
-      num_environments: number of environments.
-      num_threads: threads that simulate.
+      num_environments: number of environments, from 1 to 65,536.
+      num_threads: threads that simulate, from 1 to 1,024.
 
     Raises:
       ValueError: for an unknown name or a bad argument.

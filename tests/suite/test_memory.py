@@ -27,7 +27,7 @@ def _assert_memory_is_flat(reset, num_resets: int, num_warm_up: int) -> None:
 @every_feature_task
 def test_resets_of_one_environment_leave_memory_as_it_is(seed, domain_name, task_name):
     env = suite.load(domain_name, task_name, {"random": seed})
-    is_one = env.task.num_structures == 1
+    is_one = env.task.scene.num_structures == 1
     # Meanwhile the sixteen towers are compiled: each comes up with a probability of 1/30 at least.
     _assert_memory_is_flat(env.reset, NUM_RESETS if is_one else NUM_CHANGES, num_warm_up=100 if is_one else 400)
 
@@ -35,4 +35,4 @@ def test_resets_of_one_environment_leave_memory_as_it_is(seed, domain_name, task
 @every_feature_task
 def test_resets_of_a_batch_leave_memory_as_it_is(seed, domain_name, task_name):
     batch = suite.load_batch(domain_name, task_name, 4, {"random": seed})
-    _assert_memory_is_flat(batch.reset, NUM_RESETS, num_warm_up=100 if batch.task.num_structures == 1 else 300)
+    _assert_memory_is_flat(batch.reset, NUM_RESETS, num_warm_up=100 if batch.task.scene.num_structures == 1 else 300)

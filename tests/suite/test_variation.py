@@ -96,7 +96,7 @@ def test_a_varied_tower_stands_still_until_it_is_touched(seed, task_name):
     """The contacts of a turned tower differ; they settle by less than the touch tolerance."""
     rng = np.random.default_rng(seed)
     task = suite.load_task("towers", task_name)
-    for structure in range(task.num_structures):
+    for structure in range(task.scene.num_structures):
         kit, model, found = _varied(task_name, rng.choice([-1.0, 1.0], size=task.num_nuisances), structure)
         data = mujoco.MjData(model)
         addresses, values = found.qpos
@@ -110,7 +110,7 @@ def test_a_varied_tower_stands_still_until_it_is_touched(seed, task_name):
 
 def test_a_tower_is_turned_as_a_whole():
     task = suite.load_task("towers", "direct_features")
-    for structure in range(task.num_structures):
+    for structure in range(task.scene.num_structures):
         kit = task.build_apparatus(structure)
         starts = kit.starts(task.circumstances(kit, np.array([[1, -1, 1, 0, 0, 0, 0, 0, 0, 0, 0]], float)), 1)
         cubes = kit.held[0].shows["geom_xmat"]

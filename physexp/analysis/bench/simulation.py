@@ -23,7 +23,7 @@ _BATCH_OF_OTHERS = (6, 15, 0.85)  # Lower limits: a loop, composer that recompil
 def resets() -> Iterator[dict]:
     """Measures the duration of a reset, and of loading the first and further batches of many models."""
     for name, task in FEATURES.items():
-        if suite.load_task(*task).num_structures > 1:
+        if suite.load_task(*task).scene.num_structures > 1:
             first, *more = (_begin_batch(task) for _ in range(1 + measuring.REPETITIONS))
             further = statistics.median(more)
             figure = f"first / further batch of {BATCH}: {name}"

@@ -125,7 +125,7 @@ def _rules(environment: suite.Environment) -> str:
         [
             task.question,
             "",
-            terminal.legend(environment.observation_spec(), task.all_readings),
+            terminal.legend(environment.observation_spec(), task.observer.readings),
             "",
             f"The right answer is worth 1, a wrong one or none in {task.rules.step_limit} steps -1. Each interaction",
             f"before it multiplies that by {task.discount:g}. Type a number:",
@@ -144,7 +144,7 @@ def _play_episode(environment: suite.Environment, rules: str, observers, read, s
     for observer in observers:
         observer.observe_first(environment, timestep)
     while not timestep.last():
-        show(terminal.drawing(timestep.observation, environment.task.all_readings, *shutil.get_terminal_size()))
+        show(terminal.drawing(timestep.observation, environment.task.observer.readings, *shutil.get_terminal_size()))
         action = _ask(environment, rules, read, show)
         if action is None:
             return None

@@ -83,7 +83,7 @@ def _world(episode: recording.Episode, root: str, title: str, overrides: Any) ->
 
 def _images(episode: recording.Episode) -> list[str]:
     """Returns the names of the observations that are images."""
-    return [name for name in episode.observations if name not in episode.declared.all_readings]
+    return [name for name in episode.observations if name not in episode.declared.observer.readings]
 
 
 def _covers(episode: recording.Episode) -> list[str]:
@@ -117,7 +117,7 @@ def _about(root: str) -> rrb.Container:
 
 def _readings(episode: recording.Episode, root: str) -> list[rrb.View | rrb.Container]:
     """Returns plots of the readings, in tabs if there are several."""
-    curves, seen = functools.partial(_curves, episode, root), readings.shown(episode.declared.all_readings)
+    curves, seen = functools.partial(_curves, episode, root), readings.shown(episode.declared.observer.readings)
     seen = [reading for reading in seen if reading.name in episode.observations]
     views: list[rrb.View | rrb.Container] = []
     if any(reading.is_position for reading in seen):

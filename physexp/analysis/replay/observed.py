@@ -87,7 +87,7 @@ def _indicate(
 ) -> None:
     """Writes the positions of indicators, and whether their readings are observed."""
     start = task.apparatus.start.shown
-    for indicator in task.indicators:
+    for indicator in task.scene.indicators:
         geom, name = task.apparatus.model.geom(indicator.geom.full_identifier).id, indicator.reading
         positions[:, geom] = start["geom_xpos"][0, geom]
         are_placed[geom] = name in shown

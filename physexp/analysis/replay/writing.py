@@ -257,11 +257,11 @@ class EpisodeWriter:
 
     def _write_seen(self) -> None:
         observations = self._episode.observations
-        for name in observations.keys() - self._task.all_readings.keys():
+        for name in observations.keys() - self._task.observer.readings.keys():
             for time, image in zip(self._step_times, observations[name], strict=True):
                 self._log(f"seen/{name}", rr.Image(image), time)
         moved: dict[str, np.ndarray] = {}
-        for reading in readings.shown(self._task.all_readings):
+        for reading in readings.shown(self._task.observer.readings):
             if reading.name not in observations:
                 continue
             values = reading.values(observations[reading.name])

@@ -29,16 +29,7 @@ class BatchEnvironment:
     """
 
     def __init__(self, task: contract.Task, num_environments: int, num_threads: int = 1):
-        """Builds the environments of a task.
-
-        Args:
-          task: the task; its seed is the batch's.
-          num_environments: number of environments, from 1 to 65,536.
-          num_threads: threads that simulate, from 1 to 1,024.
-
-        Raises:
-          ValueError: if one of the numbers is out of range.
-        """
+        """Builds the environments of a task, whose seed is the batch's; numbers as for `suite.load_batch`."""
         self.num_environments = checks.integer("num_environments", num_environments, 1, MOST_ENVIRONMENTS)
         num_threads = checks.integer("num_threads", num_threads, 1, 1_024)
         self._guard = guard.Guard("batch", num_threads)
@@ -80,7 +71,6 @@ class BatchEnvironment:
 
     @property
     def num_interactions(self) -> int:
-        """How many actions are interactions; they come first, labels after them."""
         return self.task.num_interactions
 
     @property
@@ -124,9 +114,8 @@ class BatchEnvironment:
           nuisances: their random variation, [N, number of nuisances] in [-1, 1], for analysis; drawn by default.
 
         Raises:
-          ValueError: for indices out of range, or if `hidden` or `nuisances` do not have the shape, the type and the
-            range of drawn values; all episodes stay as they were.
-          RuntimeError: if the batch is closed, or another thread is using it.
+          ValueError: for indices out of range, or for values without the shape, the type and the range of drawn ones;
+            all episodes stay as they were.
         """
         with self.in_use(environments) as chosen:
             if episode is not None:
@@ -146,7 +135,6 @@ class BatchEnvironment:
 
         Raises:
           ValueError: if an action is not one of the action spec's; nothing has moved then.
-          RuntimeError: if the batch is closed, or another thread is using it.
         """
         with self.in_use(environments) as chosen:
             return self._step(chosen, actions)
@@ -172,12 +160,7 @@ class BatchEnvironment:
         return self._time_step(chosen, step_types, all_rewards, np.where(step_types == _LAST, 0.0, 1.0))
 
     def render(self, size: int = rendering.SIZE_FOR_PEOPLE) -> np.ndarray:
-        """Returns images for people of all environments, uint8 [B, size, size, 3].
-
-        Raises:
-          ValueError: if `size` is not a number of pixels that can be drawn.
-          RuntimeError: if no episode has begun, the batch is closed or used by another thread, or no GL backend works.
-        """
+        """Returns images for people of all environments, uint8 [B, size, size, 3]; RuntimeError if no GL works."""
         checks.integer("size", size, 1, rendering.LARGEST)
         with self.in_use() as chosen:
             if not self._ledger.has_begun:

@@ -141,32 +141,18 @@ class Task(abc.ABC):
 
     @property
     def interactions(self) -> Sequence[declarations.Interaction]:
-        """The interaction actions."""
         return self.scene.interactions
 
     @property
     def label_names(self) -> Sequence[str]:
-        """The answers, in words."""
         return self.scene.label_names
 
     @property
     def readings(self) -> Mapping[str, declarations.Reading]:
-        """The features, by name."""
         return self.scene.readings
 
     @property
-    def all_readings(self) -> Mapping[str, declarations.Reading]:
-        """The features, by name, and the right answer where it is revealed."""
-        return self.observer.readings
-
-    @property
-    def indicators(self) -> Sequence[declarations.Indicator]:
-        """Geoms that show readings in images."""
-        return self.scene.indicators
-
-    @property
     def root_entity(self) -> composer.Arena:
-        """The arena."""
         return self.scene.arena
 
     @property
@@ -176,18 +162,12 @@ class Task(abc.ABC):
         return given if given is not None else 3 * self.sense.needs_gl
 
     @property
-    def num_structures(self) -> int:
-        """Number of compiled models that the hidden property chooses from."""
-        return self.scene.num_structures
-
-    @property
     def num_interactions(self) -> int:
         """Number of interaction actions; they come first."""
         return self.rules.num_interactions
 
     @property
     def num_labels(self) -> int:
-        """Number of labeling actions."""
         return len(self.label_names)
 
     @property
@@ -206,7 +186,6 @@ class Task(abc.ABC):
         self.options = dataclasses.replace(self.options, random=random)
 
     def action_spec(self) -> specs.DiscreteArray:
-        """Returns the spec of an action."""
         return specs.DiscreteArray(self.rules.num_actions, dtype=np.int32, name="action")
 
     def observation_spec(self) -> dict[str, specs.Array]:
@@ -233,15 +212,9 @@ class Task(abc.ABC):
     def begin(
         self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray, nuisances: np.ndarray
     ) -> tuple[list[tuple[str, np.ndarray, np.ndarray]], apparatus_lib.Starts]:
-        """Returns the model fields and the initial states of a batch of episodes.
+        """Returns what N episodes start with: model fields, their addresses, int [M], and values, [N, M]; and states.
 
-        Args:
-          apparatus: the compiled model that is simulated.
-          hidden: the hidden properties, [N, ...].
-          nuisances: float64 [N, number of them], which is 0 without variation.
-
-        Returns:
-          Fields of the model, their addresses, int [M], and values, float64 [N, M]; and the initial states.
+        They follow from the hidden properties, [N, ...], and the nuisances, [N, 0] without variation.
         """
         fields = _listed(self.hidden_fields(apparatus, hidden))
         if not nuisances.shape[1]:

@@ -24,16 +24,7 @@ class Environment(composer.Environment):
     def __init__(
         self, task: contract.Task, raise_exception_on_physics_error: bool = False, flat_observation: bool = False
     ):
-        """Builds the environment.
-
-        Args:
-          task: the task that it plays.
-          raise_exception_on_physics_error: raise if the simulation diverges, instead of ending the episode.
-          flat_observation: observe one vector, `observations`, of all arrays sorted by name, as in dm_control.
-
-        Raises:
-          ValueError: for an argument that is not a boolean.
-        """
+        """Builds the environment of a task; arguments as `environment_kwargs` of `suite.load`."""
         self._guard = guard.Guard("environment")
         self._flat = checks.flag("flat_observation", flat_observation)
         raises = checks.flag("raise_exception_on_physics_error", raise_exception_on_physics_error)
@@ -48,12 +39,7 @@ class Environment(composer.Environment):
         )
 
     def reset(self, hidden: Any = None) -> dm_env.TimeStep:
-        """Starts the next episode, for analysis with a given hidden property.
-
-        Raises:
-          ValueError: if `hidden` does not have the shape, the type and the range of a drawn value.
-          RuntimeError: if the environment is closed, or another thread is using it.
-        """
+        """Starts the next episode, for analysis with a hidden property of the shape, type and range of a drawn one."""
         with self._guard:
             self._check_open()
             if hidden is not None:
@@ -61,12 +47,7 @@ class Environment(composer.Environment):
             return self._flattened(super().reset())
 
     def step(self, action: Any) -> dm_env.TimeStep:
-        """Takes one action, an integer.
-
-        Raises:
-          ValueError: if the action is not one of the action spec's; the episode stays as it was.
-          RuntimeError: if the environment is closed, or another thread is using it.
-        """
+        """Takes one action, an integer; for one that is not the action spec's, the episode stays as it was."""
         with self._guard:
             self._check_open()
             return self._flattened(super().step(action))

@@ -24,7 +24,6 @@ class Ledger:
     """
 
     def __init__(self, task: Any, size: int):
-        """Makes a ledger of `size` rows for a task."""
         self._task = task
         self._hidden: np.ndarray | None = None
         self.answers, self.structures, self.substeps, self.steps = np.zeros((4, size), np.int64)
@@ -51,16 +50,10 @@ class Ledger:
         return self._hidden
 
     def begin(self, rows: np.ndarray, hidden: Any = None, nuisances: Any = None, episode: int | None = None) -> None:
-        """Starts an episode of some environments; a refused value changes nothing.
+        """Starts an episode of some environments, int [K]: by default the next one of each.
 
-        Args:
-          rows: the environments, int [K].
-          hidden: their hidden properties, [K, ...]; by default, drawn from seed and episode.
-          nuisances: their random variation, [K, number of nuisances]; by default, drawn as well.
-          episode: index of the episode, the same in each; by default, the next one.
-
-        Raises:
-          ValueError: if `hidden` or `nuisances` do not have the shape, the type and the range of drawn values.
+        Hidden properties, [K, ...], and nuisances, [K, number of them], are drawn from seed and episode by default. For
+        given ones without the shape, the type and the range of drawn values, it raises ValueError and changes nothing.
         """
         indices = self.next_episodes[rows] if episode is None else np.full(len(rows), episode)
         drawn = self._task.draw(self.seeds[rows], indices)

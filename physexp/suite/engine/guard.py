@@ -13,10 +13,7 @@ class Guard:
     """
 
     def __init__(self, name: str, num_threads: int = 1):
-        """Makes a guard; `name` names the simulation in messages.
-
-        A process that was forked has no threads of its parent: with several, the guard raises RuntimeError there.
-        """
+        """Names the simulation for messages; in a fork, which has no threads of its parent's, several are refused."""
         self._name = name
         self._process = os.getpid() if num_threads > 1 else None
         self._lock = threading.RLock()

@@ -72,15 +72,10 @@ class Observer:
         rows: np.ndarray,
         observations: Mapping[str, np.ndarray],
     ) -> None:
-        """Writes the exact observations of some simulations.
+        """Writes the exact observations of some simulations into the rows, int [N], of the observations.
 
-        Args:
-          apparatus: the compiled model that is simulated.
-          state: the fields that the sense looks at, float64 [N, ...].
-          touched: whether each held entity has been touched, bool [N, number of held entities].
-          starts: the initial states, with a leading axis that `rows` index.
-          rows: the environments, int [N].
-          observations: arrays with a leading axis that `rows` index; written to.
+        They show the state, fields of float64 [N, ...], but what was not touched, bool [N, number of held entities], as
+        at the starts, which `rows` index.
         """
         shown = {field: apparatus.shown(field, values, touched, starts, rows) for field, values in state.items()}
         self._sense.look(apparatus, shown, starts.camera[rows], rows, observations)

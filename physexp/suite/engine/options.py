@@ -90,12 +90,7 @@ class Options:
             )
 
     def check_step(self, shortest: float, meanwhile: str) -> None:
-        """Raises ValueError for a control step in which less happens than the question needs.
-
-        Args:
-          shortest: lower limit, s.
-          meanwhile: the event that needs it, in words.
-        """
+        """Raises ValueError for a control step shorter than a limit, s, in which something happens, in words."""
         if self.control_timestep < shortest:
             raise ValueError(
                 f"control_timestep is {self.control_timestep} s; give at least {shortest} s, in which {meanwhile}"

@@ -32,11 +32,7 @@ class Renderer:
     def __init__(self, model: mujoco.MjModel, moving_geoms: np.ndarray, camera: str = "observer", size: int = SIZE):
         """Makes a context and uploads the scene; raises RuntimeError if no GL backend works.
 
-        Args:
-          model: a compiled model; its geoms in `UNDRAWN_GROUP` are not drawn.
-          moving_geoms: the geoms whose poses differ between images, int [M]; they come after those that stand still.
-          camera: name of the camera.
-          size: edge of an image, pixels.
+        The moving geoms, int [M], whose poses differ between images, come after those that stand still.
         """
         self.size = size
         drawn = _with_buffer(model, size)
@@ -70,14 +66,10 @@ class Renderer:
         camera: np.ndarray | None = None,
         colors: np.ndarray | None = None,
     ) -> None:
-        """Draws one image for each pose of the scene; raises RuntimeError if the renderer is closed.
+        """Draws images of N poses into rows, int [N], of `images`; raises RuntimeError if the renderer is closed.
 
-        Args:
-          geom_xpos, geom_xmat: positions (m) and rotation matrices of the model's geoms, [N, number of geoms, 3 and 9].
-          rows: row of each image, int [N].
-          images: uint8 [B, size, size, 3]; written to, straight from the frame buffer.
-          camera: displacements of the camera, m [N, 3]; none by default.
-          colors: colours of the model's geoms from now on, [number of geoms, 4] in [0, 1].
+        Positions (m) and rotation matrices of geoms are [N, number of geoms, 3 and 9], displacements of the camera
+        m [N, 3]. Colours of geoms, [number of geoms, 4] in [0, 1], hold from now on.
         """
         if self.context is None:
             raise RuntimeError("the renderer is closed")

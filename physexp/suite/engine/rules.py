@@ -56,13 +56,7 @@ class Rules:
             )
 
     def judge(self, actions: np.ndarray, answers: np.ndarray, steps: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Returns rewards, float64 [N], and whether episodes end, bool [N].
-
-        Args:
-          actions: the actions taken, int [N].
-          answers: indices of the right labels, int [N].
-          steps: control steps taken in the episode, this one included, int [N].
-        """
+        """Returns rewards, float64 [N], and whether episodes end, bool [N]; steps, int [N], include the one judged."""
         labeled = actions >= self.num_interactions
         last = labeled | (steps >= self.step_limit)
         right = actions - self.num_interactions == answers

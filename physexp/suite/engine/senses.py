@@ -32,14 +32,9 @@ class Features:
         rows: np.ndarray,
         observations: Mapping[str, np.ndarray],
     ) -> None:
-        """Writes the observations.
+        """Writes the rows, int [N], of the observations that show a state, float64 [N, ...], which it may change.
 
-        Args:
-          apparatus: the compiled model.
-          state: the fields, float64 [N, ...], which the sense may keep.
-          camera: displacements of the camera, m [N, 3].
-          rows: rows of the observations, int [N].
-          observations: arrays with a leading axis that `rows` index; written to.
+        The camera is displaced by `camera`, m [N, 3].
         """
         for name in apparatus.readings:
             observations[name][rows] = apparatus.read(name, state["sensordata"])

@@ -37,7 +37,7 @@ class Simulations:
 
     def by_structure(self, chosen: np.ndarray) -> "list[tuple[Group, Rows]]":
         """Splits environments by structure: pairs of a group and the positions in `chosen` that belong to it."""
-        if self.task.num_structures == 1:
+        if self.task.scene.num_structures == 1:
             return [(self._grouped([0])[0], slice(None))] if len(chosen) else []
         structures = self.ledger.structures[chosen]
         needed = np.unique(structures).tolist()
@@ -53,7 +53,6 @@ class Simulations:
         return [self._groups[structure] for structure in structures]
 
     def close(self) -> None:
-        """Frees the simulations."""
         self._groups = {}
 
     def reset(self, chosen: np.ndarray, hidden: Any = None, nuisances: Any = None, episode: int | None = None) -> None:

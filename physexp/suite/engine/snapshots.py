@@ -58,12 +58,7 @@ class Snapshot:
 
 
 def take(batch: batch_lib.BatchEnvironment, environments: np.ndarray | None = None) -> Snapshot:
-    """Returns a snapshot of the episodes of some environments, sorted indices int [N], or of all.
-
-    Raises:
-      ValueError: for indices out of range.
-      RuntimeError: if an episode is over or none has begun, the batch is closed, or another thread is using it.
-    """
+    """Returns a snapshot of episodes that are under way, of some environments, sorted indices int [N], or of all."""
     with batch.in_use(environments) as chosen:
         simulations, ledger = batch.simulations, batch.simulations.ledger
         if ledger.over[chosen].any():
@@ -84,12 +79,7 @@ def take(batch: batch_lib.BatchEnvironment, environments: np.ndarray | None = No
 
 
 def restore(batch: batch_lib.BatchEnvironment, snapshot: Snapshot) -> None:
-    """Takes episodes back to a snapshot; the next step goes on from there.
-
-    Raises:
-      ValueError: if one of the environments has begun another episode since.
-      RuntimeError: if the batch is closed, or another thread is using it.
-    """
+    """Takes episodes back to a snapshot; the next step goes on from there."""
     with batch.in_use(snapshot.environments) as chosen:
         simulations, ledger = batch.simulations, batch.simulations.ledger
         now = batch.episodes, ledger.hidden, ledger.nuisances, ledger.substeps
