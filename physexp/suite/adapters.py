@@ -14,6 +14,9 @@ from physexp import checks, suite
 from physexp.suite.engine import batch as batch_lib
 from physexp.suite.engine import contract, rendering, seeding
 
+RENDER_MODE = checks.optional(checks.word("rgb_array"))
+"""The check of how one environment is drawn: as an array, or not at all."""
+
 _LARGEST_GRID = 1920  # Pixels, of the images of many environments side by side.
 
 
@@ -29,11 +32,6 @@ def observation_space(spec: Mapping[str, dm_env.specs.Array], is_flat: bool = Fa
             low, high = (0, 255) if array.dtype == np.uint8 else (-np.inf, np.inf)
         boxes[name] = spaces.Box(low, high, array.shape, array.dtype)
     return spaces.flatten_space(spaces.Dict(boxes)) if is_flat else spaces.Dict(boxes)
-
-
-def action_space(environment: suite.Environment | suite.BatchEnvironment) -> spaces.Discrete:
-    """Returns the space of the actions of one environment."""
-    return spaces.Discrete(environment.action_spec().num_values)
 
 
 def flattened(observation: Mapping[str, np.ndarray], num_axes: int = 0) -> np.ndarray:
@@ -80,20 +78,13 @@ def check_options(options: Any, *allowed: str) -> dict[str, Any]:
     return found
 
 
-def check_render_mode(render_mode: str | None, *known: str) -> None:
-    """Raises ValueError unless the render mode is None or one of `known`."""
-    if render_mode is not None and render_mode not in known:
-        choices = " or ".join(map(repr, (None, *known)))
-        raise ValueError(f"render_mode is {checks.shown(render_mode)}; choose {choices}")
-
-
 def check_num_envs(num_envs: Any) -> int:
-    """Returns the number of environments as an int; raises ValueError if it is out of range."""
+    """Returns the number of environments as an int."""
     return checks.integer("num_envs", num_envs, 1, batch_lib.MOST_ENVIRONMENTS)
 
 
 def check_seed(seed: Any) -> int | None:
-    """Returns a seed as an int, or None; raises ValueError if it is neither None nor an integer in [0, 2**63)."""
+    """Returns a seed, in [0, 2**63), as an int; or None."""
     return None if seed is None else checks.integer("seed", seed, 0, seeding.LARGEST_SEED)
 
 

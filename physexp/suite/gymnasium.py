@@ -25,6 +25,8 @@ from physexp.suite import adapters  # noqa: E402
 Observation = dict[str, np.ndarray] | np.ndarray
 Infos = dict[str, Any]
 
+_RENDER_MODE = checks.optional(checks.word("rgb_array", "rgb_array_grid"))
+
 
 class Environment(gymnasium.Env[Any, Any]):
     """One environment. Running out of time is a wrong answer, so every episode terminates and none is truncated.
@@ -48,12 +50,8 @@ class Environment(gymnasium.Env[Any, Any]):
           domain, task, task_kwargs: as for `suite.load`.
           render_mode: `rgb_array`, or None.
           flat_observation: observe one vector of all arrays, sorted by name.
-
-        Raises:
-          TypeError: for an unknown keyword argument.
-          ValueError: for an unknown name, a bad value or an unknown render mode.
         """
-        adapters.check_render_mode(render_mode, "rgb_array")
+        adapters.RENDER_MODE("render_mode", render_mode)
         self._is_flat = checks.flag("flat_observation", flat_observation)
         adapters.refuse_unknown(Environment, domain, task_kwargs)
         self._environment = suite.load(domain, task, task_kwargs=task_kwargs)
@@ -61,7 +59,7 @@ class Environment(gymnasium.Env[Any, Any]):
         self.render_mode = render_mode
         self.metadata = {**self.metadata, "render_fps": adapters.frames_per_second(self._environment.task)}
         self.observation_space = adapters.observation_space(self._environment.observation_spec(), self._is_flat)
-        self.action_space = adapters.action_space(self._environment)
+        self.action_space = gymnasium.spaces.Discrete(self._environment.action_spec().num_values)
         super().reset(seed=self._environment.task.options.random)  # `np_random_seed` is the seed that is played.
 
     @property
@@ -75,16 +73,10 @@ class Environment(gymnasium.Env[Any, Any]):
         return float(self._environment.task.discount)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Observation, Infos]:
-        """Starts the next episode, or with a seed the first one of that seed.
+        """Starts the next episode, or with a seed, in [0, 2**63), the first one of that seed.
 
-        A reset with `info["seed"]` as the seed and `info["episode_index"]` as the option `episode` starts it again.
-
-        Args:
-          seed: an integer in [0, 2**63).
-          options: `episode`, the index of the episode to start in place of the next one.
-
-        Raises:
-          ValueError: for any other seed or option.
+        The option `episode` is the index of another one. A reset with `info["seed"]` as the seed and
+        `info["episode_index"]` as the option `episode` starts an episode again.
         """
         seed, options = adapters.check_seed(seed), adapters.check_options(options, "episode")
         super().reset(seed=seed)
@@ -170,12 +162,8 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
           flat_observation: observe one vector of all arrays, sorted by name.
           autoreset_mode: `next_step`, `same_step` or `disabled`, or one of Gymnasium's `AutoresetMode`.
           max_episode_steps: Gymnasium's own limit; episodes end by themselves, so it may not be less than the task's.
-
-        Raises:
-          TypeError: for an unknown keyword argument.
-          ValueError: for an unknown name or a bad value.
         """
-        adapters.check_render_mode(render_mode, "rgb_array", "rgb_array_grid")
+        _RENDER_MODE("render_mode", render_mode)
         self.num_envs = adapters.check_num_envs(num_envs)
         self.autoreset_mode = _check_autoreset_mode(autoreset_mode)
         self._is_flat = checks.flag("flat_observation", flat_observation)
@@ -193,7 +181,7 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
             "render_fps": adapters.frames_per_second(self._batch.task),
         }
         self.single_observation_space = adapters.observation_space(self._batch.observation_spec(), self._is_flat)
-        self.single_action_space = adapters.action_space(self._batch)
+        self.single_action_space = gymnasium.spaces.Discrete(self._batch.action_spec().num_values)
         self.observation_space = vector_utils.batch_space(self.single_observation_space, num_envs)
         self.action_space = vector_utils.batch_space(self.single_action_space, num_envs)
         super().reset(seed=self._batch.task.options.random)  # `np_random_seed` is the seed that is played.
@@ -214,11 +202,7 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
         Args:
           seed: an integer in [0, 2**63).
           options: `episode`, the index of the episode to start in place of the next one; `reset_mask`, bool
-            [num_envs], true for the environments to reset.
-
-        Raises:
-          ValueError: for any other seed or option, such as a list of seeds: the batch derives them from one.
-          gymnasium.error.ResetNeeded: for the first reset, if it is of a part.
+            [num_envs], true for the environments to reset, which are all at first.
         """
         seed, options = adapters.check_seed(seed), adapters.check_options(options, "episode", "reset_mask")
         mask = self._check_mask(options.get("reset_mask"), seed)

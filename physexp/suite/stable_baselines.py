@@ -7,6 +7,7 @@ from physexp import extras, suite
 
 extras.require("stable_baselines3", "gymnasium")
 
+from gymnasium import spaces  # noqa: E402
 import numpy as np  # noqa: E402
 from stable_baselines3.common.vec_env import base_vec_env  # noqa: E402
 
@@ -30,14 +31,9 @@ class VecEnv(base_vec_env.VecEnv):
         render_mode: str | None = None,
         **task_kwargs: Any,
     ):
-        """Loads a batch; arguments as for `suite.load_batch`, and `render_mode`: `rgb_array`, or None.
-
-        Raises:
-          TypeError: for an unknown keyword argument.
-          ValueError: for an unknown name or a bad value.
-        """
+        """Loads a batch; arguments as for `suite.load_batch`, and `render_mode`: `rgb_array`, or None."""
         adapters.refuse_unknown(VecEnv, domain, task_kwargs)
-        adapters.check_render_mode(render_mode, "rgb_array")
+        adapters.RENDER_MODE("render_mode", render_mode)
         num_envs = adapters.check_num_envs(num_envs)
         self._batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
         self._started = False
@@ -45,18 +41,14 @@ class VecEnv(base_vec_env.VecEnv):
         super().__init__(
             num_envs,
             adapters.observation_space(self._batch.observation_spec()),
-            adapters.action_space(self._batch),
+            spaces.Discrete(self._batch.action_spec().num_values),
         )
         cast(Any, self.metadata)["render_fps"] = adapters.frames_per_second(self._batch.task)
 
     def seed(self, seed: int | None = None) -> Any:
         """Has the next reset start the first episodes of another seed, by default a random one.
 
-        Returns:
-          The seeds of the environments; `suite.load` with one of them makes that environment alone.
-
-        Raises:
-          ValueError: if the seed is no integer in [0, 2**63).
+        It returns the seeds of the environments; `suite.load` with one of them makes that environment alone.
         """
         of_batch = cast(int, super().seed(adapters.check_seed(seed))[0])
         return [suite.environment_seed(of_batch, row) for row in range(self.num_envs)]
@@ -64,8 +56,7 @@ class VecEnv(base_vec_env.VecEnv):
     def reset(self) -> Any:
         """Starts the next episode everywhere, or what `seed` and `set_options` have asked for.
 
-        Raises:
-          ValueError: for an option other than `episode`, the index of the episode to start, the same everywhere.
+        The only option is `episode`, the index of the episode to start, the same everywhere.
         """
         options = adapters.check_options(self._options[0], "episode")
         if any(others != self._options[0] for others in self._options):
