@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 
 from physexp.suite.engine import contract, declarations, options, seeding, senses
-from physexp.suite.parts import arena, block
+from physexp.suite.parts import arena, things
 
 NUM_BLOCKS = 3
 SPACING = 0.16  # m
@@ -34,8 +34,8 @@ class WhichIsBolted(contract.Task):
         room.mjcf_model.option.flag.contact = "disable"
         self._rails, heights = [], []
         for k in range(NUM_BLOCKS):
-            frame = room.attach(block.Block(rgba=block.COLORS[k], mass=1.0, name=f"block_{k}"))
-            frame.pos = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, block.HALF_SIZE]
+            frame = room.attach(things.Block(rgba=things.COLORS[k], mass=1.0, name=f"block_{k}"))
+            frame.pos = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, things.HALF_SIZE]
             rail = frame.add("joint", name="rail", type="slide", axis=[0, 0, 1], stiffness=20, damping=10)
             room.mjcf_model.actuator.add("motor", name=f"pull_{k}", joint=rail)
             heights.append(room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=rail))

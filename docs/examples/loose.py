@@ -6,7 +6,7 @@ import numpy as np
 
 from physexp import checks
 from physexp.suite.engine import apparatus, contract, declarations, options, rendering, seeding
-from physexp.suite.parts import arena, block, flag, material, measures
+from physexp.suite.parts import arena, material, measures, things
 
 PHYSICS_TIMESTEP = 0.01  # s
 NUM_BLOCKS = 4
@@ -46,10 +46,10 @@ class WhichIsLoose(contract.Task):
         rails, flags = [], []
         for k in range(NUM_BLOCKS):
             x = (k - (NUM_BLOCKS - 1) / 2) * SPACING
-            cube = block.Block(block.COLORS[k], mass=0.02, name=f"block_{k}")
+            cube = things.Block(things.COLORS[k], mass=0.02, name=f"block_{k}")
             cube.geom.group = rendering.UNDRAWN_GROUP
             frame = room.attach(cube)
-            frame.pos = [x, 0, block.HALF_SIZE]
+            frame.pos = [x, 0, things.HALF_SIZE]
             rails.append(
                 frame.add(
                     "joint",
@@ -62,7 +62,7 @@ class WhichIsLoose(contract.Task):
                 )
             )
             room.mjcf_model.actuator.add("motor", name=f"pull_{k}", joint=rails[-1])
-            flags.append(flag.stand(room, f"flag_{k}", block.COLORS[k], x, 0.15))
+            flags.append(things.stand_flag(room, f"flag_{k}", things.COLORS[k], x, 0.15))
         self._rails = tuple(rail.full_identifier for rail in rails)
         positions = [
             room.mjcf_model.sensor.add("jointpos", name=f"position_{k}", joint=rail) for k, rail in enumerate(rails)

@@ -4,6 +4,7 @@ import functools
 import os
 import secrets
 
+import dm_env
 import numpy as np
 
 from physexp import suite
@@ -24,12 +25,6 @@ def drawn(domain, seeds, indices, **options):
     return _load_task(domain, **options).draw(seeds, indices)
 
 
-def episode_with(pattern: int, environment_seed: int) -> int:
-    """The first episode with this pattern; one in thirty at least has it, so a thousand are enough."""
-    patterns = drawn("towers", np.full(1000, environment_seed), np.arange(1000))
-    return int(np.flatnonzero(patterns == pattern)[0])
-
-
 def random_actions(rng, task, size):
     """Interactions, and one label in fifteen."""
     labels = task.num_interactions + rng.integers(task.num_labels, size=size)
@@ -45,12 +40,7 @@ def _load_batch(task_name, size, control_timestep):
 def batch_of(task_name, patterns, control_timestep=0.1):
     """A batch whose i-th environment starts with `patterns[i]`, and its first observation."""
     batch = _load_batch(task_name, len(patterns), control_timestep)
-    rows = []
-    for i, pattern in enumerate(patterns):
-        episode = episode_with(pattern, suite.environment_seed(SEED, i))
-        rows.append(batch.reset(np.array([i]), episode).observation)
-    np.testing.assert_array_equal(batch.hidden, patterns)
-    return batch, {name: np.concatenate([row[name] for row in rows]) for name in rows[0]}
+    return batch, batch.reset(hidden=np.asarray(patterns)).observation
 
 
 def plans_that_miss(rng, step_limit: int, control_timestep: float, num_random: int):
@@ -63,6 +53,19 @@ def plans_that_miss(rng, step_limit: int, control_timestep: float, num_random: i
     walks = rng.choice([AWAY, LEFT, RIGHT], size=(num_random, -(-step_limit // hold)))
     held = np.array([[AWAY], [LEFT], [RIGHT]])
     return np.concatenate([np.repeat(held, step_limit, axis=1), np.repeat(walks, hold, axis=1)[:, :step_limit]])
+
+
+def assert_same(steps: dm_env.TimeStep, singles: list[dm_env.TimeStep]) -> None:
+    """Row `i` of a batch's time step is the i-th single time step; on a first step a batch has 0 for None, and 1."""
+    for i, single in enumerate(singles):
+        assert steps.step_type[i] == single.step_type
+        reward, discount = (0.0, 1.0) if single.first() else (single.reward, single.discount)
+        assert (steps.reward[i], steps.discount[i]) == (reward, discount)
+        assert set(steps.observation) == set(single.observation)
+        for name, value in single.observation.items():
+            row = steps.observation[name][i]
+            assert (row.dtype, row.shape) == (value.dtype, value.shape)
+            assert row.tobytes() == value.tobytes(), (i, name, row, value)
 
 
 class Followed:

@@ -1,7 +1,7 @@
 """A batch is its single environments, bit for bit, however many there are and whatever steps them."""
 
 import dm_env
-from episodes import random_actions
+from episodes import assert_same, random_actions
 from every_task import FEATURES, NOISY, VARYING, every_feature_task, load, load_batch
 import numpy as np
 import pytest
@@ -16,19 +16,6 @@ def _load_both(name, seed, size, num_threads=1, **task_kwargs):
     batch = load_batch(name, size, num_threads, random=seed, **task_kwargs)
     singles = [load(name, random=suite.environment_seed(seed, i), **task_kwargs) for i in range(size)]
     return batch, singles
-
-
-def _assert_same(steps: dm_env.TimeStep, singles: list[dm_env.TimeStep]) -> None:
-    """Row `i` of a batch's time step is the i-th single time step; on a first step a batch has 0 for None, and 1."""
-    for i, single in enumerate(singles):
-        assert steps.step_type[i] == single.step_type
-        reward, discount = (0.0, 1.0) if single.first() else (single.reward, single.discount)
-        assert (steps.reward[i], steps.discount[i]) == (reward, discount)
-        assert set(steps.observation) == set(single.observation)
-        for name, value in single.observation.items():
-            row = steps.observation[name][i]
-            assert (row.dtype, row.shape) == (value.dtype, value.shape)
-            assert row.tobytes() == value.tobytes(), (name, row, value)
 
 
 def _assert_same_questions(batch, singles) -> None:
@@ -46,20 +33,20 @@ def test_a_batch_is_its_single_environments(seed, name):
     assert batch.action_spec() == singles[0].action_spec()
     assert batch.reward_spec() == singles[0].reward_spec() and batch.discount_spec() == singles[0].discount_spec()
     assert dict(batch.observation_spec()) == dict(singles[0].observation_spec())
-    _assert_same(batch.reset(), [single.reset() for single in singles])
+    assert_same(batch.reset(), [single.reset() for single in singles])
     for _ in range(STEPS):
         _assert_same_questions(batch, singles)
         actions = random_actions(rng, batch.task, size)
-        _assert_same(batch.step(actions), [single.step(a) for single, a in zip(singles, actions, strict=True)])
+        assert_same(batch.step(actions), [single.step(a) for single, a in zip(singles, actions, strict=True)])
     for _ in range(STEPS // 2):
         chosen = np.flatnonzero(rng.random(size) < 0.6)
         actions = random_actions(rng, batch.task, len(chosen))
         expected = [singles[i].step(a) for i, a in zip(chosen, actions, strict=True)]
-        _assert_same(batch.step(actions, environments=chosen), expected)
+        assert_same(batch.step(actions, environments=chosen), expected)
         if rng.random() < 0.1:
             chosen = np.flatnonzero(rng.random(size) < 0.5)
             expected = [singles[i].reset() for i in chosen]
-            _assert_same(batch.reset(environments=chosen), expected)
+            assert_same(batch.reset(environments=chosen), expected)
         _assert_same_questions(batch, singles)
 
 
@@ -72,12 +59,12 @@ def test_a_reset_rebuilds_a_chosen_episode(seed, name):
         for i in chosen:
             singles[i].task.next_episode = episode
         expected = [singles[i].reset() for i in chosen]
-        _assert_same(batch.reset(environments=np.array(chosen), episode=episode), expected)
+        assert_same(batch.reset(environments=np.array(chosen), episode=episode), expected)
         assert batch.episodes[chosen].tolist() == [episode] * len(chosen)
         for _ in range(4):
             actions = rng.integers(batch.task.num_interactions, size=len(chosen))
             expected = [singles[i].step(a) for i, a in zip(chosen, actions, strict=True)]
-            _assert_same(batch.step(actions, environments=np.array(chosen)), expected)
+            assert_same(batch.step(actions, environments=np.array(chosen)), expected)
 
 
 @pytest.mark.parametrize(
@@ -94,30 +81,11 @@ def test_variation_and_noise_are_the_same_in_a_batch_and_alone(seed, name, optio
     rng = np.random.default_rng(seed)
     batch, singles = _load_both(name, seed, 3, **option)
     for _ in range(3):  # Episodes.
-        _assert_same(batch.reset(), [single.reset() for single in singles])
+        assert_same(batch.reset(), [single.reset() for single in singles])
         for _ in range(min(20, batch.task.rules.step_limit - 1)):
             actions = rng.integers(batch.task.num_interactions, size=3)
             actions[0] = 0  # The fist hits the tower.
-            _assert_same(batch.step(actions), [single.step(a) for single, a in zip(singles, actions, strict=True)])
-
-
-@every_feature_task
-def test_an_environment_does_not_depend_on_how_many_there_are(seed, name):
-    """Batches of 1, 3 and 6 environments, on 1 and 2 threads; the first environments take the same actions."""
-    rng = np.random.default_rng(seed)
-    shapes = [(1, 1), (3, 2), (6, 1), (6, 2)]
-    batches = [load_batch(name, size, num_threads, random=seed) for size, num_threads in shapes]
-    steps = [batch.reset() for batch in batches]
-    for _ in range(20):
-        actions = random_actions(rng, batches[0].task, 6)
-        steps = [batch.step(actions[: batch.num_environments]) for batch in batches]
-        largest = steps[-1]
-        for step in steps[:-1]:
-            size = len(step.reward)
-            for field in ("step_type", "reward", "discount"):
-                np.testing.assert_array_equal(getattr(step, field), getattr(largest, field)[:size])
-            for name, value in step.observation.items():
-                assert value.tobytes() == largest.observation[name][:size].tobytes()
+            assert_same(batch.step(actions), [single.step(a) for single, a in zip(singles, actions, strict=True)])
 
 
 @every_feature_task
@@ -163,29 +131,16 @@ def test_choosing_no_environment_does_nothing(seed):
     np.testing.assert_array_equal(batch.episodes, [0, 0])
 
 
-def test_two_batches_in_one_process_share_nothing(seed):
-    """They share the compiled models; masses and states are each one's own."""
-    one, alone = (suite.load_batch("which_is_heavier", "features", 4, {"random": seed}) for _ in range(2))
-    one.reset()
-    alone.reset()
-    other = suite.load_batch("which_is_heavier", "features", 4, {"random": seed + 1})
-    other.reset()
-    for poke in range(4):
-        other.step(np.full(4, 3 - poke))
-        step, expected = one.step(np.full(4, poke)), alone.step(np.full(4, poke))
-        np.testing.assert_array_equal(step.observation["heights"], expected.observation["heights"])
-
-
 def test_every_pattern_of_glue_is_played_alike_in_a_batch_and_alone(seed):
     """At the first episode with each pattern, two pushes."""
     batch, (single,) = _load_both("towers/direct_features", seed, 1)
     patterns = single.task.draw(np.full(1000, single.task.options.random), np.arange(1000))
     for pattern in range(16):
         single.task.next_episode = int(np.flatnonzero(patterns == pattern)[0])
-        _assert_same(batch.reset(episode=single.task.next_episode), [single.reset()])
+        assert_same(batch.reset(episode=single.task.next_episode), [single.reset()])
         assert batch.hidden == [pattern]
         for action in (4, 14):
-            _assert_same(batch.step(np.array([action])), [single.step(action)])
+            assert_same(batch.step(np.array([action])), [single.step(action)])
 
 
 @every_feature_task
@@ -209,7 +164,7 @@ def test_episodes_go_on_from_a_snapshot_in_several_ways(seed, name):
         for _ in range(2):
             actions = random_actions(rng, batch.task, 2)
             expected = [singles[i].step(a) for i, a in zip(chosen, actions, strict=True)]
-            _assert_same(batch.step(actions, environments=chosen), expected)
+            assert_same(batch.step(actions, environments=chosen), expected)
             if any(step.last() for step in expected):
                 break
 

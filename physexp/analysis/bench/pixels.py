@@ -13,7 +13,7 @@ from physexp.agents.a3c import config as a3c
 from physexp.analysis.bench import measuring
 from physexp.analysis.training import config as config_lib
 from physexp.suite.engine import gl, rendering
-from physexp.suite.parts import block, tower
+from physexp.suite.parts import things, tower
 
 from dm_control import composer, mjcf  # isort: skip
 import mujoco  # isort: skip
@@ -129,8 +129,8 @@ def composer_rendering() -> Callable[[], int]:
     """Returns a function that draws a tower in composer's default arena with dm_control."""
     arena = composer.Arena()
     for k in range(tower.NUM_BLOCKS):
-        cube = block.Block(rgba=block.COLORS[k], mass=1.0, name=f"block_{k}")
-        arena.attach(cube).pos = [0, 0, (2 * k + 1) * block.HALF_SIZE]
+        cube = things.Block(rgba=things.COLORS[k], mass=1.0, name=f"block_{k}")
+        arena.attach(cube).pos = [0, 0, (2 * k + 1) * things.HALF_SIZE]
     physics = mjcf.Physics.from_mjcf_model(arena.mjcf_model)
 
     def draw() -> int:

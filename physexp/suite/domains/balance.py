@@ -10,7 +10,7 @@ from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import contract, declarations, rendering, seeding
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block, flag, material, measures
+from physexp.suite.parts import arena, material, measures, things
 
 PHYSICS_TIMESTEP = 0.01  # s
 
@@ -106,12 +106,12 @@ class Balance(contract.Task):
         blocks, loads = [], []
         for k in range(NUM_BLOCKS):
             is_suspect = k < num_suspects(self.options.difficulty)
-            cube = block.Block(block.COLORS[k] if is_suspect else _PAN_RGBA, mass=WEIGHT, name=f"block_{k}")
-            room.attach(cube).pos = [0, ((NUM_BLOCKS - 1) / 2 - k) * _SPACING, block.HALF_SIZE]
+            cube = things.Block(things.COLORS[k] if is_suspect else _PAN_RGBA, mass=WEIGHT, name=f"block_{k}")
+            room.attach(cube).pos = [0, ((NUM_BLOCKS - 1) / 2 - k) * _SPACING, things.HALF_SIZE]
             blocks.append(cube)
             loads.append(room.mjcf_model.actuator.add("motor", name=cube.mjcf_model.model, joint=hinge))
         self._loads = tuple(load.full_identifier for load in loads)
-        pointer = flag.stand(room, "pointer", (0.15, 0.15, 0.18, 1.0), 0, _POINTER_Y)
+        pointer = things.stand_flag(room, "pointer", (0.15, 0.15, 0.18, 1.0), 0, _POINTER_Y)
         sensors = room.mjcf_model.sensor
         torques = [
             sensors.add("actuatorfrc", name=cube.mjcf_model.model, actuator=load)
@@ -167,7 +167,9 @@ class Balance(contract.Task):
         return 2 * odd + (differences[np.arange(len(hidden)), odd] < 0)
 
     def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
-        return apparatus_lib.gains(apparatus, self._loads, _GRAVITY * ARM * hidden)
+        gains = np.zeros((*hidden.shape, apparatus.model.actuator_gainprm.shape[1]))
+        gains[..., 0] = _GRAVITY * ARM * hidden  # N m at a control of 1
+        return {"actuator_gainprm": (np.array([apparatus.model.actuator(load).id for load in self._loads]), gains)}
 
     def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
         """Returns where the blocks are, -1 for the left pan, 1 for the right one, 0 for aside, [N, NUM_BLOCKS]."""

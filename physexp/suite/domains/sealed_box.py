@@ -10,7 +10,7 @@ from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import contract, declarations, priors, rendering, seeding
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block, flag, measures, puck
+from physexp.suite.parts import arena, measures, things
 
 PHYSICS_TIMESTEP = 0.02  # s
 
@@ -74,7 +74,7 @@ BOX_HALF_SIZE = 0.13  # m: holds the weight, wherever it moves
 _REACH = 0.4  # m: no box gets farther from home; pushed along its velocity all the time, one gets to 0.373
 
 _ROOM = dict(mat_size=[0.5, 0.34], camera_pos=[0, -2.9, 1.1], camera_target=[0, 0, 0.08], fovy=20.0)
-_BOX_RGBA, _CURTAIN_RGBA, _POINTER_RGBA = block.COLORS[5], (0.50, 0.50, 0.55, 1.0), (0.15, 0.15, 0.18, 1.0)
+_BOX_RGBA, _CURTAIN_RGBA, _POINTER_RGBA = things.COLORS[5], (0.50, 0.50, 0.55, 1.0), (0.15, 0.15, 0.18, 1.0)
 _CURTAIN_HALF_SIZE = (0.50, 0.005, 0.20)  # m
 _CURTAIN_Y, _CURTAIN_RISE = -0.2, 0.6  # m; at rest it is under the floor
 _POINTER_Y, _POINTER_TRAVEL = -0.3, 0.4  # m
@@ -111,11 +111,11 @@ class SealedBox(contract.Task):
         root = room.mjcf_model
         root.option.gravity = [0, 0, 0]
         root.option.flag.contact = "disable"
-        box = block.Block(_BOX_RGBA, mass=1.0, half_size=BOX_HALF_SIZE, name="box")
+        box = things.Block(_BOX_RGBA, mass=1.0, half_size=BOX_HALF_SIZE, name="box")
         frame = room.attach(box)
         frame.pos = [0, 0, BOX_HALF_SIZE]
         rail = frame.add("joint", name="rail", type="slide", axis=[1, 0, 0], stiffness=_STIFFNESS, damping=_DAMPING)
-        weight = puck.Puck(_POINTER_RGBA, mass=1.0, name="weight")
+        weight = things.puck(_POINTER_RGBA, mass=1.0, name="weight")
         weight.geom.group = rendering.UNDRAWN_GROUP
         inner = box.attach(weight).add("joint", name="inner", type="slide", axis=[1, 0, 0], limited=True, range=[-1, 1])
         self._joints = (rail.full_identifier, inner.full_identifier)
@@ -124,7 +124,7 @@ class SealedBox(contract.Task):
         force = root.sensor.add("actuatorfrc", name="force", actuator=push)
         place = [0, _CURTAIN_Y, _CURTAIN_HALF_SIZE[2] - _CURTAIN_RISE]
         curtain = room.add_scenery("curtain", _CURTAIN_HALF_SIZE, place, _CURTAIN_RGBA)
-        pointer = flag.stand(room, "pointer", _POINTER_RGBA, 0, _POINTER_Y)
+        pointer = things.stand_flag(room, "pointer", _POINTER_RGBA, 0, _POINTER_Y)
         farthest = np.ceil(_REACH / self._mark)
         return contract.Scene(
             arena=room,
@@ -201,7 +201,7 @@ def _fields(
         "dof_M0": (dofs, np.stack([total, weight], axis=1)),
         "dof_invweight0": (dofs, np.stack([1 / box, total / (box * weight)], axis=1)),
         "dof_damping": (dofs[1:], damping[:, None]),
-        **apparatus_lib.stiffnesses(apparatus, joints[1:], stiffness[:, None]),
+        "jnt_stiffness": (inner, stiffness[:, None]),
         "jnt_range": (inner, np.stack([-gap, gap], axis=1)[:, None]),
     }
 

@@ -12,7 +12,7 @@ from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import contract, declarations, seeding
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block, flag, material, measures, puck
+from physexp.suite.parts import arena, material, measures, things
 
 PHYSICS_TIMESTEP = 0.01  # s
 
@@ -90,9 +90,9 @@ class Strike(contract.Task):
         near, far = self.options.goal_distance / RATIO, self.options.goal_distance * RATIO
         room.add_cover(_COVER_HALF_SIZE, _COVER_X)
         room.add_scenery("goal", [(far - near) / 2, 0.1, 0.001], [_START + (near + far) / 2, 0, 0.002], _GOAL_RGBA)
-        struck = puck.Puck(block.COLORS[0], mass=1.0)
+        struck = things.puck(things.COLORS[0], mass=1.0)
         frame = room.attach(struck)
-        frame.pos = [_START, 0, 0.01 + puck.HALF_HEIGHT]
+        frame.pos = [_START, 0, 0.01 + things.PUCK_HALF_HEIGHT]
         rail = frame.add(
             "joint", name="rail", type="slide", axis=[1, 0, 0], limited=True, range=[0, BAY], **_FRICTION, **_BARRIER
         )
@@ -100,8 +100,8 @@ class Strike(contract.Task):
         poke = root.actuator.add("motor", name="poke", joint=rail)
         position = root.sensor.add("jointpos", name="position", joint=rail)
         force = root.sensor.add("actuatorfrc", name="force", actuator=poke)
-        strength_board = flag.stand(room, "strength", block.COLORS[2], _START, _POKE_Y)
-        gate_board = flag.stand(room, "gate", block.COLORS[3], _START, _GATE_Y)
+        strength_board = things.stand_flag(room, "strength", things.COLORS[2], _START, _POKE_Y)
+        gate_board = things.stand_flag(room, "gate", things.COLORS[3], _START, _GATE_Y)
         return contract.Scene(
             arena=room,
             interactions=[

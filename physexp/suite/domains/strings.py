@@ -13,7 +13,7 @@ from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import contract, declarations, rendering, seeding
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block, flag, measures, puck
+from physexp.suite.parts import arena, measures, things
 
 PHYSICS_TIMESTEP = 0.01  # s
 
@@ -101,7 +101,7 @@ class Strings(contract.Task):
         presses = _add_actuators(root, "clamp", rails, "motor", gear=[0.0])
         _add_actuators(root, "brake", rails, "damper", kv=_BRAKE, ctrlrange=[0, 1])
         boards = [
-            [flag.stand(room, f"{kind}_{k}", rgba or block.COLORS[k], _x(k), y) for k in range(NUM_PUCKS)]
+            [things.stand_flag(room, f"{kind}_{k}", rgba or things.COLORS[k], _x(k), y) for k in range(NUM_PUCKS)]
             for kind, rgba, y in (
                 ("handle", None, _HANDLE_Y),
                 ("clamp", _CLAMP_RGBA, _CLAMP_Y),
@@ -145,7 +145,11 @@ class Strings(contract.Task):
         return (hidden > 0) @ 2 ** np.arange(len(PAIRS))
 
     def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
-        return apparatus_lib.bands(apparatus, self._bands, np.where(hidden > 0, _SPRING, 0.0), hidden)
+        bands = np.array([apparatus.model.tendon(band).id for band in self._bands])
+        return {
+            "tendon_stiffness": (bands, np.where(hidden > 0, _SPRING, 0.0)),
+            "tendon_lengthspring": (bands, np.stack([-hidden, hidden], axis=-1)),  # A band pulls once it is longer.
+        }
 
     def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
         """Returns the pulls, N, where the clamp is pressed, and where it holds, float64 [N, 3 * NUM_PUCKS].
@@ -184,10 +188,10 @@ def _x(puck: int) -> float:
 
 def _add_puck(room: arena.Laboratory, number: int) -> mjcf.Element:
     """Adds a puck and returns its rail."""
-    added = puck.Puck(block.COLORS[number], MASS, name=f"puck_{number}")
+    added = things.puck(things.COLORS[number], MASS, name=f"puck_{number}")
     added.geom.group = rendering.UNDRAWN_GROUP
     frame = room.attach(added)
-    frame.pos = [_x(number), 0, puck.HALF_HEIGHT]
+    frame.pos = [_x(number), 0, things.PUCK_HALF_HEIGHT]
     return frame.add("joint", name="rail", type="slide", axis=[0, -1, 0], stiffness=_SPRING, damping=_DAMPING)
 
 

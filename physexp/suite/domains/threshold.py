@@ -9,7 +9,7 @@ from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import contract, declarations, priors, rendering, seeding
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block, flag, material, measures
+from physexp.suite.parts import arena, material, measures, things
 
 PHYSICS_TIMESTEP = 0.01  # s
 
@@ -97,10 +97,10 @@ class Threshold(contract.Task):
         room.mjcf_model.option.gravity = [0, 0, 0]
         room.mjcf_model.option.flag.contact = "disable"
         room.add_cover(_COVER_HALF_SIZE)
-        cube = block.Block(rgba=block.COLORS[0], mass=MASS, name="block")
+        cube = things.Block(rgba=things.COLORS[0], mass=MASS, name="block")
         cube.geom.group = rendering.UNDRAWN_GROUP
         frame = room.attach(cube)
-        frame.pos = [-TRAVEL / 2, 0, block.HALF_SIZE]
+        frame.pos = [-TRAVEL / 2, 0, things.HALF_SIZE]
         rail = frame.add(
             "joint", name="rail", type="slide", axis=[1, 0, 0], limited=True, range=[0, TRAVEL], **_FRICTION, **_STOP
         )
@@ -109,8 +109,8 @@ class Threshold(contract.Task):
         sensors = room.mjcf_model.sensor
         position = sensors.add("jointpos", name="position", joint=rail)
         force = sensors.add("actuatorfrc", name="force", actuator=push)
-        slid_flag = flag.stand(room, "flag", block.COLORS[1], _FLAG_X, 0)
-        pointer = flag.stand(room, "pointer", block.COLORS[2], _POINTER_X, 0)
+        slid_flag = things.stand_flag(room, "flag", things.COLORS[1], _FLAG_X, 0)
+        pointer = things.stand_flag(room, "pointer", things.COLORS[2], _POINTER_X, 0)
         levels = [LEVEL_SPACING * (k + 1) for k in range(NUM_LEVELS)]
         return contract.Scene(
             arena=room,

@@ -14,7 +14,7 @@ from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import contract, declarations, seeding, senses
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import actuators, arena, block, fist, material, tower
+from physexp.suite.parts import actuators, arena, fist, material, things, tower
 
 SUITE = containers.TaggedTasks()
 
@@ -44,7 +44,7 @@ class Options(options_lib.Options):
 
     time_limit: float = 2.6  # the paper's 26 steps at its control step of 0.1 s
     cube_size: float = checked(
-        2 * block.HALF_SIZE, checks.within(0.08, 0.12, "m"), help="edge of the cubes, 0.08 to 0.12 m"
+        2 * things.HALF_SIZE, checks.within(0.08, 0.12, "m"), help="edge of the cubes, 0.08 to 0.12 m"
     )
     sliding_friction: float | None = checked(
         None,
@@ -61,7 +61,7 @@ class Options(options_lib.Options):
         super().__post_init__()
         nearest = fist.RADIUS + self.cube_size / 2 + _FIST_CLEARANCE + self.variation * _APPROACH
         name = f"fist_distance, with cube_size {self.cube_size:g} and variation {self.variation:g},"
-        distance = checks.between(name, self.fist_distance, round(nearest, 4), actuators.FIST_DISTANCE, "m")
+        distance = checks.within(round(nearest, 4), actuators.FIST_DISTANCE, "m")(name, self.fist_distance)
         object.__setattr__(self, "fist_distance", distance)
 
     @property
@@ -184,7 +184,9 @@ class Towers(contract.Task):
         turned = np.zeros((len(nuisances), 7))  # The coordinates of a rigid body: a position and a quaternion.
         turned[:, :2] = POSITION_VARIATION * place
         turned[:, 3], turned[:, 6] = np.cos(yaw / 2), np.sin(yaw / 2)
-        addresses, displaced = self._actuator.start(apparatus.model, fist)
+        joints = [apparatus.model.joint(joint.full_identifier) for joint in self._actuator.joints]
+        addresses = np.array([joint.qposadr[0] for joint in joints], np.intp)
+        displaced = (fist * actuators.FIST_VARIATION)[:, : len(joints)]
         return declarations.Circumstances(
             fields={
                 **apparatus_lib.scaled_masses(apparatus, standing.bodies, 1 + MASS_VARIATION * mass),

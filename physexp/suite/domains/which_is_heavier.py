@@ -10,7 +10,7 @@ from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import contract, declarations, priors
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import arena, block
+from physexp.suite.parts import arena, things
 
 NUM_BLOCKS = 4
 SPACING = 0.16  # m, between the centres of neighbours
@@ -56,9 +56,9 @@ class WhichIsHeavier(contract.Task):
         room.mjcf_model.option.flag.contact = "disable"
         rails, motors = [], room.mjcf_model.actuator
         for k in range(NUM_BLOCKS):
-            cube = block.Block(rgba=block.COLORS[k], mass=HEAVIEST, name=f"block_{k}")
+            cube = things.Block(rgba=things.COLORS[k], mass=HEAVIEST, name=f"block_{k}")
             frame = room.attach(cube)
-            frame.pos = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, block.HALF_SIZE]
+            frame.pos = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, things.HALF_SIZE]
             rails.append(
                 frame.add(
                     "joint",

@@ -135,12 +135,7 @@ class Apparatus:
     ) -> np.ndarray:
         """Returns a copy of a field for observations: held entities that were not touched are exactly as at the start.
 
-        Args:
-          field: one of `LOOKED_AT`.
-          values: its values, float64 [N, ...].
-          touched: whether each held entity has been touched, bool [N, number of held entities].
-          starts: initial states of all episodes.
-          rows: the episodes of the values, int [N].
+        The values, [N, ...], and what was touched, bool [N, number of held entities], are of the episodes `rows`.
         """
         shown = values.copy()
         for held, is_touched in zip(self.held, touched.T, strict=True):
@@ -210,37 +205,6 @@ def frictions(apparatus: Apparatus, joints: tuple[str, ...], newtons: np.ndarray
     return {"dof_frictionloss": (dofs, newtons)}
 
 
-def stiffnesses(apparatus: Apparatus, joints: tuple[str, ...], values: np.ndarray) -> declarations.Fields:
-    """Returns the model fields of springs, float64 [N, K], on slides (N/m) or hinges (N m/rad)."""
-    return {"jnt_stiffness": (np.array([apparatus.model.joint(joint).id for joint in joints]), values)}
-
-
-def gains(apparatus: Apparatus, actuators: tuple[str, ...], values: np.ndarray) -> declarations.Fields:
-    """Returns the model fields of gains, float64 [N, K], of motors by their full names: N or N m at a control of 1."""
-    model = apparatus.model
-    parameters = np.zeros((*values.shape, model.actuator_gainprm.shape[1]))
-    parameters[..., 0] = values
-    return {"actuator_gainprm": (np.array([model.actuator(name).id for name in actuators]), parameters)}
-
-
-def bands(
-    apparatus: Apparatus, tendons: tuple[str, ...], stiffness: np.ndarray, slack: np.ndarray
-) -> declarations.Fields:
-    """Returns the model fields of fixed tendons, by their full names, that pull once their slack is used up.
-
-    Args:
-      apparatus: the compiled model.
-      tendons: full names of the tendons, K.
-      stiffness: N/m, float64 [N, K]; 0 for no band.
-      slack: length at which a band begins to pull, m, float64 [N, K].
-    """
-    addresses = np.array([apparatus.model.tendon(tendon).id for tendon in tendons])
-    return {
-        "tendon_stiffness": (addresses, stiffness),
-        "tendon_lengthspring": (addresses, np.stack([-slack, slack], axis=-1)),
-    }
-
-
 @functools.lru_cache(maxsize=256)
 def compile_xml(xml: str) -> mujoco.MjModel:
     """Returns the model of an MJCF string, compiled once per process."""
@@ -253,14 +217,7 @@ def build(
     held: Sequence[composer.Entity] = (),
     indicators: Sequence[declarations.Indicator] = (),
 ) -> Apparatus:
-    """Compiles an MJCF model.
-
-    Args:
-      xml: the whole scene, with the names that the entities below have in it.
-      readings: the features.
-      held: entities that must look untouched until something moves them.
-      indicators: geoms that show readings.
-    """
+    """Compiles the MJCF of a whole scene, with the names that its sensors, entities and geoms have in it."""
     model = compile_xml(xml)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)

@@ -1,7 +1,8 @@
 """The two ways to act on a tower: forces on its blocks, and a fist (paper, Section 6.2)."""
 
-from typing import Any
+from collections.abc import Sequence
 
+from dm_control import mjcf
 import numpy as np
 
 from physexp.suite.engine import declarations
@@ -25,11 +26,8 @@ _DIRECTIONS = {"+x": (1, 0), "-x": (-1, 0), "+y": (0, 1), "-y": (0, -1)}
 class DirectActuator:
     """Pushes one block with a horizontal force."""
 
+    joints: Sequence[mjcf.Element] = ()
     readings: dict[str, declarations.Reading] = {}
-
-    def start(self, model: Any, displacements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Returns the coordinates of nothing; see `FistActuator.start`."""
-        return np.zeros(0, np.intp), np.zeros((len(displacements), 0))
 
     def attach_to(self, room: arena.Laboratory) -> None:
         """Adds the site whose axes give the directions of the forces."""
@@ -55,12 +53,18 @@ class DirectActuator:
 
 
 class FistActuator:
-    """Sets the velocity of the fist."""
+    """Sets the velocity of the fist.
+
+    Attributes:
+      fist: the fist.
+      joints: its joints, along x and y, which `FIST_VARIATION` displaces.
+    """
 
     def __init__(self, friction: float = material.FRICTION, distance: float = FIST_DISTANCE):
         """Builds a fist at a distance from the tower's axis, m."""
         self._distance, reach = distance, _FIST_REACH
         self.fist = fist.Fist([distance - reach, distance + reach], [-reach, reach], friction)
+        self.joints = self.fist.joints
 
     @property
     def readings(self) -> dict[str, declarations.Reading]:
@@ -71,17 +75,6 @@ class FistActuator:
                 [self.fist.position_sensor], (3,), meaning, unit="m", components=components, noisy=True
             )
         }
-
-    def start(self, model: Any, displacements: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Returns the addresses of the coordinates of the fist, int [2], and their initial values, m [N, 2].
-
-        Args:
-          model: a compiled model with the fist.
-          displacements: in [-1, 1], [N, 2].
-        """
-        joints = (model.joint(joint.full_identifier) for joint in self.fist.joints)
-        addresses = np.array([joint.qposadr[0] for joint in joints])
-        return addresses, displacements * FIST_VARIATION
 
     def attach_to(self, room: arena.Laboratory) -> None:
         """Places the fist in the room."""

@@ -6,7 +6,7 @@ import itertools
 from dm_control import composer, mjcf
 import numpy as np
 
-from physexp.suite.parts import block, material
+from physexp.suite.parts import material, things
 
 NUM_BLOCKS = 5
 BLOCK_MASS = 1.0  # kg
@@ -41,7 +41,7 @@ class Tower(composer.Entity):
     def _build(
         self,
         pattern: Sequence[bool],
-        half_size: float = block.HALF_SIZE,
+        half_size: float = things.HALF_SIZE,
         friction: float = material.FRICTION,
         name: str = "tower",
     ) -> None:
@@ -56,7 +56,7 @@ class Tower(composer.Entity):
                 body.add("joint", name=f"{axis}_{number}", type="slide", axis=direction)
             body.add("joint", name=f"ball_{number}", type="ball")
             for k in members:
-                cube = block.Block(block.COLORS[k], BLOCK_MASS, half_size, friction, name=f"block_{k}")
+                cube = things.Block(things.COLORS[k], BLOCK_MASS, half_size, friction, name=f"block_{k}")
                 mount = body.add("site", name=f"mount_{k}", pos=[0, 0, heights[k] - center], group=5)
                 self.attach(cube, mount)
                 self.blocks.append(cube)

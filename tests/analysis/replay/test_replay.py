@@ -35,7 +35,8 @@ from physexp.analysis.replay import beliefs, live, recording, selection, words, 
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import finding, playing, trainer
 from physexp.analysis.training import run as run_lib
-from physexp.suite.parts import block, tower
+from physexp.suite.parts import things as things_lib
+from physexp.suite.parts import tower
 
 DOCS = Path(__file__).parents[3] / "docs"
 TASKS = [("which_is_heavier", "features"), ("towers", "fist_features"), ("towers", "direct_pixels")]
@@ -241,7 +242,7 @@ def series(path, entity):
 
 def test_a_blocks_colour_means_that_block_and_nothing_else(written):
     episode, _, environment, path = written
-    blocks = {f"block {k}": tuple(int(255 * c) for c in block.COLORS[k][:3]) for k in range(5)}
+    blocks = {f"block {k}": tuple(int(255 * c) for c in things_lib.COLORS[k][:3]) for k in range(5)}
     seen = set()
     for entity in ("/belief/labels", "/belief/answers", "/belief/value", "/seen/heights", "/seen/moved"):
         with contextlib.suppress(LookupError):
@@ -688,7 +689,7 @@ def test_the_viewer_opens_a_file_and_shows_it(tmp_path):
     colors, counts = np.unique(pixels.reshape(-1, 3), axis=0, return_counts=True)
     assert len(colors) > 200  # Text, curves, shaded cubes: much more than a background.
     assert counts.max() < 0.95 * counts.sum()
-    red = np.array(block.COLORS[0][:3])  # The face of block 0, in whatever light.
+    red = np.array(things_lib.COLORS[0][:3])  # The face of block 0, in whatever light.
     seen = colors[np.linalg.norm(colors, axis=1) > 0].astype(float)
     hue = seen / np.linalg.norm(seen, axis=1, keepdims=True) - red / np.linalg.norm(red)
     assert counts[np.linalg.norm(colors, axis=1) > 0][np.linalg.norm(hue, axis=1) < 0.08].sum() > 300

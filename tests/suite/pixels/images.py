@@ -4,14 +4,13 @@ import functools
 import itertools
 import re
 
-import dm_env
-from episodes import SEED, episode_with
+from episodes import SEED, assert_same
 import numpy as np
 import pytest
 
 from physexp import suite
 from physexp.suite.engine import snapshots
-from physexp.suite.parts import block
+from physexp.suite.parts import things
 
 import mujoco  # isort: skip  # The suite chooses the GL backend, which mujoco looks at once.
 
@@ -59,15 +58,6 @@ def start_both(domain_name, task_name, size):
     return batch, singles
 
 
-def assert_same(steps: dm_env.TimeStep, singles: list[dm_env.TimeStep]) -> None:
-    for i, single in enumerate(singles):
-        assert steps.step_type[i] == single.step_type
-        image, expected = steps.observation["pixels"][i], single.observation["pixels"]
-        assert (image.dtype, image.shape) == (expected.dtype, expected.shape)
-        different = (image != expected).any(axis=-1)
-        assert not different.any(), f"environment {i}: {different.sum()} pixels differ"
-
-
 def play_episode(environment, actions) -> np.ndarray:
     """The images of the first episode, [T + 1, 84, 84, 3]."""
     environment.task.next_episode = 0
@@ -84,13 +74,8 @@ def image_of(step) -> np.ndarray:
 
 def batch_of_patterns(task_name, patterns, control_timestep=0.1):
     """A batch whose first environments start with `patterns`, their indices, and their first images."""
-    batch, first = load_shared("towers", task_name, SEED, 80, control_timestep), []
-    chosen = np.arange(len(patterns))
-    for i, pattern in zip(chosen, patterns, strict=True):
-        episode = episode_with(pattern, suite.environment_seed(SEED, i))
-        first.append(image_of(batch.reset(np.array([i]), episode)))
-    np.testing.assert_array_equal(batch.hidden[chosen], patterns)
-    return batch, chosen, np.concatenate(first)
+    batch, chosen = load_shared("towers", task_name, SEED, 80, control_timestep), np.arange(len(patterns))
+    return batch, chosen, image_of(batch.reset(chosen, hidden=np.asarray(patterns)))
 
 
 # Poses of things, and their places in an image.
@@ -143,7 +128,7 @@ def project(model, points) -> np.ndarray:
 
 def mask_of_block(image, number: int) -> np.ndarray:
     """Pixels of a block, bool [84, 84]: light that is white changes how bright a colour is, not the colour."""
-    colors = np.array([*(color[:3] for color in block.COLORS), (1, 1, 1)])  # White is all that is grey.
+    colors = np.array([*(color[:3] for color in things.COLORS), (1, 1, 1)])  # White is all that is grey.
     directions = colors / np.linalg.norm(colors, axis=1, keepdims=True)
     return (image.astype(float) @ directions.T).argmax(axis=-1) == number
 

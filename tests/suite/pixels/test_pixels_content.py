@@ -2,18 +2,16 @@
 
 import itertools
 
-from episodes import SEED, episode_with
+from episodes import SEED
 from images import (
     CORNERS,
     EDGE,
     HEAVIER,
     MARKS,
     SEPARATE,
-    SHAPE,
     WHOLE,
     box_of,
     corners_of_blocks,
-    every_pixel_task,
     image_of,
     load_shared,
     load_single,
@@ -35,24 +33,12 @@ import mujoco  # isort: skip  # The suite chooses the GL backend, which mujoco l
 pytestmark = MARKS
 
 
-@every_pixel_task
-def test_a_pixel_task_observes_one_image_and_nothing_else(domain_name, task_name):
-    single, batch = load_single(domain_name, task_name), load_shared(domain_name, task_name, SEED, 3)
-    for spec in (single.observation_spec(), batch.observation_spec()):
-        assert {name: (array.shape, array.dtype) for name, array in spec.items()} == {"pixels": (SHAPE, np.uint8)}
-    for step in (single.reset(), single.step(0), single.step(single.task.num_interactions)):
-        assert {name: (v.shape, v.dtype) for name, v in step.observation.items()} == {"pixels": (SHAPE, np.uint8)}
-    for step in (batch.reset(), batch.step([0, 1, batch.task.num_interactions])):
-        assert {name: (v.shape, v.dtype) for name, v in step.observation.items()} == {"pixels": ((3, *SHAPE), np.uint8)}
-
-
 @pytest.mark.parametrize("task_name, patterns", [("direct_pixels", [SEPARATE, 6]), ("fist_pixels", [5, WHOLE])])
 def test_an_image_of_a_touched_tower_is_what_mujoco_draws_of_the_state(task_name, patterns):
     """Pattern by pattern, though one renderer draws them all, with a renderer of mujoco's own for the pattern."""
     env = load_shared("towers", task_name, SEED)
     for pattern in patterns:
-        env.task.next_episode = episode_with(pattern, SEED)
-        first = image_of(env.reset())
+        first = image_of(env.reset(hidden=pattern))
         for _ in range(7):  # The fist has hit the tower, 0.17 m away, after two; the lowest block is pushed.
             image = image_of(env.step(0))
         assert (image != first).any()
