@@ -21,6 +21,9 @@ AGENT = (
 )
 TASK = "the task, also as DOMAIN/TASK; `physexp tasks` lists them, and --help after it lists its options"
 
+CLUSTER = "train on a cluster of Ray: the address of its head; auto for the one that runs here"
+RESULTS_DIR = "the folder of all results"
+
 
 def option(default: Any = dataclasses.MISSING, help: str = "", metavar: str | None = None) -> Any:
     """Returns a field of a command that is typed as `--name VALUE`; without a default it is required."""
@@ -60,20 +63,14 @@ class Group(NamedTuple):
 class Parser(argparse.ArgumentParser):
     """The parser of a command. An error is a ValueError of one line.
 
+    Without `is_strict`, required arguments may be missing, and `--help` is an argument as any other.
+
     Attributes:
       words: the names of the arguments that are typed without a name.
       flags: the options as they are typed.
     """
 
     def __init__(self, name: str, kind: type, groups: Sequence[Group] = (), is_strict: bool = True):
-        """Makes the parser of a command.
-
-        Args:
-          name: the command's name.
-          kind: its dataclass.
-          groups: the options that it has beside its own.
-          is_strict: whether required arguments may not be missing, and `--help` prints the help.
-        """
         super().__init__(prog=f"physexp {name}", description=kind.__doc__, allow_abbrev=False, add_help=is_strict)
         self.flags: list[str] = []
         self._is_strict = is_strict
@@ -116,10 +113,7 @@ class Parser(argparse.ArgumentParser):
         default: Any,
         is_pair: bool = False,
     ) -> None:
-        """Adds an option to the parser or to a group of it. If it is not given, the result lacks it.
-
-        A flag that `is_pair` has a `--no-` form too.
-        """
+        """Adds an option that is left out if it is not given; a flag that `is_pair` has a `--no-` form too."""
         settings = _of_value(kind) | {"dest": name, "default": argparse.SUPPRESS, "help": metadata["help"]}
         if metadata.get("metavar"):
             settings["metavar"] = metadata["metavar"]
@@ -128,7 +122,7 @@ class Parser(argparse.ArgumentParser):
         elif default not in (None, ()) and default is not False:
             settings["help"] += f" (default: {_shown(default)})"
         settings["help"] = settings["help"].replace("%", "%%")
-        if settings.get("action") and not is_pair:
+        if kind is bool and not is_pair:
             settings["action"] = "store_true"
         self.flags.append(f"--{name.replace('_', '-')}")
         section.add_argument(self.flags[-1], **settings)
@@ -137,7 +131,7 @@ class Parser(argparse.ArgumentParser):
 def _of_value(kind: Any) -> dict[str, Any]:
     """Returns the settings of argparse for values of a type."""
     if get_origin(kind) is tuple:
-        return _of_value(get_args(kind)[0]) | {"nargs": "*"}
+        return _of_value(get_args(kind)[0]) | {"nargs": "*", "action": "extend"}
     if get_origin(kind) is Literal:
         return {"choices": get_args(kind)}
     if type(None) in get_args(kind):

@@ -30,10 +30,7 @@ def examine() -> dict[str, Any]:
     is empty if the verdict is `OK`. If the core is broken, facts that need it are left out.
     """
     checks = list(_core())
-    facts: dict[str, Any] = {
-        "python": platform.python_version(),
-        "machine": f"{platform.system()} {platform.machine()}",
-    }
+    facts = {"python": platform.python_version(), "machine": f"{platform.system()} {platform.machine()}"}
     if all(check["verdict"] != BROKEN for check in checks):
         facts |= _facts()
         checks += _hardware(facts)
@@ -71,13 +68,12 @@ def _core() -> Iterator[dict[str, str]]:
         fits = specifiers.SpecifierSet(wanted).contains(platform.python_version())
         yield _check("python", platform.python_version(), "" if fits else f"install Python {wanted}")
         yield from map(_version, _requirements(extra=""))
-    for module in _CORE:
-        try:
-            importlib.import_module(module)
-        except Exception as error:  # Any error of a broken library is shown to the user.
-            yield _check(f"import {module}", _in_a_line(error), "install physexp into a new environment", BROKEN)
-            return
+    step = ""
     try:
+        for module in _CORE:
+            step = f"import {module}"
+            importlib.import_module(module)
+        step = "environments"
         from physexp import suite
 
         for names in suite.ALL_TASKS:
@@ -86,8 +82,9 @@ def _core() -> Iterator[dict[str, str]]:
                 environment.reset()
                 environment.step(0)
                 environment.close()
-    except Exception as error:
-        yield _check("environments", _in_a_line(error), "install physexp anew, with the versions above", BROKEN)
+    except Exception as error:  # Any error of a broken library is shown to the user.
+        found = f"{type(error).__name__}: {' '.join(str(error).split())}"
+        yield _check(step, found, "install physexp into a new environment", BROKEN)
     else:
         yield _check("environments", "every task plays from features")
 
@@ -161,7 +158,3 @@ def _extras() -> Iterator[dict[str, str]]:
         versions = [_version(wanted) for wanted in _requirements(extra)]
         found = ", ".join(f"{check['check']} {check['found']}" for check in versions)
         yield _check(f"extra {extra}", found, "" if all(check["verdict"] == OK for check in versions) else install)
-
-
-def _in_a_line(error: Exception) -> str:
-    return f"{type(error).__name__}: {' '.join(str(error).split())}"

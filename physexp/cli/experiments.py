@@ -7,9 +7,7 @@ from typing import Literal
 from physexp import extras
 from physexp.analysis import bench, experiments
 from physexp.cli import printing
-from physexp.cli.arguments import option, word
-
-_RESULTS_DIR = "the folder of all results"
+from physexp.cli.arguments import CLUSTER, RESULTS_DIR, option, word
 
 
 @dataclasses.dataclass
@@ -22,14 +20,10 @@ class Reproduce:
     experiment: str = word("EXPERIMENT", f"{', '.join(experiments.NAMES)}, or all")
     seeds: int | None = option(None, "agents in each condition; by default 10 from features and 5 from pixels")
     observations: Literal["features", "pixels", "all"] = option("all", "train agents that observe these")
-    results_dir: Path = option(Path("results"), _RESULTS_DIR)
+    results_dir: Path = option(Path("results"), RESULTS_DIR)
     jobs: int | None = option(None, "agents trained at a time; by default one for each processor core")
     frames: int | None = option(None, "environment steps of training, for a trial; by default each condition's own")
-    cluster: str | None = option(
-        None,
-        "train on a cluster of Ray: the address of its head; auto for the one that runs here",
-        "HOST:PORT",
-    )
+    cluster: str | None = option(None, CLUSTER, "HOST:PORT")
 
     def run(self) -> None:
         """Runs the missing parts of the experiment."""
@@ -52,7 +46,7 @@ class Reproduce:
 class Report:
     """Write the report of the stored results: every figure, and every claim with its verdict."""
 
-    results_dir: Path = option(Path("results"), _RESULTS_DIR)
+    results_dir: Path = option(Path("results"), RESULTS_DIR)
 
     def run(self) -> None:
         """Writes the report."""
@@ -82,4 +76,4 @@ class Bench:
             if not self.json:
                 printing.tell(measuring.line(row))
         if self.json:
-            printing.show_rows(rows, as_json=True)
+            printing.show(rows, as_json=True)

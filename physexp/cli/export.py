@@ -2,30 +2,23 @@
 
 import dataclasses
 from pathlib import Path
-from typing import Literal
 
 from physexp.cli import printing
-from physexp.cli.arguments import option, word
-from physexp.cli.score import TASKS, TIMEOUT, playing_in
+from physexp.cli.arguments import option
+from physexp.cli.score import Playing, playing_in
 
 
 @dataclasses.dataclass
-class Export:
+class Export(Playing):
     """Play episodes and write all of them, with hidden properties and the ideal's beliefs and values, to learn from.
 
     An interrupted export goes on in its folder.
     """
 
-    target: str = word("TARGET", "the player, as for `physexp score`")
     episodes: int = option(help="number of episodes of each task")
-    tasks: tuple[str, ...] = option((), TASKS, "DOMAIN/TASK")
-    observations: Literal["features", "pixels", "all"] = option("features", "the kind of tasks without --tasks")
     minari: bool = option(False, "write a Minari data set for each task, too")
     seed: int | None = option(None, "seed of the environments; by default one that no score uses")
-    greedy: bool = option(False, "a trained agent takes its likeliest actions instead of drawing them")
-    timeout: float = option(60.0, TIMEOUT)
     output: Path | None = option(None, "the folder for all files; by default a new one under exports/")
-    json: bool = option(False, "print JSON")
 
     def run(self) -> None:
         """Plays and writes the files."""
@@ -55,15 +48,11 @@ class Export:
                     f"{name} has no columns belief and values: no ideal experimenter is known that says what every "
                     "action there is worth"
                 )
-        if self.json:
-            printing.show(found, as_json=True)
-            return
         names = {"episodes": "episodes", "steps": "steps", "success_rate": "right", "mean_return": "return"}
-        printing.show_rows(
-            [
-                {"task": task, **{name: facts[key] for key, name in names.items()}}
-                for task, facts in found["tasks"].items()
-            ],
-            as_json=False,
-        )
-        printing.tell(str(folder))
+        rows = [
+            {"task": task, **{name: facts[key] for key, name in names.items()}}
+            for task, facts in found["tasks"].items()
+        ]
+        printing.show(found if self.json else rows, self.json)
+        if not self.json:
+            printing.tell(str(folder))

@@ -19,7 +19,6 @@ class Ideal:
     words: tuple[str, ...] = word(
         "DOMAIN [TASK]", f"{', '.join(_IDEALS)}; and the task, by default the domain's first", "+"
     )
-    task: str | None = option(None, "the task, in place of the word TASK", "TASK")
     discount: float | None = option(None, "the agent's gamma; by default the domain's")
     json: bool = option(False, "print JSON")
     task_kwargs: dict[str, Any] = dataclasses.field(default_factory=dict)
@@ -37,11 +36,11 @@ class Ideal:
         """
         from physexp import suite
 
-        domain, named = options_lib.task_of(self.words)
+        domain, task = options_lib.task_of(self.words)
         if domain not in _IDEALS:
             raise ValueError(f"no ideal experimenter is known of {domain!r}; choose from {', '.join(_IDEALS)}")
         tasks = suite.TASKS_BY_DOMAIN[domain]
-        task = self.task or named or tasks[0]
+        task = task or tasks[0]
         if task not in tasks:
             raise ValueError(f"task is {task!r}; choose from {', '.join(tasks)}")
         ideal = _IDEALS[domain]

@@ -40,14 +40,14 @@ class Evaluate:
             )
         figures = played.summary(config.agent.discount)
         if not self.json:
-            printing.show(figures, as_json=False)  # Before a search that may take minutes.
+            printing.show(figures)  # Before a search that may take minutes.
         with printing.waiting(f"searching for the ideal experimenter of {config.task_name}"):
             best = playing.ideal_return(config)
         share = {} if best is None else {"ideal_return": best, "share_of_ideal": figures["mean_return"] / best}
         if self.json:
             printing.show(figures | share, as_json=True)
         elif share:
-            printing.show(share, as_json=False)
+            printing.show(share)
 
 
 @dataclasses.dataclass

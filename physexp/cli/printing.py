@@ -59,20 +59,14 @@ def tell(*lines: str) -> None:
     print(*map(text.plain, lines), sep="\n", flush=True)
 
 
-def show(figures: dict, as_json: bool) -> None:
-    """Prints figures by name, a line each."""
+def show(found: dict | list[dict], as_json: bool = False) -> None:
+    """Prints figures by name, or rows with the same columns, a line each."""
     if as_json:
-        print(json.dumps(figures, indent=1))
+        print(json.dumps(found, indent=1))
+    elif isinstance(found, dict):
+        _print_table([{"": name, " ": value} for name, value in found.items()], show_header=False)
     else:
-        _print_table([{"": name, " ": value} for name, value in figures.items()], show_header=False)
-
-
-def show_rows(rows: list[dict], as_json: bool) -> None:
-    """Prints rows with the same columns."""
-    if as_json:
-        print(json.dumps(rows, indent=1))
-    else:
-        _print_table(rows, show_header=True)
+        _print_table(found, show_header=True)
 
 
 def _print_table(rows: list[dict], show_header: bool) -> None:
@@ -88,7 +82,7 @@ def _print_table(rows: list[dict], show_header: bool) -> None:
     if terminal.is_terminal:
         terminal.print(grid)
         return
-    endless = console.Console(markup=False, highlight=False, width=1_000_000, file=io.StringIO())
+    endless = console.Console(markup=False, highlight=False, width=1_000_000)
     with endless.capture() as captured:
         endless.print(grid)
     print("\n".join(line.rstrip() for line in captured.get().splitlines()))

@@ -9,18 +9,12 @@ from typing import Literal
 
 from physexp import checks, extras
 from physexp.cli import printing
-from physexp.cli.arguments import option, word
-
-TASKS = "the tasks; by default all tasks of --observations that the target can play"
-TIMEOUT = "limit on the time of each call of an agent of your own, s"
+from physexp.cli.arguments import RESULTS_DIR, option, word
 
 
 @dataclasses.dataclass
-class Score:
-    """Play a fixed protocol with anything that experiments: its share of the ideal's return, its losses by mistake.
-
-    An interrupted score goes on in its folder.
-    """
+class Playing:
+    """The options of commands in which a target plays tasks."""
 
     target: str = word(
         "TARGET",
@@ -28,17 +22,28 @@ class Score:
         "package; several of these with commas between, shipped, or a3c, belief or ppo, for a team; MODULE:FUNCTION "
         "for an agent of your own (docs/score.md); or random, at_once, silent, ideal",
     )
-    tasks: tuple[str, ...] = option((), TASKS, "DOMAIN/TASK")
+    tasks: tuple[str, ...] = option(
+        (), "the tasks; by default all tasks of --observations that the target can play", "DOMAIN/TASK"
+    )
     observations: Literal["features", "pixels", "all"] = option("features", "the kind of tasks without --tasks")
+    greedy: bool = option(False, "a trained agent takes its likeliest actions instead of drawing them")
+    timeout: float = option(60.0, "limit on the time of each call of an agent of your own, s")
+    json: bool = option(False, "print JSON")
+
+
+@dataclasses.dataclass
+class Score(Playing):
+    """Play a fixed protocol with anything that experiments: its share of the ideal's return, its losses by mistake.
+
+    An interrupted score goes on in its folder.
+    """
+
     quick: bool = option(False, "100 episodes of each task instead of 1000")
     episodes: int | None = option(None, "number of episodes of each task")
-    greedy: bool = option(False, "a trained agent takes its likeliest actions instead of drawing them")
-    timeout: float = option(60.0, TIMEOUT)
     algorithm: str | None = option(None, "how your agent was trained, for the report and the leaderboard")
     frames: int | None = option(None, "environment steps of its training")
     minutes: float | None = option(None, "duration of its training, min")
     output: Path | None = option(None, "the folder for the log, the figures and the report; by default under scores/")
-    json: bool = option(False, "print JSON")
 
     def run(self) -> None:
         """Plays, judges, writes the report and prints the score."""
@@ -56,17 +61,15 @@ class Score:
             found = scoring.score(
                 target, chosen, count, folder, timeout=self.timeout, made=made, show=show, finish=_write_report
             )
-        if self.json:
-            printing.show(found, as_json=True)
-            return
-        printing.show_rows(_rows(found), as_json=False)
-        printing.tell(str(folder))
+        printing.show(found if self.json else _rows(found), self.json)
+        if not self.json:
+            printing.tell(str(folder))
 
     def _made(self) -> dict:
         """Returns the given facts of how the agent was made; raises ValueError for numbers that make no sense."""
         if self.frames is not None:
             checks.integer("frames", self.frames, 0)
-        seconds = None if self.minutes is None else 60 * checks.between("minutes", self.minutes, 0, 1e9, "min")
+        seconds = None if self.minutes is None else 60 * checks.within(0, 1e9, "min")("minutes", self.minutes)
         said = {"algorithm": self.algorithm, "frames": self.frames, "seconds": seconds}
         return {name: value for name, value in said.items() if value is not None}
 
@@ -160,7 +163,7 @@ class Verify:
 class Leaderboard:
     """Write leaderboard.md and its figure from the stored scores."""
 
-    results_dir: Path = option(Path("results"), "the folder of all results")
+    results_dir: Path = option(Path("results"), RESULTS_DIR)
 
     def run(self) -> None:
         """Writes the leaderboard.

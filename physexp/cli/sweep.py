@@ -7,7 +7,7 @@ import shlex
 from physexp import extras
 from physexp.analysis.training import config as config_lib
 from physexp.cli import printing
-from physexp.cli.arguments import option, word
+from physexp.cli.arguments import CLUSTER, RESULTS_DIR, option, word
 
 _LARGEST = 1_000_000
 
@@ -27,11 +27,9 @@ class Sweep:
     first_seed: int = option(0, "the seed of the first of them")
     frames: int | None = option(None, "environment steps of training; by default those of each task's preset")
     episodes: int = option(10_000, "episodes of each evaluation")
-    results_dir: Path = option(Path("results"), "the folder of all results")
+    results_dir: Path = option(Path("results"), RESULTS_DIR)
     jobs: int | None = option(None, "runs at a time; by default one for each processor core")
-    cluster: str | None = option(
-        None, "train on a cluster of Ray: the address of its head; auto for the one that runs here", "HOST:PORT"
-    )
+    cluster: str | None = option(None, CLUSTER, "HOST:PORT")
     print: bool = option(False, "print a shell command for each run that is not done, and train nothing")
     json: bool = option(False, "print the final table as JSON")
 
@@ -56,19 +54,11 @@ class Sweep:
         num_processes = self.jobs or processes.num_cores()
         with pools.opened(num_processes, self.cluster) as pool:
             sweep.run(jobs, results, pool, num_processes, printing.warn)
-        printing.show_rows(sweep.table(jobs, results), self.json)
+        printing.show(sweep.table(jobs, results), self.json)
 
     def _command(self, config: config_lib.TrainConfig) -> str:
         """Returns the shell command of one run."""
-        words: list[object] = [
-            "physexp",
-            "sweep",
-            config.task_name,
-            "--learners",
-            config.agent.algorithm,
-            "--seeds",
-            "1",
-        ]
-        words += ["--first-seed", config.agent.seed, "--episodes", self.episodes, "--jobs", "1"]
-        words += ["--results-dir", self.results_dir, *(["--frames", self.frames] if self.frames else [])]
-        return shlex.join(map(str, words))
+        learner, seed = config.agent.algorithm, config.agent.seed
+        line = f"physexp sweep {config.task_name} --learners {learner} --seeds 1 --first-seed {seed}"
+        line += f" --episodes {self.episodes} --jobs 1 --results-dir {shlex.quote(str(self.results_dir))}"
+        return line + (f" --frames {self.frames}" if self.frames else "")

@@ -1,6 +1,7 @@
 """Commands that list the tasks and examine this machine."""
 
 import dataclasses
+import itertools
 import sys
 
 from physexp.cli import printing
@@ -37,25 +38,16 @@ class Tasks:
                 }
             )
         if self.json:
-            printing.show_rows(rows, as_json=True)
+            printing.show(rows, as_json=True)
             return
-        for domain in suite.TASKS_BY_DOMAIN:
-            of_domain = [row for row in rows if row["domain"] == domain]
-            printing.tell(f"{domain}: {of_domain[0]['question']}")
-            shown = ("task", "interactions", "labels", "step_limit")
-            printing.show_rows(
-                [
-                    {
-                        **{name: row[name] for name in shown},
-                        "discount": f"{row['discount']:g}",
-                        "observations": ", ".join(
-                            f"{key} {array['dtype']} {array['shape']}" for key, array in row["observations"].items()
-                        ),
-                    }
-                    for row in of_domain
-                ],
-                as_json=False,
-            )
+        for row in rows:
+            arrays = (f"{key} {array['dtype']} {array['shape']}" for key, array in row["observations"].items())
+            row |= {"discount": f"{row['discount']:g}", "observations": ", ".join(arrays)}
+        for domain, of_domain in itertools.groupby(rows, lambda row: row.pop("domain")):
+            table = list(of_domain)
+            (question,) = {row.pop("question") for row in table}
+            printing.tell(f"{domain}: {question}")
+            printing.show(table)
             printing.tell("")
 
 
@@ -73,9 +65,6 @@ class Doctor:
         from physexp.cli import doctor
 
         found = doctor.examine()
-        if self.json:
-            printing.show(found, as_json=True)
-        else:
-            printing.show_rows(found["checks"], as_json=False)
+        printing.show(found if self.json else found["checks"], self.json)
         if any(check["verdict"] == doctor.BROKEN for check in found["checks"]):
             sys.exit(1)

@@ -94,41 +94,35 @@ class Train:
         printing.warn(f"the agent is in that folder; next: {'; '.join(lines)}")
 
     def _train(self, run, config: config_lib.TrainConfig) -> None:
-        from physexp.analysis.training import trainer
+        from physexp.analysis.training import progress, trainer
 
         with contextlib.ExitStack() as stack:
             stack.enter_context(run.locked())
             run.check_resumable() if self.resume else run.check_new()
             was_finished = self.resume and run.is_finished
-            report = self._reports(stack, run, config)
+            display = stack.enter_context(progress.Progress(config))
+            reports = [callbacks.expendable(display, printing.warn, "the progress")]
+            if self.tensorboard:
+                from physexp.analysis.training import tensorboard
+
+                board = tensorboard.TensorBoard(run)
+                reports.append(callbacks.expendable(board, printing.warn, "TensorBoard"))
+                stack.callback(callbacks.expendable(board.close, printing.warn, "TensorBoard"))
             on_checkpoint = None
             if config.replay_every:
                 from physexp.analysis.replay import training
 
                 on_checkpoint = training.Writer(run, config)
             start = None if self.resume else config
+
+            def report(row: dict[str, Any]) -> None:
+                for call in reports:
+                    call(row)
+
             trainer.train(run, report, tell=printing.warn, start=start, on_checkpoint=on_checkpoint)
             if was_finished:
                 frames = config.agent.frames
                 printing.warn(f"{run.path} has had its {frames:,} frames; to train longer, train anew with more")
-
-    def _reports(self, stack: contextlib.ExitStack, run, config: config_lib.TrainConfig) -> callbacks.Report:
-        """Returns a call that passes rows of metrics to the progress and to TensorBoard; one may fail alone."""
-        from physexp.analysis.training import progress
-
-        logs = [callbacks.expendable(stack.enter_context(progress.Progress(config)), printing.warn, "the progress")]
-        if self.tensorboard:
-            from physexp.analysis.training import tensorboard
-
-            board = tensorboard.TensorBoard(run)
-            logs.append(callbacks.expendable(board, printing.warn, "TensorBoard"))
-            stack.callback(callbacks.expendable(board.close, printing.warn, "TensorBoard"))
-
-        def report(row: dict) -> None:
-            for log in logs:
-                log(row)
-
-        return report
 
     def _refuse_others(self, config: config_lib.TrainConfig, path: Path) -> None:
         """Refuses given options that differ from those of the run that is resumed."""
