@@ -92,17 +92,3 @@ def test_blocks_that_are_known_to_be_like_the_others_are_grey():
         grey[difficulty] = [colour == tuple(np.round(model.geom("left_pan").rgba, 3)) for colour in colours]
     assert {difficulty: sum(are) for difficulty, are in grey.items()} == {1: 0, 2: 1, 3: 2}
     assert grey[3][-2:] == [True, True]
-
-
-@pytest.mark.parametrize(
-    "kwargs, words",
-    [
-        ({"difficulty": 0}, "difficulty is 0; give 1, 2 or 3"),
-        ({"difficulty": 4}, "difficulty is 4"),
-        ({"difficulty": 1.5}, "difficulty is 1.5"),
-        ({"control_timestep": 0.05}, "control_timestep is 0.05 s; give at least 0.08 s"),
-    ],
-)
-def test_options_that_make_no_question_are_refused(kwargs, words):
-    with pytest.raises(ValueError, match=words):
-        suite.load("balance", "features", kwargs)

@@ -77,15 +77,6 @@ def test_the_right_label_in_the_last_step_still_earns_one(env):
     }
 
 
-@every_feature_task
-def test_features_are_float32_of_the_declared_shapes(env):
-    observation = env.reset().observation
-    assert {name: value.shape for name, value in observation.items()} == {
-        name: reading.shape for name, reading in env.task.readings.items()
-    }
-    assert {value.dtype for value in observation.values()} == {np.dtype(np.float32)}
-
-
 @pytest.mark.parametrize("name", ["towers/fist_features", "sealed_box/features", "which_is_heavier/pixels"])
 def test_a_flat_observation_is_the_others_in_a_row_sorted_by_name(name):
     """As `dm_control.suite.load` has it with the same argument."""

@@ -1,7 +1,5 @@
 """Nothing tells of the hidden property before an interaction, and analysis may choose it: of every task."""
 
-import itertools
-
 from every_task import NAMES, every_feature_task, every_task, load, load_batch
 import numpy as np
 import pytest
@@ -28,22 +26,6 @@ def test_first_observations_are_the_same_whatever_is_hidden(seed, name):
             batch.step(rng.integers(batch.task.num_interactions, size=size))
     assert len(firsts) == 1
     assert len(answers) > batch.task.num_labels / 2
-    batch.close()
-
-
-@every_feature_task
-def test_an_interaction_tells_something_of_the_hidden_property(seed, name):
-    """Otherwise it would be no experiment: eight steps of one or two in turn, or all there are, do not look alike."""
-    batch = load_batch(name, 32, random=seed)
-    most = 0
-    for pair in itertools.product(range(batch.task.num_interactions), repeat=2):
-        batch.reset()
-        for action in (4 * pair)[: batch.task.rules.step_limit - 1]:
-            observation = batch.step(np.full(32, action)).observation
-        most = max(most, len({tuple(value[i].tobytes() for value in observation.values()) for i in range(32)}))
-        if most > 1:
-            break
-    assert most > 1
     batch.close()
 
 

@@ -22,20 +22,6 @@ def look_around():
     }
 """
 
-PLAY = """
-from physexp import suite
-for domain_name, task_name in suite.ALL_TASKS:
-    if task_name.endswith("features"):
-        env = suite.load(domain_name, task_name, {"random": 0})
-        env.reset()
-        for action in range(3):
-            env.step(action)
-        batch = suite.load_batch(domain_name, task_name, 2, {"random": 0})
-        batch.reset()
-        batch.step([0, 1])
-        env.close()
-"""
-
 
 @pytest.mark.parametrize("module", ["physexp", "physexp.suite"])
 def test_importing_starts_no_thread_or_process_and_opens_no_context(module):
@@ -48,12 +34,6 @@ def test_importing_the_suite_imports_no_torch_and_no_plots():
     unwanted = {"torch", "matplotlib", "pandas", "pyarrow", "rerun", "gymnasium", "ray", "tensorboard"}
     assert not unwanted & set(found["loaded"])
     assert [name for name in found["physexp"] if not name.startswith("physexp.suite")] == ["physexp", "physexp.checks"]
-
-
-def test_features_need_no_gl_at_all():
-    found, _ = interpreters.run(f"{LOOK_AROUND}\n{PLAY}\nfound.update(look_around())", MUJOCO_GL="disable")
-    assert found["backend"] == "disable"
-    assert "OpenGL" not in found["loaded"]
 
 
 def test_triton_is_loaded_before_gl_since_after_mesa_it_ends_the_process(tmp_path):

@@ -105,15 +105,6 @@ def test_observations_tell_nothing_but_the_push_and_the_place(seed, domain_name,
     assert len([key for key in followed.shown if key[0] != WAIT]) == 4 and followed.num_different() > 20
 
 
-def test_who_only_waits_sees_a_box_that_stands_still_whatever_is_in_it(seed):
-    batch = suite.load_batch("sealed_box", "features", len(ALL), {"random": seed})
-    batch.reset(hidden=ALL)
-    for _ in range(batch.task.rules.step_limit - 1):
-        observation = batch.step(np.full(len(ALL), WAIT)).observation
-        assert not any(value.any() for value in observation.values())
-        assert not _places(batch).any()
-
-
 def test_kinds_are_equally_likely_and_so_are_the_contents_of_one_kind(seed):
     """Each content's share of 100 000 episodes is what its probability makes likely."""
     count = 100_000
@@ -123,17 +114,3 @@ def test_kinds_are_equally_likely_and_so_are_the_contents_of_one_kind(seed):
     assert [kinds.count(kind) for kind in range(4)] == [6, 12, 12, 12]
     chance.assert_drawn(np.bincount(drawn, minlength=len(ALL)), expected)
     assert suite.load_task("sealed_box", "features").answers(ALL).tolist() == kinds
-
-
-@pytest.mark.parametrize(
-    "kwargs, words",
-    [
-        ({"difficulty": 0}, "difficulty is 0; give 1, 2 or 3"),
-        ({"difficulty": 2.5}, "difficulty is 2.5"),
-        ({"control_timestep": 0.05}, "control_timestep is 0.05 s; give a multiple"),
-        ({"noise": 0.001}, "noise is 0.001; give 0"),
-    ],
-)
-def test_options_that_make_no_question_are_refused(kwargs, words):
-    with pytest.raises(ValueError, match=words):
-        suite.load("sealed_box", "features", kwargs)

@@ -124,16 +124,3 @@ def test_strikes_are_equally_likely_and_so_are_the_pucks(seed):
     chance.assert_drawn(np.bincount(drawn, minlength=len(ALL)), expected)
     answers = suite.load_task("strike", "features").answers(ALL)
     assert np.bincount(answers).tolist() == [len(ALL) // 7] * 7
-
-
-@pytest.mark.parametrize(
-    "kwargs, words",
-    [
-        ({"difficulty": 4}, "difficulty is 4; give 1, 2 or 3"),
-        ({"goal_distance": 0.4}, "goal_distance is 0.4; give a number from 0.6 to 0.75 m"),
-        ({"noise": 0.001}, "noise is 0.001; give 0"),
-    ],
-)
-def test_options_that_make_no_question_are_refused(kwargs, words):
-    with pytest.raises(ValueError, match=words):
-        suite.load("strike", "features", kwargs)

@@ -9,7 +9,6 @@ import pytest
 
 from physexp import suite
 from physexp.suite.domains import strings
-from physexp.suite.engine import snapshots
 
 TASKS = [("strings", "features"), ("strings", "pixels")]
 LEAST, GREATEST = strings.SLACKS
@@ -82,19 +81,6 @@ def test_observations_tell_nothing_but_what_is_pulled_clamped_and_away(seed, dom
     assert followed.num_different() == 4 + 12 + 3 + 12
 
 
-def test_a_clamped_puck_stays_where_it_is_to_a_micrometre(seed):
-    rng = np.random.default_rng(seed)
-    slacks = np.full((3, 3), LEAST)
-    batch = suite.load_batch("strings", "features", 3, {"random": seed})
-    batch.reset(hidden=slacks)
-    pucks = np.arange(3)
-    batch.step(3 + pucks)  # A clamp takes hold at the end of its step.
-    held = np.array([snapshots.view(batch, "qpos", k)[k] for k in pucks])
-    for _ in range(15):
-        batch.step(rng.integers(3, size=3))
-        assert np.abs([snapshots.view(batch, "qpos", k)[k] - held[k] for k in pucks]).max() < 1e-6
-
-
 def test_graphs_follow_the_prior_and_slacks_are_within_their_range(seed):
     """Each graph's share of 100 000 episodes is what its probability makes likely."""
     count = 100_000
@@ -116,16 +102,3 @@ def test_answers_are_named_after_the_pairs_that_are_joined():
     assert [task.label_names[label] for label in (2, 5)] == ["0-2", "0-1, 1-2"]
     assert task.reveal(np.array([0, 0, LEAST])).tied == [("puck_1", "puck_2")]
     assert task.reveal(np.zeros(3)).marks == {"puck_1": "no bands"}
-
-
-@pytest.mark.parametrize(
-    "kwargs, words",
-    [
-        ({"difficulty": 0.5}, "difficulty is 0.5"),
-        ({"control_timestep": 0.09}, "control_timestep is 0.09 s; give at least 0.1 s"),
-        ({"noise": 0.001}, "noise is 0.001; give 0"),
-    ],
-)
-def test_options_that_make_no_question_are_refused(kwargs, words):
-    with pytest.raises(ValueError, match=words):
-        suite.load("strings", "features", kwargs)

@@ -75,21 +75,3 @@ def test_labels_follow_the_prior_and_frictions_keep_away_from_the_levels(seed):
         distances = np.abs(frictions[:, None] - np.concatenate([[0.0], LEVELS])).min(axis=1)
         assert distances.min() >= threshold.MARGIN * threshold.LEVEL_SPACING - 1e-9
         assert (LEVELS[labels] > frictions).all() and (LEVELS[labels] - threshold.LEVEL_SPACING < frictions).all()
-
-
-@pytest.mark.parametrize(
-    "kwargs, words",
-    [
-        ({"difficulty": 0.5}, "difficulty is 0.5; give a finite number >= 1"),
-        ({"control_timestep": 0.05}, "control_timestep is 0.05 s; give at least 0.06 s"),
-        ({"time_limit": 20.0}, "time_limit is 20.0 s; give at most 10 s"),
-        # 99 control steps of up to 0.14 s before the last.
-        (
-            {"time_limit": 10.0, "step_variation": 0.4},
-            "time_limit is 10.0 s, .* last 13.86 s where .*; give less: .* 10 s",
-        ),
-    ],
-)
-def test_options_that_make_no_question_are_refused(kwargs, words):
-    with pytest.raises(ValueError, match=words):
-        suite.load("threshold", "features", kwargs)

@@ -3,35 +3,13 @@
 from concurrent import futures
 import ctypes.util
 
-from episodes import SEED
-from images import HEAVIER, MARKS, every_pixel_task, image_of, load_single, play_episode
+from images import HEAVIER, MARKS, image_of, play_episode
 import interpreters
 import numpy as np
 import pytest
 import screens
 
-from physexp import suite
-
 pytestmark = MARKS
-
-
-# Several environments, and others that draw.
-
-
-@every_pixel_task
-def test_environments_that_take_turns_each_see_their_own_state(load, domain_name, task_name):
-    actions = [0, 1, 2, 3, 0, 1]
-    others = actions[::-1]
-    one, other = load_single(domain_name, task_name), load(domain_name, task_name, suite.environment_seed(SEED, 0))
-    expected, expected_others = play_episode(one, actions), play_episode(one, others)
-    for env in (one, other):
-        env.task.next_episode = 0
-        env.reset()
-    for t in range(6):
-        np.testing.assert_array_equal(image_of(one.step(actions[t])), expected[t + 1])
-        np.testing.assert_array_equal(image_of(other.step(others[t])), expected_others[t + 1])
-    assert len({image.tobytes() for image in expected}) > 1, "the images never changed"
-    assert (expected[-1] != expected_others[-1]).any()
 
 
 DISTURB = """
