@@ -13,21 +13,8 @@ _libc = ctypes.CDLL(None)
 class _AllocatorFigures(ctypes.Structure):
     """`struct mallinfo2` of the GNU C library."""
 
-    _fields_ = [
-        (name, ctypes.c_size_t)
-        for name in (
-            "arena",
-            "ordblks",
-            "smblks",
-            "hblks",
-            "hblkhd",
-            "usmblks",
-            "fsmblks",
-            "uordblks",
-            "fordblks",
-            "keepcost",
-        )
-    ]
+    _names = "arena ordblks smblks hblks hblkhd usmblks fsmblks uordblks fordblks keepcost"
+    _fields_ = [(name, ctypes.c_size_t) for name in _names.split()]
 
 
 _libc.mallinfo2.restype = _AllocatorFigures

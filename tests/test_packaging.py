@@ -1,4 +1,4 @@
-"""Installations from a wheel and from a repository's address work like a checkout."""
+"""Installations from a wheel work like a checkout."""
 
 import ast
 import importlib.metadata
@@ -93,17 +93,6 @@ def test_the_wheel_holds_the_package_with_its_data_and_no_tests(source, wheel, d
     assert (command.name, command.value) == ("physexp", "physexp.cli:main")
 
 
-def test_an_installation_from_a_repositorys_address_is_the_wheels(source, wheel, tmp_path):
-    repository = Path(shutil.copytree(source, tmp_path / "repository"))
-    git = ["git", "-C", repository, "-c", "user.name=A", "-c", "user.email=a@localhost"]
-    for command in (["init", "--quiet"], ["add", "."], ["commit", "--quiet", "--message", "All"]):
-        subprocess.run([*git, *command], check=True)
-    folder = tmp_path / "installed"
-    run_pip("install", "--no-deps", "--no-build-isolation", "--target", folder, f"git+file://{repository}")
-    names = {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
-    assert {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name} <= names
-
-
 def closure(distribution, extra=""):
     """The names of the libraries that physexp and an extra require, directly or through others."""
     found, todo = set(), [Requirement(f"physexp[{extra}]" if extra else "physexp")]
@@ -154,19 +143,6 @@ def test_every_requirement_has_a_pin_that_it_allows(distribution):
     for requirement in map(Requirement, distribution.requires):
         if requirement.name != "physexp":  # An extra that includes another.
             assert pins[canonicalize_name(requirement.name)] in requirement.specifier
-
-
-def test_make_installs_the_requirements_of_a_target_and_no_more(distribution):
-    unwanted = {
-        "demo": {"pandas", "ray", "mypy", "sphinx", "stable-baselines3", "tensorboard", "gymnasium", "pytest"},
-        "docs": {"ray", "mypy", "pytest", "tensorboard"},
-        "test": {"sphinx", "furo", "myst-nb"},
-    }
-    for target, without in unwanted.items():
-        command = ["make", "--dry-run", "--always-make", "--no-print-directory", target]
-        commands = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
-        (extra,) = set(re.findall(r"-e '\.\[(\w+)\]'", commands))
-        assert closure(distribution, extra).isdisjoint(without), target
 
 
 def test_the_citation_and_the_changelog_are_of_this_version():
