@@ -1,5 +1,6 @@
 """Waits for states in tests, for as long as processes make progress, on a slow machine too; imports little."""
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -16,10 +17,13 @@ BUSY_SECONDS = 600.0
 
 
 class Patience:
-    """Watches a process and its descendants; over when they have idled for long, or used much time in vain."""
+    """Watches processes; over when they have idled for long, or used much time in vain."""
 
     def __init__(self, pid: int | None = None, idle_seconds: float = IDLE_SECONDS, busy_seconds: float = BUSY_SECONDS):
-        """Watches `pid` and its descendants; by default all descendants of this process."""
+        """Watches `pid`, its descendants and the group that it leads; by default all descendants of this process.
+
+        A process that is forked from the server of `commands` is in its parent's group, but is no descendant of it.
+        """
         self._pid, self._idle_seconds, self._busy_seconds = pid, idle_seconds, busy_seconds
         self._used: dict[int, float] = {}
         self._look()
@@ -45,7 +49,7 @@ class Patience:
     def _look(self) -> None:
         try:
             root = psutil.Process(self._pid or os.getpid())
-            watched = root.children(recursive=True) + ([root] if self._pid else [])
+            watched = root.children(recursive=True) + (self._group() if self._pid else [])
         except psutil.NoSuchProcess:
             return
         for process in watched:
@@ -54,6 +58,14 @@ class Patience:
             except psutil.NoSuchProcess:
                 continue
             self._used[process.pid] = times.user + times.system
+
+    def _group(self) -> list[psutil.Process]:
+        found = []
+        for process in psutil.Process().children(recursive=True):
+            with contextlib.suppress(ProcessLookupError):
+                if self._pid in (process.pid, os.getpgid(process.pid)):
+                    found.append(process)
+        return found
 
     def _total(self) -> float:
         return sum(self._used.values())
