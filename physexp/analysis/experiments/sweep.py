@@ -66,11 +66,8 @@ def jobs(
 ) -> list[Job]:
     """Returns the runs that experiments need, each once, the first seed of all before the second of any.
 
-    Args:
-      experiments: the experiments.
-      observations: kinds of observations that agents may have.
-      num_seeds: the number of agents of each condition, by kind of observation.
-      frames: environment steps of training; None for each condition's own budget.
+    Only agents with some kinds of observations are trained, of each condition as many as `num_seeds` returns for the
+    kind; `frames` replaces each condition's budget.
     """
     trials: dict[config_lib.TrainConfig, dict[base.Trial, None]] = defaultdict(dict)
     for experiment in experiments:
@@ -84,14 +81,9 @@ def jobs(
 def grid(
     tasks: Sequence[str], learners: Sequence[str], seeds: Sequence[int], frames: int | None, num_episodes: int
 ) -> list[Job]:
-    """Returns a run for each task, learner and seed, the first seed of all before the second of any.
+    """Returns a run with the preset of each task, as `domain/task`, and learner, for each seed, and its evaluation.
 
-    Args:
-      tasks: the tasks, as `domain/task`.
-      learners: the learners, as `a3c`, `belief` and `ppo`; each has the preset of the task.
-      seeds: training seeds.
-      frames: environment steps of training; None for those of the presets.
-      num_episodes: the number of episodes of the evaluation.
+    The first seed of all is before the second of any; `frames` replaces those of the presets.
 
     Raises:
       ValueError: for an unknown task.
@@ -143,12 +135,7 @@ def table(jobs: Sequence[Job], results: base.Results) -> list[dict[str, Any]]:
 def run(jobs: Sequence[Job], results: base.Results, pool: Pool, num_processes: int, tell: callbacks.Tell) -> None:
     """Does the jobs that are not done yet.
 
-    Args:
-      jobs: the runs.
-      results: the folder for their data.
-      pool: does the jobs.
-      num_processes: jobs at a time, for the estimate of the time left.
-      tell: called with lines about the progress.
+    `num_processes` jobs at a time are assumed for the estimate of the time left, which is told now and then.
 
     Raises:
       RuntimeError: if some agents could not be trained; all others are done by then.
@@ -160,7 +147,7 @@ def run(jobs: Sequence[Job], results: base.Results, pool: Pool, num_processes: i
     tell(f"{len(jobs) - len(todo)} of {len(jobs)} agents are done")
     if not todo:
         return
-    meter, reported, failures = Meter(jobs, results, num_processes), time.monotonic(), []
+    reported, failures = time.monotonic(), []
     with stopping.Interruption(pool.stop) as interruption:
         pending = {pool.submit(job, results): job for job in todo}
         while pending:
@@ -177,7 +164,7 @@ def run(jobs: Sequence[Job], results: base.Results, pool: Pool, num_processes: i
                 problem = verdict.of_run(results.run(job.config))
                 tell(f"done: {job.config.name}" + (f", but {problem}" if problem else ""))
             if pending and not interruption.happened and (finished or time.monotonic() - reported > _REPORT_SECONDS):
-                tell(meter.line(len(pending)))
+                tell(outlook(jobs, results, num_processes, len(pending)))
                 reported = time.monotonic()
     if interruption.happened:
         raise interruption.happened
@@ -197,11 +184,12 @@ def to_do(jobs: Sequence[Job], results: base.Results) -> list[Job]:
     for job in jobs:
         run, missing = results.run(job.config), _missing(job, played)
         is_stored, has_agent = job.config.name in stored, run.agent_path.exists()
+        known = job.config
         if (run.path / "config.json").exists():
-            is_same = run.config == job.config
-        else:
-            is_same = not is_stored or json.loads(stored[job.config.name]) == _as_json(job.config)
-        if not is_same:
+            known = run.config
+        elif is_stored:
+            known = config_lib.TrainConfig.from_json(json.loads(stored[job.config.name]))
+        if known != job.config:
             raise ValueError(
                 f"{job.config.name} in {results.path} has another configuration; move its run away or choose another "
                 "--results-dir"
@@ -221,10 +209,6 @@ def to_do(jobs: Sequence[Job], results: base.Results) -> list[Job]:
 def _missing(job: Job, played: set[tuple[str, str, int]]) -> dict[str, base.Trial]:
     key, seed = records.condition_id(job.config), job.config.agent.seed
     return {trial.name: trial for trial in job.trials if (key, trial.name, seed) not in played}
-
-
-def _as_json(config: config_lib.TrainConfig) -> dict:
-    return json.loads(json.dumps(config.to_json()))
 
 
 def _take(future: futures.Future[Mapping[str, bytes]], job: Job, results: base.Results) -> BaseException | None:
@@ -270,7 +254,7 @@ def work(job: Job, results: base.Results) -> dict[str, bytes]:
         if not run.agent_path.exists():
             trainer.train(
                 run,
-                tell=lambda line: _warn(f"{job.config.name}: {line}"),
+                tell=lambda line: sys.stderr.write(f"{job.config.name}: {line}\n"),
                 start=None if run.checkpointer.paths() else job.config,
             )
         run.keep_agent_only()
@@ -279,10 +263,6 @@ def work(job: Job, results: base.Results) -> dict[str, bytes]:
             if not path.exists():
                 files.write_atomically(path, _play(run, trial))
     return {}
-
-
-def _warn(line: str) -> None:
-    sys.stderr.write(f"{line}\n")
 
 
 def work_elsewhere(job: Job) -> dict[str, bytes]:
@@ -310,34 +290,28 @@ def _play(run: run_lib.Run, trial: base.Trial) -> bytes:
     return results_lib.packed(records.of_episodes(played, config, trial.name, timestep))
 
 
-class Meter:
-    """Estimates the rest of a sweep from the speed of its own runs."""
-
-    def __init__(self, jobs: Sequence[Job], results: base.Results, num_processes: int):
-        self._jobs, self._results, self._num_processes = jobs, results, num_processes
-
-    def line(self, num_pending: int) -> str:
-        """Returns the number of agents and frames to go, and the time left once a speed is known."""
-        stored = self._results.load("runs", ["run", "frames", "seconds"]).set_index("run")
-        done = total = left = 0.0
-        speeds: dict[tuple[str, str], list[tuple[float, float]]] = defaultdict(list)
-        remaining: dict[tuple[str, str], float] = defaultdict(float)
-        for job in self._jobs:
-            kind, budget = (job.config.task_name, job.config.agent.algorithm), job.config.agent.frames
-            if job.config.name in stored.index:
-                frames, seconds = stored.loc[job.config.name, ["frames", "seconds"]]
-            else:
-                rows = self._results.run(job.config).metrics()
-                frames, seconds = (rows[-1]["frames"], rows[-1]["seconds"]) if rows else (0, 0)
-            if frames:
-                speeds[kind].append((seconds, frames))
-            remaining[kind] += budget - min(frames, budget)
-            done, total = done + min(frames, budget), total + budget
-        agents = "1 agent" if num_pending == 1 else f"{num_pending} agents"
-        line = f"{agents} to go, {done / 1e6:.2f} of {total / 1e6:.2f} million frames"
-        if not speeds:
-            return line
-        for kind, frames in remaining.items():
-            known = speeds.get(kind) or [pair for pairs in speeds.values() for pair in pairs]
-            left += frames * sum(seconds for seconds, _ in known) / sum(count for _, count in known)
-        return f"{line}, time left {progress.duration(left / self._num_processes)}"
+def outlook(jobs: Sequence[Job], results: base.Results, num_processes: int, num_pending: int) -> str:
+    """Returns the number of agents and frames to go, and the time left at the speed of these runs, once it is known."""
+    stored = results.load("runs", ["run", "frames", "seconds"]).set_index("run")
+    done = total = left = 0.0
+    speeds: dict[tuple[str, str], list[tuple[float, float]]] = defaultdict(list)
+    remaining: dict[tuple[str, str], float] = defaultdict(float)
+    for job in jobs:
+        kind, budget = (job.config.task_name, job.config.agent.algorithm), job.config.agent.frames
+        if job.config.name in stored.index:
+            frames, seconds = stored.loc[job.config.name, ["frames", "seconds"]]
+        else:
+            rows = results.run(job.config).metrics()
+            frames, seconds = (rows[-1]["frames"], rows[-1]["seconds"]) if rows else (0, 0)
+        if frames:
+            speeds[kind].append((seconds, frames))
+        remaining[kind] += budget - min(frames, budget)
+        done, total = done + min(frames, budget), total + budget
+    agents = "1 agent" if num_pending == 1 else f"{num_pending} agents"
+    line = f"{agents} to go, {done / 1e6:.2f} of {total / 1e6:.2f} million frames"
+    if not speeds:
+        return line
+    for kind, frames in remaining.items():
+        known = speeds.get(kind) or [pair for pairs in speeds.values() for pair in pairs]
+        left += frames * sum(seconds for seconds, _ in known) / sum(count for _, count in known)
+    return f"{line}, time left {progress.duration(left / num_processes)}"

@@ -1,7 +1,7 @@
 """Sweeps: whole runs, of which nothing is lost or done twice."""
 
 from concurrent import futures
-import os
+import multiprocessing
 import shutil
 import signal
 
@@ -160,13 +160,13 @@ def test_a_failure_is_named_and_the_others_go_on(tmp_path):
 
 def test_the_time_left_follows_from_the_speed_of_runs(tmp_path):
     results, jobs = base.Results(tmp_path), grid(frames=4000)
-    meter = sweep.Meter(jobs, results, 1)
-    assert meter.line(2) == "2 agents to go, 0.00 of 0.01 million frames"
+    assert sweep.outlook(jobs, results, 1, 2) == "2 agents to go, 0.00 of 0.01 million frames"
     run = results.run(jobs[0].config)
     run.create(jobs[0].config)
     run.append_metrics({**dict.fromkeys(metrics_lib.METRICS, 0.0), "frames": 1000, "seconds": 30.0})
     # The 7000 frames that are left take 30 s for each thousand.
-    assert meter.line(1) == "1 agent to go, 0.00 of 0.01 million frames, time left 0:03:30"
+    left = "1 agent to go, 0.00 of 0.01 million frames, time left 0:03:30"
+    assert sweep.outlook(jobs, results, 1, 1) == left
 
 
 def test_experiments_that_need_the_same_agent_train_it_once():
@@ -208,24 +208,19 @@ def test_what_cannot_be_done_is_one_readable_line(words, message, tmp_path):
 @pytest.mark.long
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
 def test_a_stopped_sweep_goes_on_where_it_was(number, tmp_path):
-    tasks = [TASK, "threshold/features"]
-    words = ["sweep", *tasks, "--learners", "ppo", "--seeds", 2, "--frames", 20_000, "--episodes", 50]
+    words = ["sweep", TASK, "--learners", "ppo", "--seeds", 2, "--frames", 10_000, "--episodes", 50]
     words += ["--results-dir", tmp_path, "--jobs", 1]
-    jobs = sweep.grid(tasks, ["ppo"], range(2), 20_000, 50)
-    results = base.Results(tmp_path)
-    first, second = (results.run(job.config).path for job in jobs[:2])
+    jobs, results = grid(frames=10_000), base.Results(tmp_path)
+    first, second = (results.run(job.config).path for job in jobs)
     with commands.start(*words) as process:
         wait_until(lambda: len(results.played()) == 1 and (second / "config.json").exists(), "one run, and a second")
         process.send_signal(number)
         process.wait()
         wait_until(lambda: not group(process.pid), "the end of the processes of the sweep")
     kept = (first / "agent.safetensors").stat().st_mtime_ns
-    lines = []
-    with pools.Processes(1) as pool:
-        sweep.run(jobs, results, pool, 1, lines.append)
-    assert lines[0] in ("1 of 4 agents are done", "2 of 4 agents are done")
+    assert "of 2 agents are done" in commands.run(*words, check=True).stderr
     assert (first / "agent.safetensors").stat().st_mtime_ns == kept
-    assert len(results.played()) == len(sweep.table(jobs, results)) == 4
+    assert len(results.played()) == len(sweep.table(jobs, results)) == 2
     frames = results.load("curves", ["condition", "training_seed", "frames"])
     assert not frames.duplicated().any()
 
@@ -235,19 +230,13 @@ def test_a_killed_job_fails_alone(tmp_path):
     jobs, results = grid(frames=20_000), base.Results(tmp_path)
     with pools.Processes(2) as pool:
         pending = [pool.submit(job, results) for job in jobs]
-        pids = wait_until(pool_pids, "a process")
-        os.kill(pids[0], signal.SIGKILL)
+        (killed, *_) = wait_until(multiprocessing.active_children, "a process")
+        killed.kill()
         futures.wait(pending)
     failed = [future.exception() for future in pending if future.exception()]
     assert [str(error) for error in failed] == [
         "its process was killed; run the sweep again to go on from its checkpoint"
     ]
-
-
-def pool_pids():
-    import multiprocessing
-
-    return [child.pid for child in multiprocessing.active_children() if child.is_alive()]
 
 
 @pytest.mark.long
