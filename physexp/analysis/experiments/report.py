@@ -1,14 +1,15 @@
-"""The report: every figure, and the table of claims, as Markdown."""
+"""The report: a summary of the paper's claims, every figure, and the table of all claims, as Markdown."""
 
 import collections
 from collections.abc import Sequence
+import json
 import math
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from physexp.agents import files
 from physexp.analysis.data import plots, provenance, text
-from physexp.analysis.experiments import EXPERIMENTS, base, conditions, summary, sweep
+from physexp.analysis.experiments import EXPERIMENTS, base, conditions, sweep
 from physexp.analysis.experiments import claims as claims_lib
 from physexp.analysis.training import callbacks
 
@@ -23,12 +24,11 @@ _INTRODUCTION = (
     "yet are named below their figure."
 )
 
-
 _VERDICTS = (claims_lib.FAILS, claims_lib.UNDECIDED, claims_lib.HOLDS)
 _HEADER = ("verdict", "claim", "condition", "statistic", "estimate", "95 % interval", "wanted", "section", "experiment")
 
 
-class _Row(NamedTuple):
+class Row(NamedTuple):
     """A claim, its corrected verdict, and the name of its experiment."""
 
     claim: claims_lib.Tested
@@ -48,7 +48,7 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
     """
     if not results.path.is_dir():
         raise ValueError(f"{results.path} is no folder; `physexp reproduce` makes one with results")
-    rows: list[_Row] = []
+    rows: list[Row] = []
     sections: list[str] = []
     missing = []
     for experiment in EXPERIMENTS.values():
@@ -62,14 +62,14 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
         sections += _section(experiment, data, results)
         found = experiment.test(data)
         verdicts = claims_lib.corrected(found)
-        rows += [_Row(claim, verdict, experiment.name) for claim, verdict in zip(found, verdicts, strict=True)]
+        rows += [Row(claim, verdict, experiment.name) for claim, verdict in zip(found, verdicts, strict=True)]
         tell(f"drew {experiment.name}")
     ours = [row for row in rows if row.claim.section == claims_lib.OURS]
     papers = [row for row in rows if row.claim.section != claims_lib.OURS]
     runs = results.load("runs", ["run", "commit", "config"])
     paragraphs = [
         "# Results",
-        *summary.paragraphs([(row.claim, row.verdict) for row in papers if not row.claim.is_check], runs.config),
+        *_summary([row for row in papers if not row.claim.is_check], runs.config),
         _INTRODUCTION,
         *_table_of_claims("Claims of the paper", papers),
         *_table_of_claims("Claims of ours", ours),
@@ -81,6 +81,78 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
     path = results.path / "report.md"
     files.write_atomically(path, ("\n\n".join(paragraphs) + "\n").encode())
     return path
+
+
+def _summary(rows: Sequence[Row], configs: Sequence[str]) -> list[str]:
+    """Returns the number of claims of each verdict, and below a heading for each verdict a point for each claim.
+
+    A claim counts with the worst verdict of its conditions. `configs` are those of the runs, in JSON.
+    """
+    by_text = collections.defaultdict(list)
+    for row in rows:
+        by_text[row.claim.text, row.claim.section].append(row)
+    groups: dict[str, list[list[Row]]] = {verdict: [] for verdict in _VERDICTS}
+    for its in by_text.values():
+        groups[min((row.verdict for row in its), key=_VERDICTS.index)].append(its)
+    held, failed, is_open = (groups[verdict] for verdict in (claims_lib.HOLDS, claims_lib.FAILS, claims_lib.UNDECIDED))
+    numbers = (
+        f"Claims of the paper: {len(by_text)}. Held in every condition in which they were tested: {len(held)}. Failed "
+        f"in at least one: {len(failed)}. Undecided in at least one, and failed in none: {len(is_open)}."
+    )
+    points = {
+        "Replicated:": [f"{_named(its)} ({len(its)} condition{'' if len(its) == 1 else 's'})." for its in held],
+        "Not replicated:": [
+            " ".join([_failure(its), *map(_opening, _with(its, claims_lib.UNDECIDED))]) for its in failed
+        ],
+        "Undecided:": [
+            " ".join([f"{_named(its)}.", *map(_opening, _with(its, claims_lib.UNDECIDED))]) for its in is_open
+        ],
+    }
+    found = [f"{numbers} {_workers(configs)}".strip()]
+    for heading, its in points.items():
+        found += [heading, "\n".join(f"- {point}" for point in its)] if its else []
+    return found
+
+
+def _workers(configs: Sequence[str]) -> str:
+    """Returns a sentence about the A3C agents with one worker; nothing where there are none."""
+    agents = [json.loads(config)["agent"] for config in configs]
+    workers = [agent["num_workers"] for agent in agents if agent["algorithm"] == "a3c"]
+    if not (alone := workers.count(1)):
+        return ""
+    share = f"All {alone}" if alone == len(workers) else f"{alone} of the {len(workers)}"
+    return (
+        f"{share} A3C agents of these data were trained by a single worker, and so synchronously; the paper's learner "
+        "has many workers, which do not wait for each other."
+    )
+
+
+def _with(rows: Sequence[Row], verdict: str) -> list[claims_lib.Tested]:
+    return [row.claim for row in rows if row.verdict == verdict]
+
+
+def _named(rows: Sequence[Row]) -> str:
+    """Returns a claim with its section, since the paper claims some things of several tasks."""
+    return f"Section {rows[0].claim.section}: {rows[0].claim.text}"
+
+
+def _failure(rows: Sequence[Row]) -> str:
+    """Returns a sentence on a claim and its failures, with our explanation."""
+    failing = _with(rows, claims_lib.FAILS)
+    where = "; ".join(conditions.spelled_out(claim.condition) for claim in failing)
+    reasons = dict.fromkeys(claim.reason for claim in failing if claim.reason)
+    return " ".join([f"{_named(rows)}: fails in {len(failing)} of {len(rows)} ({where}).", *reasons])
+
+
+def _opening(claim: claims_lib.Tested) -> str:
+    """Returns a sentence on a condition in which a claim is undecided: the reason."""
+    where, estimate = conditions.spelled_out(claim.condition), claim.estimate
+    if not estimate.can_be_tested:
+        return f"Undecided in {where}: too few agents."
+    interval = f"Undecided in {where}: the interval, {estimate.low:.3g} to {estimate.high:.3g},"
+    if claim.verdict == claims_lib.UNDECIDED:
+        return f"{interval} reaches across an end of the wanted range, {claim.wanted}."
+    return f"{interval} is too near an end of the wanted range, {claim.wanted}, for as many tests of one claim."
 
 
 def _section(experiment: base.Experiment, data: Any, results: base.Results) -> list[str]:
@@ -105,7 +177,7 @@ def _section(experiment: base.Experiment, data: Any, results: base.Results) -> l
     return paragraphs
 
 
-def _table_of_claims(title: str, rows: Sequence[_Row]) -> list[str]:
+def _table_of_claims(title: str, rows: Sequence[Row]) -> list[str]:
     """Returns the paragraphs about claims: failures first, sanity checks last, and the reasons of failures."""
     if not rows:
         return []
@@ -116,12 +188,13 @@ def _table_of_claims(title: str, rows: Sequence[_Row]) -> list[str]:
     return [
         f"## {title}",
         f"{tally}; sanity checks: {len(rows) - len(counted)}.",
-        _markdown_table([_HEADER, *map(_cells, rows)]),
+        _markdown_table([_HEADER, *map(cells, rows)]),
         *dict.fromkeys(f'Why "{claim.text}" fails: {claim.reason}' for claim in failing),
     ]
 
 
-def _cells(row: _Row) -> tuple[str, ...]:
+def cells(row: Row) -> tuple[str, ...]:
+    """Returns the cells of a claim in the table of claims."""
     claim, estimate = row.claim, row.claim.estimate
     return (
         f"**{row.verdict} (sanity check)**" if claim.is_check else f"**{row.verdict}**",
