@@ -1,6 +1,6 @@
 """The parts of an experiment: its conditions, trials, stored results, claims and figure."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 import dataclasses
 import json
 from pathlib import Path
@@ -91,12 +91,9 @@ class Results:
     def episodes(
         self, trials: Sequence[Trial], wanted: Sequence[conditions_lib.Condition], columns: Sequence[str] = ()
     ) -> pandas.DataFrame:
-        """Returns the episodes of some trials, with the label of their condition in `condition`.
+        """Returns the episodes of agents that have played all of some trials, with the label of their condition.
 
-        Args:
-          trials: the trials; of each condition those seeds are read that have played all of them.
-          wanted: the conditions.
-          columns: wanted beside those that identify the condition and the trial, as `records.completed` takes them.
+        `columns` are wanted beside those that identify the condition and the trial, as `records.completed` takes them.
 
         Raises:
           ValueError: if there are none.
@@ -109,13 +106,20 @@ class Results:
             of_seeds = [("condition", "==", condition.id), ("training_seed", "in", seeds)]
             for trial in trials:
                 rows = results_lib.read(self.path, "episodes", records.STORED, [*of_seeds, ("trial", "==", trial.name)])
-                frame = records.completed(
-                    rows, condition.config, [*always, *columns], trial.interaction, trial.task_kwargs
-                )
+                frame = records.completed(rows, condition, [*always, *columns], trial.interaction, trial.task_kwargs)
                 frames.append(frame.assign(condition=condition.label))
         if not frames:
             raise self.lacks("episodes")
         return pandas.concat(frames, ignore_index=True)
+
+    def agents(
+        self, trial: Trial, wanted: Sequence[conditions_lib.Condition], columns: Sequence[str]
+    ) -> Iterator[tuple[conditions_lib.Condition, int, pandas.DataFrame]]:
+        """Yields the condition, training seed and episodes of each agent that has played a trial; see `episodes`."""
+        for condition in wanted:
+            if self.has_played(trial, condition):
+                for seed, episodes in self.episodes([trial], [condition], columns).groupby("training_seed"):
+                    yield condition, seed, episodes
 
     def curves(self, wanted: Sequence[conditions_lib.Condition]) -> pandas.DataFrame:
         """Returns the learning curves of all runs of some conditions, with the label of their condition in `condition`.
@@ -128,16 +132,8 @@ class Results:
             if self.has_finished(condition):
                 filters = [("condition", "==", condition.id)]
                 rows = results_lib.read(self.path, "curves", ["training_seed", *records.METRICS], filters)
-                frames.append(
-                    records.curves(rows).assign(
-                        domain=condition.domain,
-                        task=condition.task,
-                        difficulty=condition.task_kwargs.get("difficulty"),
-                        discount=condition.agent.discount,
-                        algorithm=condition.agent.title,
-                        condition=condition.label,
-                    )
-                )
+                named = {"task": condition.task, "algorithm": condition.agent.title, "condition": condition.label}
+                frames.append(records.curves(rows).assign(**named))
         if not frames:
             raise self.lacks("finished runs")
         return pandas.concat(frames, ignore_index=True)

@@ -1,6 +1,6 @@
 """The conditions that agents are trained in: the paper's, and ours, each with the environment steps that it needs."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 import dataclasses
 from typing import Any
 
@@ -19,64 +19,22 @@ PATIENT_DISCOUNT = 0.99  # Waiting costs little.
 SEEDS = {"features": 10, "pixels": 5}  # Agents trained in each condition.
 
 
-@dataclasses.dataclass(frozen=True)
-class Condition:
-    """Agents that are trained alike but for their seeds.
-
-    Attributes:
-      config: the configuration of the first run, with the seed 0.
-      label: the short name of the task, as in `10-F`; figures and claims use it.
-    """
-
-    config: config_lib.TrainConfig
-    label: str
+class Condition(config_lib.TrainConfig):
+    """Agents that are trained alike but for their seeds: the configuration of the first run, with the seed 0."""
 
     @property
     def id(self) -> str:
         """The name of the runs without their seeds; stored rows carry it."""
-        return records.condition_id(self.config)
-
-    @property
-    def budget(self) -> int:
-        """Environment steps of training."""
-        return self.agent.frames
-
-    @property
-    def domain(self) -> str:
-        """The domain's name."""
-        return self.config.domain
-
-    @property
-    def task(self) -> str:
-        """The task's name."""
-        return self.config.task
-
-    @property
-    def task_name(self) -> str:
-        """Domain and task, as in `towers/fist_features`."""
-        return self.config.task_name
-
-    @property
-    def task_kwargs(self) -> Mapping[str, Any]:
-        """Options of the task."""
-        return self.config.task_kwargs
-
-    @property
-    def agent(self) -> agent_config.AgentConfig:
-        """The learner's configuration."""
-        return self.config.agent
+        return records.condition_id(self)
 
     def run(self, seed: int, frames: int | None = None) -> config_lib.TrainConfig:
         """Returns the configuration of one run; `frames` replaces the budget in a rehearsal."""
-        agent = self.agent.replace(seed=seed, frames=frames or self.budget)
-        return dataclasses.replace(self.config, agent=agent)
+        agent = self.agent.replace(seed=seed, frames=frames or self.agent.frames)
+        return config_lib.TrainConfig(domain=self.domain, task=self.task, task_kwargs=self.task_kwargs, agent=agent)
 
     def changed(self, agent: agent_config.AgentConfig | None = None, **task_kwargs: Any) -> "Condition":
         """Returns a condition of the same task with another learner, or with further options of the task."""
-        options = {**self.task_kwargs, **task_kwargs}
-        return dataclasses.replace(
-            self, config=dataclasses.replace(self.config, agent=agent or self.agent, task_kwargs=options)
-        )
+        return dataclasses.replace(self, agent=agent or self.agent, task_kwargs={**self.task_kwargs, **task_kwargs})
 
 
 @dataclasses.dataclass(frozen=True)
@@ -129,18 +87,14 @@ def label(domain: str, task: str, **task_kwargs: Any) -> str:
     return domains.find(domain).label(task, task_kwargs)
 
 
-def _make(domain: str, task: str, agent: agent_config.AgentConfig, **task_kwargs: Any) -> Condition:
-    config = config_lib.TrainConfig(domain=domain, task=task, task_kwargs=task_kwargs, agent=agent)
-    return Condition(config, label(domain, task, **task_kwargs))
-
-
 def heavier(
     difficulty: float, observations: str, frames: int, discount: float = which_is_heavier.DOMAIN.discount
 ) -> Condition:
     """Returns A3C on Which is Heavier with a difficulty, a number of environment steps, and a gamma."""
     agent = config_lib.preset("which_is_heavier", observations, algorithm="a3c")
     agent = agent.replace(discount=discount, frames=frames, num_workers=1)
-    return _make("which_is_heavier", observations, agent, difficulty=difficulty)
+    task_kwargs = {"difficulty": difficulty}
+    return Condition(domain="which_is_heavier", task=observations, task_kwargs=task_kwargs, agent=agent)
 
 
 def towers(actuator: str, observations: str = "features") -> Condition:
@@ -149,7 +103,8 @@ def towers(actuator: str, observations: str = "features") -> Condition:
 
 
 def _with_preset(domain: str, task: str) -> Condition:
-    return _make(domain, task, config_lib.preset(domain, task, algorithm="a3c").replace(num_workers=1))
+    agent = config_lib.preset(domain, task, algorithm="a3c").replace(num_workers=1)
+    return Condition(domain=domain, task=task, agent=agent)
 
 
 HEAVIER = tuple(
@@ -167,9 +122,10 @@ TOWERS = tuple(towers(actuator, kind) for actuator in ACTUATORS for kind in OBSE
 BY_LABEL = {condition.label: condition for condition in (*HEAVIER, *TOWERS)}
 """A3C on the paper's tasks, by their labels."""
 
-THRESHOLD, BALANCE, STRINGS, SEALED_BOX, STRIKE = (
+OTHERS = THRESHOLD, BALANCE, STRINGS, SEALED_BOX, STRIKE = tuple(
     _with_preset(domain, "features") for domain in ("threshold", "balance", "strings", "sealed_box", "strike")
 )
+"""A3C in the domains that are not the paper's."""
 
 
 def with_ppo(condition: Condition) -> Condition:
@@ -210,11 +166,6 @@ def with_each_learner(tasks: Sequence[Condition]) -> tuple[Condition, ...]:
     )
 
 
-def with_task_kwargs(condition: Condition, **task_kwargs: Any) -> Condition:
-    """Returns a condition with further options of the task."""
-    return condition.changed(**task_kwargs)
-
-
 def with_variation(condition: Condition) -> Condition:
     """Returns a condition of Towers with full variation, and the belief learner's budget for that."""
     agent = condition.agent.replace(frames=_BUDGETS[condition.label].varied)
@@ -233,7 +184,7 @@ def with_noise(condition: Condition, noise: float) -> Condition:
     return condition.changed(condition.agent.replace(frames=_NOISY_FRAMES), noise=noise)
 
 
-def observations(condition: Condition | config_lib.TrainConfig) -> str:
+def observations(condition: config_lib.TrainConfig) -> str:
     """Returns the kind of observations of a condition, `features` or `pixels`."""
     (kind,) = suite.tags(condition.domain, condition.task) & set(OBSERVATIONS)
     return kind

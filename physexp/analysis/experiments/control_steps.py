@@ -6,6 +6,7 @@ answers after the same time, and not after the same number of steps.
 
 from collections.abc import Callable
 import dataclasses
+import functools
 from typing import Any
 
 import numpy as np
@@ -13,8 +14,6 @@ import numpy as np
 from physexp.analysis.data import estimates, plots
 from physexp.analysis.domains import towers
 from physexp.analysis.experiments import base, claims, conditions, curves, generalization
-from physexp.analysis.ideal import rollouts
-from physexp.analysis.training import playing
 
 TIMESTEPS = tuple(round(0.01 * number, 2) for number in range(1, 11))  # s; the last is that of training.
 FISTS = tuple(conditions.towers("fist", kind) for kind in conditions.OBSERVATIONS)
@@ -37,7 +36,6 @@ STEPS = {
 FRICTION = generalization.TRIALS["friction 0.48"]
 """A trial unlike the training of either."""
 _SHORTEST, _, _USUAL, _, _LONGEST = STEPS
-_NUM_ACTORS = 100  # Of the rule, side by side.
 
 
 # Waiting: agents as in the paper.
@@ -124,18 +122,12 @@ def prepare_timing(results: base.Results, report: Callable[[str], None]) -> None
     if path.exists():
         return
     report("a rule that waits for a fixed number of control steps plays")
-    _, lengths = _played(None, _USUAL)
+    _, lengths = generalization.play(functools.partial(towers.rule, _FIST.task), _FIST, STEPS[_USUAL])
     wait = int((lengths - 1).max())
-    right = {f"{timestep:g}": float((_played(wait, timestep)[0] > 0).mean()) for timestep in STEPS}
+    rule = functools.partial(towers.rule, _FIST.task, wait=wait)
+    played = {f"{timestep:g}": generalization.play(rule, _FIST, trial) for timestep, trial in STEPS.items()}
+    right = {timestep: float((rewards > 0).mean()) for timestep, (rewards, _) in played.items()}
     base.keep_made(path, {"wait": wait, "right": right})
-
-
-def _played(wait: int | None, timestep: float) -> tuple[np.ndarray, np.ndarray]:
-    """Returns the rule's final rewards and numbers of actions in the episodes of a trial."""
-    trial = STEPS[timestep]
-    actors = [towers.rule(_FIST.task, wait=wait) for _ in range(_NUM_ACTORS)]
-    rounds = trial.num_episodes // _NUM_ACTORS
-    return rollouts.play(actors, _FIST.domain, _FIST.task, trial.task_kwargs, rounds, playing.SEED)
 
 
 def _path(results: base.Results):
@@ -166,16 +158,13 @@ def load_timing(results: base.Results) -> Timed:
     """
     import pandas
 
-    tests = [*((timestep, trial) for timestep, trial in STEPS.items()), (None, FRICTION)]
-    rows = []
-    for player, config in PLAYERS.items():
-        for timestep, trial in tests:
-            if results.has_played(trial, config):
-                frame = results.episodes([trial], [config], ["reward", "answer", "label", "interactions", "time"])
-                rows += [
-                    {"player": player, "training_seed": seed, "step": timestep, **_summary(its)}
-                    for seed, its in frame.groupby("training_seed")
-                ]
+    columns = ["reward", "answer", "label", "interactions", "time"]
+    rows = [
+        {"player": player, "training_seed": seed, "step": timestep, **_summary(episodes)}
+        for player, config in PLAYERS.items()
+        for timestep, trial in [*STEPS.items(), (None, FRICTION)]
+        for _, seed, episodes in results.agents(trial, [config], columns)
+    ]
     frame = pandas.DataFrame(rows, columns=["player", "training_seed", "step", *_COLUMNS])
     if not len(_by_step(frame, MANY)):
         raise results.lacks("episodes")
@@ -245,8 +234,7 @@ def _draw_timing(timed: Timed):
         curves.draw_spread(axes, timed.rule.index, [timed.rule[column]], 2, WAITS)
         axes.set(xlabel="control step, s", ylabel=label, ylim=(0, None))
     plots.reference(panels[0], conditions.chance(_FIST.domain, _FIST.task), "chance")
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=1)
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=1)
     return figure
 
 

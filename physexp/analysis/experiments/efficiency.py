@@ -51,7 +51,7 @@ _DISTANCE = 0.16  # m, of the fist from the tower's axis, which leaves 1 cm betw
 
 
 def _actuated(actuator: str, kind: str, **task_kwargs: float) -> conditions.Condition:
-    return conditions.with_task_kwargs(conditions.with_belief(conditions.towers(actuator, kind)), **task_kwargs)
+    return conditions.with_belief(conditions.towers(actuator, kind)).changed(**task_kwargs)
 
 
 REACHING = {
@@ -101,25 +101,18 @@ def evaluated(
 ):
     """Returns a row for each evaluated agent: its `share` of the ideal's return, and the standard `error` of that.
 
-    Args:
-      results: the results.
-      configs: the conditions.
-      ideals: the ideal's return by condition; by default it is looked up.
+    `ideals` are the ideal's returns by condition; by default they are looked up.
     """
     import pandas
 
     rows = []
     known = dict(ideals or {})
-    for config in configs:
-        if not results.has_played(base.EVALUATION, config):
-            continue
-        frame = results.episodes([base.EVALUATION], [config], ["reward", "length"])
+    for config, seed, episodes in results.agents(base.EVALUATION, configs, ["reward", "length"]):
         if config.label not in known:
             known[config.label] = ideal_towers.ideal_return(conditions.BY_LABEL[config.label], results)
-        for seed, episodes in frame.groupby("training_seed"):
-            shares = records.discounted_return(episodes) / known[config.label]
-            error = shares.std(ddof=1) / np.sqrt(len(shares))
-            rows.append((config.label, config.agent.title, seed, shares.mean(), error))
+        shares = records.discounted_return(episodes) / known[config.label]
+        error = shares.std(ddof=1) / np.sqrt(len(shares))
+        rows.append((config.label, config.agent.title, seed, shares.mean(), error))
     return pandas.DataFrame(rows, columns=["condition", "algorithm", "training_seed", "share", "error"])
 
 
@@ -200,7 +193,12 @@ def ratio_of_steps(quick: Sequence, slow: Sequence) -> estimates.Estimate | None
 
 def _ratio(quick: str, slow: str) -> claims.Statistic:
     """Returns the statistic that compares two learners in a condition."""
-    return lambda frame, label: ratio_of_steps(runs(frame, label, quick), runs(frame, label, slow))
+
+    def ratio(data, label: str) -> estimates.Estimate | None:
+        frame = data.curves if isinstance(data, Learned) else data
+        return ratio_of_steps(runs(frame, label, quick), runs(frame, label, slow))
+
+    return ratio
 
 
 def _learner(condition: str) -> str:
@@ -226,14 +224,6 @@ def _of_runs(value: Callable[[Any], float]) -> claims.Statistic:
     return statistic
 
 
-def _seconds(run) -> float:
-    return curves.first_reached(run, LEVEL, "seconds", "score")
-
-
-def _calibration_error(run) -> float:
-    return run.sort_values("frames").calibration_error.iloc[-1]
-
-
 def _agents(data: Learned, condition: str):
     final = data.final
     return final[(final.condition == claims.named(condition)) & (final.algorithm == _learner(condition))]
@@ -255,10 +245,6 @@ def _worst(data: Learned, condition: str) -> estimates.Estimate | None:
 def _fist_over_direct(data: Learned, kind: str) -> estimates.Estimate | None:
     labels = (conditions.label("towers", f"{actuator}_{kind}") for actuator in ("fist", "direct"))
     return ratio_of_steps(*(runs(data.curves, label, "belief") for label in labels))
-
-
-def _compared(quick: str, slow: str) -> claims.Statistic:
-    return lambda data, label: _ratio(quick, slow)(data.curves, label)
 
 
 def _draw_scores(axes, frame, label: str, names: Mapping[str, str], along: str = "frames") -> None:
@@ -334,12 +320,12 @@ EXPERIMENTS = {
         statistics={
             "few_steps": _steps("belief"),
             "few_steps_revealed": _steps("belief_revealed"),
-            "minutes": _of_runs(_seconds),
-            "calibrated": _of_runs(_calibration_error),
+            "minutes": _of_runs(lambda run: curves.first_reached(run, LEVEL, "seconds", "score")),
+            "calibrated": _of_runs(lambda run: run.sort_values("frames").calibration_error.iloc[-1]),
             "near_optimum": _share,
             "none_far": _worst,
-            "fewer_steps": _compared("belief", "a3c"),
-            "many_episodes": _compared("a3c", "a3c_paper"),
+            "fewer_steps": _ratio("belief", "a3c"),
+            "many_episodes": _ratio("a3c", "a3c_paper"),
             "fist_is_faster": _fist_over_direct,
         },
         draw=_draw_efficiency,

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 import textwrap
+from typing import Any
 
 import numpy as np
 
@@ -59,18 +60,17 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
             missing = [test for test in TRIALS if (player, test) not in done]
             if missing:
                 report(f"{player} plays {task.task}")
-            actors = [make() for _ in range(_NUM_ACTORS)] if missing else []
             for test in missing:
-                rows.append({"player": player, "test": test, **_play(actors, task, TRIALS[test])})
+                rewards, lengths = play(make, task, TRIALS[test])
+                earned = float((rewards * task.agent.discount ** (lengths - 1)).mean())
+                rows.append({"player": player, "test": test, "right": int((rewards > 0).sum()), "return": earned})
                 base.keep_made(path, rows)
 
 
-def _play(actors, task, trial: base.Trial) -> dict[str, float]:
-    """Returns the number of right answers and the mean return of actors in a test."""
-    rounds = _NUM_EPISODES // _NUM_ACTORS
-    rewards, lengths = rollouts.play(actors, task.domain, task.task, trial.task_kwargs, rounds, playing.SEED)
-    returns = rewards * task.agent.discount ** (lengths - 1)
-    return {"right": int((rewards > 0).sum()), "return": float(returns.mean())}
+def play(make: Callable[[], Any], task: conditions.Condition, trial: base.Trial) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the final rewards and the numbers of actions of untrained actors in the episodes of a test."""
+    actors, rounds = [make() for _ in range(_NUM_ACTORS)], trial.num_episodes // _NUM_ACTORS
+    return rollouts.play(actors, task.domain, task.task, trial.task_kwargs, rounds, playing.SEED)
 
 
 def _path(results: base.Results, task: str):
@@ -87,23 +87,18 @@ def load(results: base.Results):
     """
     import pandas
 
-    frames = []
+    rows: list[dict[str, Any]] = []
     for player, configs in CONDITIONS.items():
-        for config in configs:
-            for test, trial in TRIALS.items():
-                if results.has_played(trial, config):
-                    frame = results.episodes([trial], [config], ["reward", "length"])
-                    frame = frame.assign(discounted=records.discounted_return(frame))
-                    rows = [
-                        {"training_seed": seed, "right": (its.reward > 0).mean(), "return": its.discounted.mean()}
-                        for seed, its in frame.groupby("training_seed")
-                    ]
-                    frames.append(pandas.DataFrame(rows).assign(condition=config.label, player=player, test=test))
-    if not frames:
+        for test, trial in TRIALS.items():
+            for config, seed, its in results.agents(trial, configs, ["reward", "length"]):
+                values = {"right": (its.reward > 0).mean(), "return": records.discounted_return(its).mean()}
+                names = {"condition": config.label, "player": player, "training_seed": seed, "test": test}
+                rows.append(names | values)
+    if not rows:
         raise results.lacks("episodes")
-    played = {frame.condition.iloc[0] for frame in frames}
+    frames = [pandas.DataFrame(rows)]
     for task in conditions.TOWERS:
-        if task.label in played and domains.find(task.domain).baselines.get(task.task):
+        if (frames[0].condition == task.label).any() and domains.find(task.domain).baselines.get(task.task):
             frame = pandas.DataFrame(base.read_made(_path(results, task.task), "generalization"))
             frames.append(frame.assign(condition=task.label, training_seed=-1, right=frame.right / _NUM_EPISODES))
     return pandas.concat(frames, ignore_index=True)
@@ -156,8 +151,7 @@ def draw(frame):
         axes.axvline(1.5, color=plots.GREY, linewidth=0.6)
     panels[-1, 0].set_xticks(places, [textwrap.fill(test, 9) for test in TRIALS])
     panels[-1, 0].set_xlabel("test; right of the line: outside the range of all training")
-    handles, labels = panels[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=2)
+    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return figure
 
 

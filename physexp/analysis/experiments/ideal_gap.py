@@ -46,19 +46,14 @@ def load(results: base.Results) -> Gap:
 
     rows = []
     towers = ideal_towers.read(results)
-    for condition in CONDITIONS:
-        if not results.has_played(base.EVALUATION, condition):
-            continue
-        hidden = [] if condition.task in towers else ["actions", "masses"]
-        frame = results.episodes([base.EVALUATION], [condition], ["reward", "length", *hidden])
-        ideal = ideal_towers.best(towers[condition.task]) if condition.task in towers else None
-        value = ideal["value"] if ideal else conditions.ideal(condition).value
-        for seed, episodes in frame.groupby("training_seed"):
+    for wanted, hidden in ((conditions.HEAVIER, ["actions", "masses"]), (conditions.TOWERS, [])):
+        for condition, seed, episodes in results.agents(base.EVALUATION, wanted, ["reward", "length", *hidden]):
+            value = ideal_towers.ideal_return(condition, results)
             returns = records.discounted_return(episodes)
             error = float(returns.std(ddof=1)) / np.sqrt(len(returns))
             row = {"share": float(returns.mean()) / value, "error": error / value}
             row |= {"condition": condition.label, "training_seed": seed}
-            rows.append(row if ideal else row | _costs(condition, episodes))
+            rows.append(row | _costs(condition, episodes) if hidden else row)
     if not rows:
         raise results.lacks("episodes")
     return Gap(pandas.DataFrame(rows), towers)

@@ -62,29 +62,23 @@ def _draw_population(frame):
 # Two groups of each agent or condition beside each other: two discounts, or learned and randomized interaction.
 
 
-@dataclasses.dataclass(frozen=True)
-class _Bars:
-    """A group of bars: the name, its color and hatch, and the values of agents for each condition."""
+def _draw_bars(axes, names: Sequence[str], groups: Mapping[str, Sequence[np.ndarray]], ideals, styles) -> None:
+    """Draws means as bars, agents as dots, and the ideal's values, [groups, conditions], as dotted lines.
 
-    name: str
-    color: str
-    values: Sequence[np.ndarray]
-    hatch: str | None = None
-
-
-def _draw_bars(axes, names: Sequence[str], groups: Sequence[_Bars], ideals: Sequence[Sequence[float]]) -> None:
-    """Draws means as bars, agents as dots, and the ideal's values, [groups, conditions], as dotted lines."""
-    places = np.arange(len(names))
-    for group, best, shift in zip(groups, ideals, (-0.2, 0.2), strict=True):
-        means = [values.mean() for values in group.values]
-        style: dict[str, Any] = dict(color=group.color, hatch=group.hatch, edgecolor="white", linewidth=0.3)
-        axes.bar(places + shift, means, 0.38, label=group.name, **style)
-        for place, values in zip(places + shift, group.values, strict=True):
+    The groups have the values of agents for each condition; the styles are a color and a hatch for each group.
+    """
+    for name, best, (color, hatch), shift in zip(groups, ideals, styles, (-0.2, 0.2), strict=True):
+        places = np.arange(len(names)) + shift
+        means = [values.mean() for values in groups[name]]
+        style: dict[str, Any] = dict(color=color, hatch=hatch, edgecolor="white", linewidth=0.3)
+        axes.bar(places, means, 0.38, label=name, **style)
+        for place, values in zip(places, groups[name], strict=True):
             axes.plot([place] * len(values), values, "o", color="black", markersize=1.6, alpha=0.6)
-        for number, (place, level) in enumerate(zip(places + shift, best, strict=True)):
-            label = "ideal" if group is groups[0] and not number else None
+        for number, (place, level) in enumerate(zip(places, best, strict=True)):
+            label = None if number or shift > 0 else "ideal"
             axes.plot([place - 0.18, place + 0.18], [level] * 2, "k", linestyle=plots.DASHES[2], label=label)
-    axes.set_xticks(places, [conditions.tick(name).replace(", ", "\n") for name in names], fontsize=6.5)
+    ticks = [conditions.tick(name).replace(", ", "\n") for name in names]
+    axes.set_xticks(np.arange(len(names)), ticks, fontsize=6.5)
 
 
 # Patience: where waiting costs less.
@@ -110,16 +104,13 @@ def _draw_patience(frame):
     """Draws the mean pokes of each agent under both discounts, and the ideal experimenter's."""
     by_name = dict(list(frame.groupby("condition", sort=False)))
     figure, axes = plots.new(width=3.6, height=2.4)
-    groups = [
-        _Bars(f"γ = {discount:g}", plots.COLORS[1 + number], [_pokes(rows, discount) for rows in by_name.values()])
-        for number, discount in enumerate(DISCOUNTS)
-    ]
+    groups = {f"γ = {discount:g}": [_pokes(rows, discount) for rows in by_name.values()] for discount in DISCOUNTS}
     betas = [float(rows.difficulty.iloc[0]) for rows in by_name.values()]
     ideals = [
         [conditions.heavier_ideal(beta, discount).figures()["mean_interactions"] for beta in betas]
         for discount in DISCOUNTS
     ]
-    _draw_bars(axes, list(by_name), groups, ideals)
+    _draw_bars(axes, list(by_name), groups, ideals, [(color, None) for color in plots.COLORS[1:3]])
     axes.set_ylabel("pokes before the answer")
     axes.legend()
     return figure
@@ -188,10 +179,6 @@ def _of_pairs(column: str, compare: Callable[..., estimates.Estimate]) -> claims
     return compared
 
 
-def _mean_difference(learned: np.ndarray, random: np.ndarray) -> estimates.Estimate:
-    return estimates.mean(learned - random)
-
-
 def _ratio_over_conditions(played: Played) -> estimates.Estimate | None:
     names = played.agents.condition.unique()
     if len(names) < len(conditions.HEAVIER):
@@ -211,13 +198,13 @@ def _draw_played(played: Played):
     agents = played.agents
     names = [name for name in played.ideals if name in set(agents.condition)]
     figure, panels = plots.new(columns=2, width=3.4, height=2.4)
-    styles = (("learned", plots.COLORS[1], None), ("random", plots.COLORS[5], "///"))
+    styles = ((plots.COLORS[1], None), (plots.COLORS[5], "///"))
     for axes, column, best in zip(panels, ("interactions", "accuracy"), ("mean_interactions", "accuracy"), strict=True):
-        groups = []
-        for interaction, color, hatch in styles:
+        groups = {}
+        for interaction in ("learned", "random"):
             its = agents[agents.interaction == interaction]
-            groups.append(_Bars(interaction, color, [its[its.condition == name][column] for name in names], hatch))
-        _draw_bars(axes, names, groups, [[played.ideals[name][best] for name in names]] * 2)
+            groups[interaction] = [its[its.condition == name][column] for name in names]
+        _draw_bars(axes, names, groups, [[played.ideals[name][best] for name in names]] * 2, styles)
     panels[0].set(ylabel="interactions before the answer")
     panels[1].set(ylabel="share of right answers", ylim=(0, 1.05))
     plots.reference(panels[1], played.chance, "chance")
@@ -225,7 +212,10 @@ def _draw_played(played: Played):
     return figure
 
 
-_RANDOMIZED = {"more_accurate": _of_pairs("accuracy", _mean_difference), "no_timeouts": _timeouts}
+_RANDOMIZED = {
+    "more_accurate": _of_pairs("accuracy", lambda learned, random: estimates.mean(learned - random)),
+    "no_timeouts": _timeouts,
+}
 
 EXPERIMENTS = {
     "population": base.Experiment(

@@ -6,24 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from physexp.analysis import domains
 from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, efficiency
 
-TASKS = (
-    *(conditions.BY_LABEL[label] for label in ("5-F", "D-F", "F-F")),
-    conditions.THRESHOLD,
-    conditions.BALANCE,
-    conditions.STRINGS,
-    conditions.SEALED_BOX,
-    conditions.STRIKE,
-)
-LEARNERS = {
-    "a3c": "A3C",
-    "ppo": "PPO",
-    "belief": "belief",
-    "belief_revealed": "belief,\nrevealed",
-}
+TASKS = (*(conditions.BY_LABEL[label] for label in ("5-F", "D-F", "F-F")), *conditions.OTHERS)
+LEARNERS = {"a3c": "A3C", "ppo": "PPO", "belief": "belief", "belief_revealed": "belief,\nrevealed"}
 """Learners by title; `belief_revealed` is told the right answer after each episode, the others their reward alone."""
 
 CONDITIONS = conditions.with_each_learner(TASKS)
@@ -55,9 +42,7 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
     for task in TASKS:
         if task.label not in found:
             report(f"searching for the ideal experimenter of {task.task_name}")
-            find = domains.find(task.domain).ideal
-            assert find is not None
-            summary = find(task.task, task.task_kwargs, task.agent.discount).summary()
+            summary = conditions.ideal(task).summary()
             found[task.label] = {name: summary[name] for name in _UNTRAINED}
             base.keep_made(path, found)
 
@@ -111,15 +96,8 @@ def draw(earned: Earned):
     """Draws a panel for each domain: every agent's share of the ideal's return, and that of random interactions."""
     shown = [task for task in TASKS if (earned.agents.condition == task.label).any()]
     num_columns = min(4, len(shown))
-    figure, panels = plots.new(
-        columns=num_columns,
-        rows=-(-len(shown) // num_columns),
-        width=1.9,
-        height=2.0,
-        sharex=True,
-        sharey=True,
-        squeeze=False,
-    )
+    grid = dict(columns=num_columns, rows=-(-len(shown) // num_columns), width=1.9, height=2.0)
+    figure, panels = plots.new(**grid, sharex=True, sharey=True, squeeze=False)
     for axes in panels.flat[len(shown) :]:
         axes.set_axis_off()
     for axes, task in zip(panels.flat, shown, strict=False):

@@ -1,14 +1,10 @@
 """The commit and the versions of the source that runs are named."""
 
-import json
 from pathlib import Path
-import site
 import subprocess
-import sys
 
 import pytest
 
-import physexp
 from physexp.analysis.data import provenance
 
 
@@ -48,16 +44,3 @@ def test_a_commit_is_that_of_this_source_not_of_a_project_around_it(tmp_path, mo
 )
 def test_a_commit_is_shortened_and_other_words_are_not(commit, expected):
     assert provenance.shortened(commit) == expected
-
-
-def test_a_source_tree_that_is_not_installed_has_its_own_version(tmp_path):
-    libraries, source = tmp_path / "libraries", Path(physexp.__file__).parents[1]
-    libraries.mkdir()
-    for entry in Path(site.getsitepackages()[0]).iterdir():
-        if "physexp" not in entry.name:
-            (libraries / entry.name).symlink_to(entry)
-    code = f"import sys; sys.path[:0] = {[str(source), str(libraries)]}; from physexp.analysis.data import provenance"
-    code += "; import json; print(json.dumps(provenance.versions()))"
-    done = subprocess.run([sys.executable, "-S", "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True)
-    assert json.loads(done.stdout) == provenance.versions()
-    assert provenance.versions()["physexp"] == physexp.__version__

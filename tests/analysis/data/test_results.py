@@ -137,13 +137,6 @@ def test_a_damaged_file_is_refused_in_one_line(tmp_path):
     assert "\n" not in str(error.value)
 
 
-def test_a_table_that_is_not_there_names_the_commands_that_make_it(tmp_path):
-    with pytest.raises(
-        FileNotFoundError, match="runs holds no table; `physexp reproduce` or `physexp sweep` makes one"
-    ):
-        results.load(tmp_path, "runs")
-
-
 def test_the_results_of_the_repository_stay_small():
     files = [path for path in STORED.rglob("*") if path.is_file() and "runs" not in path.relative_to(STORED).parts[:1]]
     assert len(files) <= 80 and sum(path.stat().st_size for path in files) <= 25e6

@@ -16,9 +16,7 @@ from physexp.analysis.experiments import (
     claims,
     curves,
     efficiency,
-    ideal_gap,
     interactions,
-    learning,
     strategies,
 )
 from physexp.suite.domains import strike
@@ -63,14 +61,6 @@ def between(low, high, **limits):
 )
 def test_a_verdict_is_the_place_of_the_interval_in_the_range(low, high, verdict):
     assert between(low, high, above=1, below=2).verdict == verdict
-
-
-def test_a_range_may_differ_by_condition_and_is_told_in_words():
-    claim = claims.Claim(id="", text="", on=["a", "b, revealed"], statistic="", below={"a": 1, "b": 2})
-    estimate = estimates.normal(1.5, 0.01)
-    assert [claim.tested(name, estimate).verdict for name in claim.on] == [FAILS, HOLDS]
-    assert [claim.tested(name, estimate).wanted for name in claim.on] == ["< 1", "< 2"]
-    assert (claims.wanted(0.5, math.inf), claims.wanted(0.67, 1.5)) == ("> 0.5", "0.67 to 1.5")
 
 
 def distant(distance, id="claim", **limits):
@@ -181,14 +171,6 @@ def test_one_agent_unlike_the_others_fails_the_claim_about_each_agent():
         assert one.verdict == (FAILS if one.condition.endswith("each agent") else UNDECIDED)
 
 
-def test_success_at_the_end_is_that_of_the_last_twentieth_of_training():
-    frame = made("learning_towers")
-    final = learning.final_success(frame, "F-F")
-    for seed, run in frame[frame.condition == "F-F"].groupby("training_seed"):
-        # 100 rows, the last at 4 M frames: those from 3.8 M on are the last six.
-        assert final[seed] == pytest.approx(run.success_rate.to_numpy()[-6:].mean())
-
-
 def jumping_run(row: int):
     """Success of 0.2 in 100,000 episodes and 0.9 in another 100,000, of 20 frames each, in rows of `row` episodes."""
     episodes = np.arange(row, 200_001, row)
@@ -205,38 +187,6 @@ def test_a_level_is_reached_at_the_crossing_of_the_mean_of_2000_episodes(row):
         assert curves.first_reached(run.sample(frac=1, random_state=0), level) == curves.first_reached(run, level)
     assert curves.first_reached(run, 0.1) == row / 2 * 20  # The middle of the first row.
     assert curves.first_reached(run, 0.95) == math.inf
-
-
-def test_rows_of_many_episodes_do_not_move_a_crossing():
-    # Each row is its own window: 0.2 in the middle of the last before the jump, 0.9 in that of the first after it.
-    assert curves.first_reached(jumping_run(10_000), 0.55) == pytest.approx(2_000_000)
-    assert curves.first_reached(jumping_run(10_000), 0.899) == pytest.approx(2_100_000, rel=1e-3)
-
-
-def test_curves_are_those_of_the_better_half_after_its_first_episodes():
-    worse = jumping_run(5000).assign(success_rate=0.2)
-    runs = [worse, jumping_run(5000)]
-    frame = pandas.concat([run.assign(condition="F-F", training_seed=seed) for seed, run in enumerate(runs)])
-    grid, (line,) = curves.better_half(frame)["F-F"]
-    assert (grid[0], grid[-1]) == (0, 4)  # Millions.
-    assert np.isnan(line[grid < 0.05]).all()  # The first row has 100 000 frames.
-    assert line[(grid > 0.05) & (grid < 1.95)] == pytest.approx(0.2)
-    assert line[grid > 2.05] == pytest.approx(0.9)
-
-
-def test_an_agent_that_never_learns_counts_with_the_shortest_training():
-    long, short = jumping_run(1000), jumping_run(1000)[:150]  # 3 M frames.
-    groups = {"learns": [long, short], "never": [long.assign(success_rate=0.2)] * 2}
-    frame = pandas.concat(
-        [
-            run.assign(condition=name, training_seed=seed)
-            for name, runs in groups.items()
-            for seed, run in enumerate(runs)
-        ]
-    )
-    # The others have 0.9 at 2.02 M frames.
-    assert learning.ratio_of_steps(frame, "never", "learns").value == pytest.approx(3 / 2.02, rel=1e-3)
-    assert learning.ratio_of_steps(frame, "learns", "absent") is None
 
 
 def test_accuracy_and_interactions_leave_timeouts_out():
@@ -265,8 +215,3 @@ def test_pokes_tell_most_of_the_property_that_the_goal_needs():
     assert all(share == pytest.approx(1) for name in at_once for share in at_once[name])
     poked = {name: left.mean() for name, left in strategies.shares_left(pucks, [[1, 2, 1, 3]] * len(pucks)).items()}
     assert poked["asked"] < poked["mass"] < poked["friction"] < 1
-
-
-def test_the_better_half_of_an_odd_number_is_the_larger_one():
-    assert ideal_gap.median_of_better_half(np.array([1.0, 5.0, 3.0, 2.0, 4.0])) == 4  # Of 5, 4, 3.
-    assert ideal_gap.median_of_better_half(np.array([1.0, 4.0, 3.0, 2.0])) == 3.5  # Of 4, 3.

@@ -12,11 +12,13 @@ from physexp.analysis.data import results as results_lib
 from physexp.analysis.experiments import (
     EXPERIMENTS,
     base,
+    claims,
     conditions,
     control_steps,
     generalization,
     ideal_gap,
     laboratory,
+    report,
 )
 
 RESULTS = blocks.ROOT / "results"
@@ -30,6 +32,14 @@ def results(tmp_path):
 def write(path, found):
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps(found))
+
+
+@pytest.mark.parametrize("name", ["learning_heavier", "learners", "patience", "waiting"])
+def test_the_stored_report_follows_from_the_stored_tables(name):
+    found = EXPERIMENTS[name].test(EXPERIMENTS[name].load(base.Results(RESULTS)))
+    stored = (RESULTS / "report.md").read_text()
+    for claim, verdict in zip(found, claims.corrected(found), strict=True):
+        assert " | ".join(report.cells(report.Row(claim, verdict, name))) in stored
 
 
 def test_a_domain_new_in_the_laboratory_is_solved_and_others_are_kept(results):
@@ -60,26 +70,6 @@ def test_a_missing_ideal_of_a_learning_curve_is_solved(name, results, monkeypatc
     frame = getattr(frame, "curves", frame)
     assert set(frame.condition) == {"D-F"}
     assert 0.95 < frame.score.iloc[-1] < 1.01
-
-
-def test_untrained_experimenters_play_only_new_tests(results, monkeypatch):
-    monkeypatch.setattr(generalization, "_NUM_EPISODES", 100)
-    known = [
-        {"player": player, "test": test, "right": 90, "return": 0.5}
-        for player in (generalization.RULE, generalization.LOOKUP)
-        for test in generalization.TRIALS
-    ]
-    folder = results.path / "generalization"
-    write(folder / "fist_features.json", known)
-    new = {"player": generalization.RULE, "test": "as usual"}
-    write(folder / "direct_features.json", [row for row in known if not new.items() <= row.items()])
-    told = []
-    generalization.prepare(results, told.append)
-    assert told == ["rule plays direct_features"]
-    *kept, found = json.loads((folder / "direct_features.json").read_text())
-    assert kept == [row for row in known if row in kept] and len(kept) == len(known) - 1
-    assert new.items() <= found.items() and found["right"] == 100  # The rule is right where nothing varies.
-    assert json.loads((folder / "fist_features.json").read_text()) == known
 
 
 def test_a_rule_that_counts_steps_is_wrong_in_finer_time(results, monkeypatch):
