@@ -93,17 +93,14 @@ class Solution(base.Solution):
         return float(self._bounds.mean())
 
     def actor(self) -> core.Actor:
-        """Returns an actor that plays the policy."""
         return self._make_actor()
 
     at_once = random_value = math.nan  # Not computed.
 
     def judge(self, episode: base.Episode) -> base.Judgement:
-        """Raises ValueError: exact beliefs are unknown."""
         raise ValueError("beliefs and values of actions are only known without noise and variation")
 
     def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Returns the played episodes, with equal shares."""
         rewards, lengths = self._episodes
         return lengths - 1, rewards > 0, np.full(len(rewards), 1 / len(rewards))
 
@@ -115,5 +112,4 @@ class Solution(base.Solution):
 
 
 def _standard_error(values: np.ndarray) -> float:
-    """Returns the standard error of the mean of values, [N]."""
     return float(values.std(ddof=1)) / math.sqrt(len(values))

@@ -155,12 +155,9 @@ class Search:
         return max(answer, *(low for low, _ in values)), max(answer, *(high for _, high in values))
 
     def _collect(self, history, support, left, min_left, visited) -> None:
-        """Visits the states that the most promising actions lead to.
+        """Visits the states that the most promising actions lead to, down to `min_left` actions left.
 
-        Args:
-          history, support, left: the state to start from.
-          min_left: number of actions left at which the search stops.
-          visited: written to: the visited states, and whether their histories should be expanded.
+        Writes into `visited` whether the histories of these states should be expanded.
         """
         low, high = self._bounds(history, support, left)
         if left == 1 or high - low < PRECISION or (history, support, left) in visited:

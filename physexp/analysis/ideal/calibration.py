@@ -51,16 +51,9 @@ class Responses:
 def calibrate(
     domain_name: str, task_name: str, feature: str, task_kwargs: Mapping[str, Any] | None = None
 ) -> Callable[[Mapping[str, np.ndarray], int], float]:
-    """Returns a function that reads a thing's hidden value from the observation after one interaction with it.
+    """Returns a function that reads a thing's hidden value, in (0, 1), from the observation after one interaction.
 
-    Interaction k acts on thing k, and component k of the feature shows it; all things have the same physics.
-
-    Args:
-      domain_name, task_name, task_kwargs: as for `suite.load`; the hidden property is K values in [0, 1].
-      feature: name of the observation.
-
-    Returns:
-      A function of an observation and an interaction, to the value in (0, 1).
+    It takes the observation and the interaction; for the other arguments see `Responses`.
 
     Raises:
       ValueError: if different values give the same reading.

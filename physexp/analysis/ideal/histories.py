@@ -88,7 +88,7 @@ class Histories:
         """Starts with the empty history.
 
         Args:
-          hypotheses: the hypotheses.
+          hypotheses: see the class.
           resolution: of the observer, in the readings' unit for features, in pixels for images.
           tolerance: an interaction that revealed nothing leads to an earlier history instead of a new one if positions
             and velocities differ by no more than this, m and m/s; by default, never.
@@ -153,11 +153,7 @@ class Histories:
     ) -> tuple[dict[Support, Partition], History]:
         """Returns the partitions of all supports by an interaction, and the history that follows.
 
-        Args:
-          history: the history before the interaction.
-          members: the members of its supports, n.
-          distances: between their observations after it, [n, n].
-          snapshot: their states after it.
+        After it, the n members of the supports have these distances between their observations, [n, n], and states.
         """
         self.count += 1
         indistinguishable = history.indistinguishable & (distances <= self._resolution)

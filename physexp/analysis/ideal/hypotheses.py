@@ -62,12 +62,7 @@ class Hypotheses:
     def step(
         self, snapshot: snapshots.Snapshot, members: Sequence[int], actions: Sequence[int]
     ) -> list[tuple[np.ndarray, snapshots.Snapshot]]:
-        """Tries interactions, each from the same states.
-
-        Args:
-          snapshot: states of some hypotheses, as returned by `start` or this method.
-          members: the hypotheses that act, n indices in increasing order.
-          actions: the interactions.
+        """Tries interactions, each from the same states, with n hypotheses in increasing order.
 
         Returns:
           For each action, the distances between the observations after it, float64 [n, n] (see `distances`), and the

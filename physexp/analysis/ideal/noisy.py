@@ -60,7 +60,7 @@ def players(
     """Returns a function that makes actors for the policy; they share their simulations.
 
     Args:
-      exact: the ideal experimenter of the task without noise.
+      exact: the ideal experimenter without noise.
       domain_name, task_name, feature, task_kwargs: as for `calibration.Responses`, with the `noise`, m.
     """
     values = (np.arange(_NODES) + 0.5) / _NODES
@@ -97,7 +97,7 @@ class Player(core.EpisodicActor):
         means = densities[0] @ self._responses.values
         unknown = [k for k, touched in enumerate(self._touched) if not touched]
         means[unknown] = np.nan
-        if unknown and self._exact.values(means[None], left)[1][0] > answer:
+        if unknown and self._exact.evaluate(means[None], left)[1][0] > answer:
             return unknown[0]
         candidates = [k for k in range(self._prior.num_things) if k not in unknown[1:]]  # Untouched ones are equal.
         values = [self._value_of_touching(k, densities[0, k]) for k in candidates]

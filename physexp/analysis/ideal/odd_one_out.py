@@ -28,21 +28,11 @@ Read = Callable[[Mapping[str, np.ndarray], int], float]
 """Returns the value of the touched thing from the observation after an interaction."""
 
 
-def posterior(values: np.ndarray, prior: priors.OddOneOut) -> np.ndarray:
-    """Returns the probability of each thing to have the largest value, given the values of the touched things.
-
-    Args:
-      values: in [0, 1], NaN for untouched things, float64 [N, K].
-      prior: distribution of the values.
-
-    Returns:
-      Probabilities, float64 [N, K]. Only the largest touched thing has one above 0; untouched things share the rest.
-    """
-    return _posterior(values, *_statistics(values, prior), prior)
-
-
 def _posterior(values, largest, log_weight, prior) -> np.ndarray:
-    """Returns the posterior, given the statistics of the values."""
+    """Returns the probability of each thing to have the largest value, given the statistics of the values, [N, K].
+
+    Only the largest touched thing has a probability above 0; untouched things share the rest.
+    """
     touched = ~np.isnan(values)
     unknown = (~touched).sum(axis=1)
     chance = np.where(touched.any(axis=1), _largest_is_touched(unknown, largest, log_weight, prior), 0.0)
@@ -98,17 +88,14 @@ class Solution(base.Solution):
 
     @property
     def value(self) -> float:
-        """Expected discounted return, discount^touches times +1 or -1, from an episode's start."""
         return self._value(at_random=False)
 
     @property
     def at_once(self) -> float:
-        """Expected return of an answer without any touch."""
         return base.answer_values(1 / self.prior.num_things)
 
     @property
     def random_value(self) -> float:
-        """Expected return of touches drawn uniformly, with the best answers at the best moment."""
         return self._value(at_random=True)
 
     def _value(self, at_random: bool) -> float:
@@ -117,21 +104,17 @@ class Solution(base.Solution):
         touch = _touch(self.prior, self.discount, 0, self.step_limit, at_random)
         return max(self.at_once, float(touch(np.zeros((1, 2)))[0]))
 
-    def values(self, known: np.ndarray, left: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Returns the values of the best answer and of one more touch of an unknown thing.
+    def evaluate(self, known: np.ndarray, left: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Returns the posterior, and the value of one more touch of an unknown thing.
 
         Args:
-          known: the values found, as for `posterior`, [N, K].
+          known: the values found, in [0, 1], NaN for untouched things, float64 [N, K].
           left: number of actions left in the episode, at least 1; one for each row, [N], or one for all.
 
         Returns:
-          Two float64 [N]; the value of a touch is -inf if all things are known.
+          The probability of each thing to have the largest value, float64 [N, K], and the value of a touch, float64
+          [N], -inf if all things are known.
         """
-        beliefs, touch = self._beliefs_and_touch(known, left)
-        return base.answer_values(beliefs.max(axis=1)), touch
-
-    def _beliefs_and_touch(self, known: np.ndarray, left: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Returns the posterior, [N, K], and the value of one more touch of an unknown thing, [N]."""
         largest, log_weight = _statistics(known, self.prior)
         touches = (~np.isnan(known)).sum(axis=1)
         num_things = self.prior.num_things
@@ -146,22 +129,17 @@ class Solution(base.Solution):
         return _posterior(known, largest, log_weight, self.prior), touch
 
     def actions(self, known: np.ndarray, left: float | np.ndarray) -> np.ndarray:
-        """Returns the best action, int64 [N]: the first unknown thing, or K plus the label; arguments of `values`."""
-        beliefs, touch = self._beliefs_and_touch(known, left)
+        """Returns the best action, int64 [N]: the first unknown thing, or K plus the label; as for `evaluate`."""
+        beliefs, touch = self.evaluate(known, left)
         label = self.prior.num_things + beliefs.argmax(axis=1)
         return np.where(touch > base.answer_values(beliefs.max(axis=1)), np.isnan(known).argmax(axis=1), label)
 
-    def play(self, values: np.ndarray, read: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """Plays episodes without physics.
-
-        Args:
-          values: of the things, float64 [N, K].
-          read: the values that touches seem to reveal, float64 [N, K]; by default the true ones.
+    def play(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Plays episodes of things with some values, float64 [N, K], without physics.
 
         Returns:
           Touches, int64 [N], and whether the answer was right, bool [N].
         """
-        read = values if read is None else read
         known = np.full(values.shape, np.nan)
         touches, labels = np.zeros(len(values), np.int64), np.full(len(values), -1)
         going = np.arange(len(values))
@@ -170,16 +148,11 @@ class Solution(base.Solution):
             touching = actions < self.prior.num_things
             labels[going[~touching]] = actions[~touching] - self.prior.num_things
             going, touched = going[touching], actions[touching]
-            known[going, touched] = read[going, touched]
+            known[going, touched] = values[going, touched]
             touches[going] += 1
         return touches, labels == values.argmax(axis=1)
 
     def actor(self) -> core.Actor:
-        """Returns an actor that reads values from observations.
-
-        Raises:
-          ValueError: if the task observes images.
-        """
         if self.find_read is None:
             raise ValueError(
                 "the ideal experimenter reads values from features, not from images; choose a task with features"
@@ -187,7 +160,6 @@ class Solution(base.Solution):
         return _Player(self, self.find_read())
 
     def judge(self, episode: base.Episode) -> base.Judgement:
-        """Returns the beliefs in an episode, and the values of its actions."""
         return self.judge_all(np.asarray(episode.hidden)[None], [episode.actions])[0]
 
     def judge_all(self, values: np.ndarray, actions: Sequence[np.ndarray]) -> list[base.Judgement]:
@@ -209,8 +181,8 @@ class Solution(base.Solution):
         is_known = steps[:, None] > touched_at[rows]
         known = np.where(is_known, values[rows], np.nan)
         left = np.maximum(self.step_limit - steps, 1)
-        beliefs, touch = self._beliefs_and_touch(known, left)
-        _, next_touch = self._beliefs_and_touch(known, np.maximum(left - 1, 1))
+        beliefs, touch = self.evaluate(known, left)
+        _, next_touch = self.evaluate(known, np.maximum(left - 1, 1))
         again = self.discount * np.maximum(base.answer_values(beliefs.max(axis=1)), next_touch)
         touches = np.where(is_known, again[:, None], touch[:, None])
         touches[left == 1] = rules.WRONG  # The episode ends unanswered.
@@ -220,8 +192,12 @@ class Solution(base.Solution):
         return [base.Judgement(beliefs[p], values_of_actions[p][:-1], is_informative[p][:-1]) for p in parts]
 
     def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Returns evenly drawn episodes, with equal shares."""
-        return *_evenly_drawn_episodes(self), np.full(_EPISODES, 1 / _EPISODES)
+        return *self._evenly_drawn_episodes, np.full(_EPISODES, 1 / _EPISODES)
+
+    @functools.cached_property
+    def _evenly_drawn_episodes(self) -> tuple[np.ndarray, np.ndarray]:
+        draws = qmc.Sobol(self.prior.num_things + 1, rng=0).random(_EPISODES).clip(1e-12, 1 - 1e-12)
+        return self.play(self.prior.from_uniforms(draws))
 
 
 class _Player(core.EpisodicActor):
@@ -243,24 +219,14 @@ class _Player(core.EpisodicActor):
             self._known[0, action] = self._read(next_timestep.observation, action)
 
 
-@functools.lru_cache(maxsize=64)
-def _evenly_drawn_episodes(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
-    """Returns touches and success, as `Solution.play` does, in evenly drawn episodes."""
-    draws = qmc.Sobol(solution.prior.num_things + 1, rng=0).random(_EPISODES).clip(1e-12, 1 - 1e-12)
-    return solution.play(solution.prior.from_uniforms(draws))
-
-
 @functools.lru_cache(maxsize=512)
 def _touch(
     prior: priors.OddOneOut, discount: float, known: int, left: float, at_random: bool = False
 ) -> Callable[[np.ndarray], np.ndarray]:
     """Returns the value of one more touch, as a function of states, points [N, 2] of (largest value found, t).
 
-    Args:
-      prior, discount: as in `Solution`.
-      known: number of known things, fewer than all.
-      left: number of actions left, at least 2.
-      at_random: whether touches are drawn uniformly among all things, instead of touching an unknown one.
+    The touch is of an unknown thing, or else drawn uniformly among all; fewer than all are known, and at least two
+    actions left.
     """
     num_things = prior.num_things
     again = known / num_things if at_random else 0.0  # The probability of touching a known thing.
@@ -297,13 +263,9 @@ def _grid(prior: priors.OddOneOut, known: int) -> tuple[np.ndarray, np.ndarray, 
 
 
 def _expected(known, largest, ratio, prior, after) -> np.ndarray:
-    """Returns the expected values of states after one more touch of an unknown thing, [N].
+    """Returns the expected values of N states after one more touch of an unknown thing, [N].
 
-    Args:
-      known: number of known things before it.
-      largest, ratio: the states, [N] each.
-      prior: distribution of the values.
-      after: value of a further touch in states with one more known thing; None if an answer must follow.
+    A further touch is worth `after`, a function of states with one more known thing; if it is None, an answer follows.
     """
     unknown = prior.num_things - known
     if unknown == 1:

@@ -35,17 +35,11 @@ class Bounds:
 
 @dataclasses.dataclass(frozen=True)
 class _Belief:
-    """The support of a belief after some of a sequence of interactions.
+    """The support of a belief after some of a sequence of interactions."""
 
-    Attributes:
-      probability: of the support.
-      max_probability: of a label, given the support.
-      parts: its partition by the next interaction; empty at the last step, or when the label is determined.
-    """
-
-    probability: float
-    max_probability: float
-    parts: tuple["_Belief", ...]
+    probability: float  # Of the support.
+    max_probability: float  # Of a label, given the support.
+    parts: tuple["_Belief", ...]  # By the next interaction; empty at the last step, or when the label is determined.
 
     def prophet_return(self, discount: float) -> float:
         """Returns the best return if the interactions to come are known, times the probability."""
@@ -68,12 +62,7 @@ class _Belief:
 
 
 def bounds(histories: histories_lib.Histories, discount: float) -> Bounds:
-    """Returns the bounds.
-
-    Args:
-      histories: the tree of sequences of interactions.
-      discount: the agent's gamma.
-    """
+    """Returns the bounds for an agent's gamma, from the tree of sequences of interactions."""
     task = histories.hypotheses.task
     length = task.rules.step_limit - 1  # The last action before the time limit is the answer.
     drawn = np.random.default_rng(0).integers(task.num_interactions, size=(_NUM_TRIALS + _NUM_SEQUENCES, length))

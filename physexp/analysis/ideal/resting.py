@@ -178,17 +178,14 @@ class Solution(base.Solution):
 
     @property
     def value(self) -> float:
-        """Expected discounted return from an episode's start."""
         return float(self._best[-1][0])
 
     @property
     def at_once(self) -> float:
-        """Expected return of the likeliest label, without any interaction."""
         return float(self._states.answer[0])
 
     @property
     def random_value(self) -> float:
-        """Expected return of interactions drawn uniformly, with the best answers at the best moment."""
         return float(self._at_random[0])
 
     def action(self, state: State, step: int) -> int:
@@ -198,11 +195,6 @@ class Solution(base.Solution):
         return int(actions[self._policy[left - 1][self._states.index[canonical]]])
 
     def actor(self) -> core.Actor:
-        """Returns an actor that takes readings from observations.
-
-        Raises:
-          ValueError: if the task observes images.
-        """
         if self._read is None:
             raise ValueError("the ideal experimenter reads features, not images; choose a task with features")
         return _Player(self, self._read)
@@ -220,18 +212,14 @@ class Solution(base.Solution):
         return np.append(interactions, answers)
 
     def beliefs(self, episode: base.Episode) -> np.ndarray:
-        """Returns the posterior at the start and after each action of an episode, float64 [T + 1, L]."""
         return np.array([self.apparatus.posterior(state) for state in self._visited(episode)])
 
     def judge(self, episode: base.Episode) -> base.Judgement:
-        """Returns the beliefs in an episode, and the values of its actions."""
         states = self._visited(episode)
         return base.Judgement(
             beliefs=np.array([self.apparatus.posterior(state) for state in states]),
             values=np.array([self.values(state, step) for step, state in enumerate(states[:-1])]),
-            is_informative=np.array(
-                [self._is_informative(*taken) for taken in zip(states[:-1], map(int, episode.actions), strict=True)]
-            ),
+            is_informative=np.array(list(map(self._is_informative, states[:-1], episode.actions.tolist()))),
         )
 
     def _visited(self, episode: base.Episode) -> list[State]:
@@ -272,7 +260,6 @@ class Solution(base.Solution):
         return found[labels, 0], found[labels, 1].astype(bool)
 
     def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Returns the episodes of all possible labels."""
         prior = self.apparatus.posterior(self.apparatus.start)
         (labels,) = prior.nonzero()
         return *self.play(labels), prior[labels]

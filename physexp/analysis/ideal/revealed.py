@@ -22,11 +22,9 @@ class Solution(base.Solution):
         self._task = suite.load_task(domain, task, dict(task_kwargs))
 
     def actor(self) -> core.Actor:
-        """Returns an actor that gives the answer that it observes."""
         return _Player(self._task.num_interactions)
 
     def judge(self, episode: base.Episode) -> base.Judgement:
-        """Returns certain beliefs, and the values of the actions: an interaction delays the right answer by a step."""
         belief = np.eye(self._task.num_labels)[self._task.answers(np.asarray(episode.hidden)[None])[0]]
         num_interactions, num_actions = self._task.num_interactions, self._task.rules.num_actions
         values = np.empty((len(episode.actions), num_actions))
@@ -37,7 +35,6 @@ class Solution(base.Solution):
         return base.Judgement(beliefs, values, np.zeros(len(episode.actions), bool))
 
     def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Returns one kind of episode, with a right answer at once."""
         return np.zeros(1, np.int64), np.ones(1, bool), np.ones(1)
 
 

@@ -29,13 +29,7 @@ class Step:
 
 
 def play_round(actors: Sequence[core.Actor], batch: core.Batch, episode: int) -> Iterator[Step]:
-    """Plays an episode with each of N actors side by side; yields its steps.
-
-    Args:
-      actors: N of them.
-      batch: N environments.
-      episode: index of the episode in each environment.
-    """
+    """Plays the episode of an index with each of N actors, in N environments side by side; yields its steps."""
     rows, before = np.arange(len(actors)), batch.reset(episode=episode)
     timesteps = _separate(before)
     for actor, timestep in zip(actors, timesteps, strict=True):
@@ -62,13 +56,7 @@ def play(
     num_episodes: int,
     seed: int,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Plays episodes with actors side by side, each in an environment of its own.
-
-    Args:
-      actors: N of them.
-      domain, task, task_kwargs: as for `suite.load`, without a seed.
-      num_episodes: number of episodes of each actor.
-      seed: seed of the environments.
+    """Plays some episodes with each of N actors, in environments of a seed.
 
     Returns:
       Final rewards and numbers of actions, [num_episodes, N] each.

@@ -19,6 +19,7 @@ from physexp.analysis.ideal import hypotheses as hypotheses_lib
 from physexp.suite.engine import rules
 
 OBJECTIVES = ("return", "time")
+_MAX_STEPS = 2_000_000  # Control steps that the search for the policy may simulate.
 _MAX_HISTORIES = 30_000  # Kept for judging: about 600 MB for 40 hypotheses.
 
 
@@ -39,7 +40,6 @@ class Solution(base.Solution):
         objective: str = "return",
         *,
         max_depth: int = 8,
-        max_steps: int = 2_000_000,
         tolerance: float | None = None,
     ):
         """Prepares the search.
@@ -52,14 +52,13 @@ class Solution(base.Solution):
           objective: `return`, the expected discounted return; or `time`, the fewest interactions until the right label
             is known for certain.
           max_depth: longest sequences of interactions that the search for the policy tries.
-          max_steps: control steps that it may simulate.
           tolerance: when actions are judged, states that differ by no more than this, m and m/s, share one value; see
             `Histories`.
         """
         self.hypotheses = hypotheses
         self.discount, self.objective = discount, objective
         self._resolution, self._tolerance = resolution, tolerance
-        self._max_depth, self._max_steps = max_depth, max_steps
+        self._max_depth = max_depth
         self._everything = tuple(range(len(hypotheses.prior)))
 
     @functools.cached_property
@@ -81,7 +80,7 @@ class Solution(base.Solution):
     def _found(self) -> tuple[float, float, branch_and_bound.Node]:
         """The value and the bound of the objective, and the policy."""
         root = self.histories.start, self._everything, self.hypotheses.task.rules.step_limit
-        low, high = self._search.run(*root, self._max_depth, self._max_steps)
+        low, high = self._search.run(*root, self._max_depth, _MAX_STEPS)
         sign = 1.0 if self.objective == "return" else -1.0
         return sign * low, sign * high, self._search.policy(*root)
 
@@ -101,15 +100,9 @@ class Solution(base.Solution):
         return self._found[2]
 
     def actor(self) -> core.Actor:
-        """Returns an actor that recognises the expected trajectories from observations alone."""
         return _Player(self)
 
     def beliefs(self, episode: base.Episode) -> np.ndarray:
-        """Returns the best possible beliefs at the start and after each action, float64 [T + 1, L].
-
-        Raises:
-          ValueError: if the hidden property of the episode is none of the hypotheses.
-        """
         supports = self.supports(self._true_hypothesis(episode), episode.actions)
         return np.array([self.histories.probabilities(support) for support in supports])
 
@@ -125,14 +118,10 @@ class Solution(base.Solution):
         return supports
 
     def judge(self, episode: base.Episode) -> base.Judgement:
-        """Returns the best possible beliefs in an episode, and the values of its actions.
+        """Returns the beliefs in an episode, and the values of its actions; the objective must be `return`.
 
         The value of an interaction is exact if it was taken or is best, and a lower bound otherwise. States closer than
         the tolerance share one value.
-
-        Raises:
-          ValueError: if the hidden property of the episode is none of the hypotheses, or the objective is not the
-            return.
         """
         if self.objective != "return":
             raise ValueError(f"objective is {self.objective!r}; to judge actions, solve for the return")
@@ -189,7 +178,6 @@ class Solution(base.Solution):
         return int(is_true.argmax())
 
     def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Returns the episodes of all hypotheses."""
         interactions, right = [], []
         for hypothesis, answer in enumerate(self.hypotheses.answers):
             node, count = self.policy, 0
@@ -215,7 +203,6 @@ class Solution(base.Solution):
 
     @property
     def at_once(self) -> float:
-        """Expected return of the likeliest label, without any interaction."""
         return self._random_bounds.at_once
 
     @property

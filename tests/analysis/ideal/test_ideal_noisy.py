@@ -36,16 +36,6 @@ def played():
     return found
 
 
-def touches_again(actions):
-    *touches, _ = actions
-    return len(set(touches)) < len(touches)
-
-
-def expected_returns(played):
-    """Returns the expected return of each episode at its answer."""
-    return np.array([(2 * beliefs.max() - 1) * _DISCOUNT ** (len(actions) - 1) for _, actions, _, beliefs in played])
-
-
 def test_it_is_right_as_often_as_it_believes(played):
     surprises = np.array([reward - (2 * beliefs.max() - 1) for _, _, reward, beliefs in played])
     assert abs(surprises.mean()) < 5 * surprises.std() / len(surprises) ** 0.5
@@ -78,7 +68,9 @@ def test_its_beliefs_agree_with_importance_sampling():
 def test_its_value_agrees_with_its_beliefs(played, monkeypatch):
     monkeypatch.setattr(bounds, "NUM_EPISODES", 160)
     solution = ideal(noise=NOISE)
-    expected = expected_returns(played)
+    expected = np.array(
+        [(2 * beliefs.max() - 1) * _DISCOUNT ** (len(actions) - 1) for _, actions, _, beliefs in played]
+    )
     error = np.hypot(solution.summary()["value_error"], expected.std() / len(expected) ** 0.5)
     assert abs(solution.value - expected.mean()) < 5 * error
     assert solution.bound == ideal().value
@@ -86,27 +78,10 @@ def test_its_value_agrees_with_its_beliefs(played, monkeypatch):
 
 def test_it_touches_again_where_a_gap_is_small(played):
     gaps = which_is_heavier.mass_gaps(np.array([masses for masses, *_ in played]))
-    is_again = np.array([touches_again(actions) for _, actions, *_ in played])
+    is_again = np.array([len(set(actions)) < len(actions) for _, actions, *_ in played])
     again, once = gaps[is_again], gaps[~is_again]
     error = np.hypot(again.std() / len(again) ** 0.5, once.std() / len(once) ** 0.5)
     assert once.mean() - again.mean() > 3 * error  # In 640 episodes, about 8.
-
-
-def test_it_earns_more_than_a_policy_that_ignores_the_noise(played):
-    """The other return is computed without physics: noise on a curve of heights changes the masses that are read."""
-    expected = expected_returns(played)
-    seed = fresh_seed()
-    nodes, count = np.linspace(0, 1, 1001), 50_000
-    batch = suite.load_batch("which_is_heavier", "features", len(nodes))
-    batch.reset(hidden=np.repeat(nodes[:, None], which_is_heavier.NUM_BLOCKS, axis=1))
-    heights = batch.step(np.zeros(len(nodes), np.int64)).observation["heights"][:, 0].astype(float)
-    masses = which_is_heavier.draw_masses(np.full(count, seed), np.arange(count), difficulty=5.0)
-    shown = np.interp(masses, nodes, heights) + np.random.default_rng(seed).normal(0, NOISE, masses.shape)
-    read = np.interp(-shown, -heights, nodes).clip(1e-9, 1 - 1e-9)
-    pokes, right = ideal().play(masses, read)
-    others = np.where(right, 1, -1) * _DISCOUNT**pokes
-    error = np.hypot(expected.std() / len(expected) ** 0.5, others.std() / count**0.5)
-    assert expected.mean() - others.mean() > 3 * error
 
 
 def test_it_delays_the_answer_if_readings_are_useless():

@@ -17,7 +17,8 @@ from physexp.suite.engine import priors
 
 
 def posterior(masses, difficulty):
-    return odd_one_out.posterior(masses, priors.OddOneOut(masses.shape[1], difficulty))
+    beliefs, _ = solve(difficulty, 0.95, masses.shape[1]).evaluate(masses, left=1)
+    return beliefs
 
 
 def solve(difficulty, discount, blocks=4, step_limit=math.inf):
@@ -32,24 +33,19 @@ def draw(generator, count, difficulty, blocks=4):
     return masses, heavy
 
 
-def test_before_any_poke_all_blocks_are_equally_likely():
+def test_all_blocks_are_equally_likely_until_masses_are_known():
     np.testing.assert_allclose(posterior(np.full((1, 4), np.nan), 3.0), np.full((1, 4), 0.25))
-
-
-def test_with_all_masses_known_the_heaviest_block_is_certain():
-    masses = np.array([[0.2, 0.9, 0.91, 0.1]])
-    np.testing.assert_array_equal(posterior(masses, 3.0), [[0, 0, 1, 0]])
+    np.testing.assert_array_equal(posterior(np.array([[0.2, 0.9, 0.91, 0.1]]), 3.0), [[0, 0, 1, 0]])
 
 
 def test_an_untouched_block_can_be_the_best_answer():
     # Two blocks, difficulty 2, mass 0.3 seen: ratio r = 0.3 / 0.7 = 3/7, so it is the heavy one with probability
     # (3/7) / (3/7 + 1) = 0.3, and heaviest with 0.3 * (1 - 0.7^2) + 0.7 * 0.3^2 = 0.153 + 0.063 = 0.216.
-    found = posterior(np.array([[0.3, np.nan]]), 2.0)
-    np.testing.assert_allclose(found, [[0.216, 0.784]])
-    answer, poke = solve(2.0, 0.5, 2).values(np.array([[0.3, np.nan]]), left=9)
-    assert answer[0] == pytest.approx(2 * 0.784 - 1)
+    solution, known = solve(2.0, 0.5, 2), np.array([[0.3, np.nan]])
+    beliefs, poke = solution.evaluate(known, left=9)
+    np.testing.assert_allclose(beliefs, [[0.216, 0.784]])
     assert poke[0] == pytest.approx(0.5)  # Nothing is left to find out after it.
-    assert solve(2.0, 0.5, 2).actions(np.array([[0.3, np.nan]]), left=9) == [2 + 1]
+    assert solution.actions(known, left=9) == [2 + 1]
 
 
 @pytest.mark.parametrize("difficulty", [1.0, 5.0])
@@ -67,20 +63,6 @@ def test_the_posterior_is_calibrated_on_drawn_masses(difficulty):
             if rows.sum() > 200:
                 found = stats.binomtest(int(truth[rows, block].sum()), rows.sum(), likely[rows, block].mean())
                 assert found.pvalue > P_VALUE
-
-
-def test_the_value_for_two_blocks_is_a_numerical_integral():
-    difficulty, discount = 3.0, 0.9
-
-    def gain(mass):
-        density = 0.5 * difficulty * (mass ** (difficulty - 1) + (1 - mass) ** (difficulty - 1))
-        weight = (mass / (1 - mass)) ** (difficulty - 1)
-        lighter = 1 - (1 - mass) ** difficulty
-        right = (weight * lighter + mass**difficulty) / (weight + 1)
-        return density * max(2 * max(right, 1 - right) - 1, discount)
-
-    expected = discount * integrate.quad(gain, 0, 1, limit=400)[0]
-    assert solve(difficulty, discount, 2).value == pytest.approx(expected, abs=1e-4)
 
 
 def test_without_discount_it_finds_out_everything():
@@ -169,13 +151,10 @@ def test_within_a_time_limit_it_earns_its_value_in_the_environment():
     assert abs(returns.mean() - solution.value) < 4.5 * returns.std() / math.sqrt(returns.size) + 1e-3
 
 
-@pytest.mark.parametrize("control_timestep", [0.1, 0.05])
-def test_it_reads_masses_from_heights(control_timestep):
-    seed = fresh_seed()
-    mass_of = calibration.calibrate("which_is_heavier", "features", "heights", {"control_timestep": control_timestep})
-    environment = suite.load(
-        "which_is_heavier", "features", task_kwargs={"random": seed, "control_timestep": control_timestep}
-    )
+def test_it_reads_masses_from_heights_after_any_control_step():
+    kwargs = {"control_timestep": 0.05}
+    mass_of = calibration.calibrate("which_is_heavier", "features", "heights", kwargs)
+    environment = suite.load("which_is_heavier", "features", task_kwargs={**kwargs, "random": fresh_seed()})
     for episode in range(20):
         environment.reset()
         block = episode % 4
@@ -260,18 +239,18 @@ def test_the_beliefs_in_an_episode_are_the_posterior_of_poked_blocks():
 
 
 @pytest.mark.parametrize("difficulty, discount", [(3.0, 0.95), (2.0, 0.6)])
-def test_random_touches_of_two_things_earn_an_integral(difficulty, discount):
+def test_touches_of_two_things_earn_an_integral(difficulty, discount):
     """After the first touch one of two things is known; a further touch is of the other one, or useless."""
     solution = solve(difficulty, discount, 2)
     going_on = discount / 2 / (1 - discount / 2)  # g / 2 + (g / 2)^2 + ...
 
-    def worth(value):
-        chances = posterior(np.array([[value, np.nan]]), difficulty)[0]
-        density = (
-            difficulty * value ** (difficulty - 1) + difficulty * (1 - value) ** (difficulty - 1)
-        ) / 2  # Odd and common are equally likely.
-        return density * max(2 * chances.max() - 1, going_on)
+    def worth(mass, next_touch):
+        density = 0.5 * difficulty * (mass ** (difficulty - 1) + (1 - mass) ** (difficulty - 1))
+        weight = (mass / (1 - mass)) ** (difficulty - 1)
+        right = (weight * (1 - (1 - mass) ** difficulty) + mass**difficulty) / (weight + 1)
+        return density * max(2 * max(right, 1 - right) - 1, next_touch)
 
-    expected = integrate.quad(worth, 0, 1, limit=200)[0]
-    assert solution.random_value == pytest.approx(max(0, discount * expected), abs=1e-4)
+    best, at_random = (integrate.quad(worth, 0, 1, (touch,), limit=400)[0] for touch in (discount, going_on))
+    assert solution.value == pytest.approx(max(0, discount * best), abs=1e-4)
+    assert solution.random_value == pytest.approx(max(0, discount * at_random), abs=1e-4)
     assert solution.at_once == 0

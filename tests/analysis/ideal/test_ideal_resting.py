@@ -1,0 +1,226 @@
+"""The ideal experimenters of apparatuses that rest, against a search over sets of labels and by hand."""
+
+import functools
+import itertools
+import statistics
+
+import ideals
+import numpy as np
+import pytest
+from seeds import fresh_seed
+
+from physexp.analysis.ideal import bands, counterfeit, intervals, resting
+
+
+def search(chances, moves, setting, discount, step_limit, choose):
+    """Returns the expected return by a search over sets of labels and settings.
+
+    Args:
+      chances: the probability of each label.
+      moves: returns, for a setting, the next setting and the function from a label to the reading, of each interaction.
+      setting: the first one.
+      discount, step_limit: as for `resting.Solution`.
+      choose: combines the values of all interactions: `max`, or `fmean` for random ones.
+    """
+    chances = {label: chance for label, chance in chances.items() if chance > 0}
+
+    @functools.cache
+    def share(labels):
+        return sum(chances[label] for label in labels)
+
+    @functools.cache
+    def parts(labels, setting):
+        found = []
+        for following, reading in moves(setting):
+            groups = {}
+            for label in labels:
+                groups.setdefault(reading(label), []).append(label)
+            found.append((following, [frozenset(group) for group in groups.values()]))
+        return found
+
+    @functools.cache
+    def value(labels, setting, steps):
+        answer = 2 * max(chances[label] for label in labels) / share(labels) - 1
+        if steps == 1:
+            return answer
+        expected = [
+            sum(share(part) / share(labels) * value(part, following, steps - 1) for part in groups)
+            for following, groups in parts(labels, setting)
+        ]
+        return max(answer, discount * choose(expected))
+
+    return value(frozenset(chances), setting, step_limit)
+
+
+def agree(apparatus, world, discount, step_limit):
+    """Asserts that a solution has the values of a search; a world is the first three arguments of `search`."""
+    solution = resting.Solution(apparatus, discount, step_limit)
+    assert solution.value == pytest.approx(search(*world, discount, step_limit, max), abs=1e-9)
+    at_random = search(*world, discount, step_limit, statistics.fmean)
+    assert solution.random_value == pytest.approx(at_random, abs=1e-9)
+
+
+def levels(prior):
+    """Ordered labels: test l is passed if the label is at most l."""
+    tests = [(None, lambda label, level=level: label <= level) for level in range(len(prior))]
+    return dict(enumerate(prior)), lambda setting: tests, None
+
+
+def coins(num_things, num_suspects):
+    """One suspect is heavier or lighter; an interaction puts a thing aside, on the left pan or on the right one."""
+
+    def moves(sides):
+        for thing, side in itertools.product(range(num_things), (0, -1, 1)):
+            moved = (*sides[:thing], side, *sides[thing + 1 :])
+            yield moved, functools.partial(tilt, moved)
+
+    def tilt(sides, label):
+        odd, sign = label
+        return np.sign(round(sum(side * (1 + 0.3 * sign * (thing == odd)) for thing, side in enumerate(sides)), 6))
+
+    labels = itertools.product(range(num_suspects), (1, -1))
+    return dict.fromkeys(labels, 1 / (2 * num_suspects)), moves, (0,) * num_things
+
+
+def graphs(weights):
+    """Three things; a pull of one moves all that bands connect to it, except through the clamped one."""
+    pairs = ((0, 1), (0, 2), (1, 2))
+
+    def moves(clamped):
+        for thing in range(3):
+            yield clamped, functools.partial(moved, clamped, thing)
+            yield None if clamped == thing else thing, lambda graph: None
+
+    def moved(clamped, pulled, graph):
+        found, frontier = set(), [pulled]
+        while frontier:
+            thing = frontier.pop()
+            if thing != clamped and thing not in found:
+                found.add(thing)
+                frontier += [other for pair in graph if thing in pair for other in pair]
+        return frozenset(found)
+
+    labels = [frozenset(pair for bit, pair in enumerate(pairs) if label >> bit & 1) for label in range(2 ** len(pairs))]
+    return dict(zip(labels, weights, strict=True)), moves, None
+
+
+PRIORS = {
+    "a default of threshold": np.diff(1 - (1 - np.arange(9) / 8) ** 2),
+    "few and many": [0.4, 0.02, 0.3, 0.01, 0.27],
+    "impossible labels": [0.5, 0.0, 0.0, 0.25, 0.25, 0.0],
+    "sixteen": np.diff(1 - (1 - np.arange(17) / 16) ** 3),
+}
+
+
+@pytest.mark.parametrize("discount", [0.3, 1.0])
+@pytest.mark.parametrize("prior", PRIORS.values(), ids=PRIORS.keys())
+def test_a_search_over_sets_of_levels_finds_the_same_values(prior, discount):
+    agree(intervals.Thresholds(prior), levels(prior), discount, 12)
+
+
+def test_the_searches_agree_for_random_priors():
+    generator = np.random.default_rng(fresh_seed())
+    for _ in range(10):
+        size, step_limit = int(generator.integers(2, 9)), int(generator.integers(1, 8))
+        prior, discount = generator.dirichlet(np.full(size, 0.5)), float(generator.uniform(0.2, 1))
+        agree(intervals.Thresholds(prior), levels(prior), discount, step_limit)
+
+
+@pytest.mark.parametrize("things, suspects, discount, step_limit", [(3, 2, 0.95, 9), (4, 3, 0.5, 8), (4, 2, 1.0, 7)])
+def test_a_search_over_placings_of_coins_finds_the_same_values(things, suspects, discount, step_limit):
+    agree(counterfeit.Scale(things, suspects), coins(things, suspects), discount, step_limit)
+
+
+@pytest.mark.parametrize("weights", [np.full(8, 1 / 8), [0.3, 0.2, 0.1, 0.1, 0.1, 0.1, 0.05, 0.05]])
+def test_a_search_over_sets_of_graphs_finds_the_same_values(weights):
+    agree(bands.Clamped(3, weights), graphs(weights), 0.9, 10)
+
+
+def solve(prior, discount, step_limit):
+    return resting.Solution(intervals.Thresholds(prior), discount, step_limit)
+
+
+def between(low, high):
+    """Returns the information state in which the levels from one to another are possible."""
+    return sum(1 << label for label in range(low, high + 1)), None
+
+
+def test_halving_finds_one_of_eight_equally_likely_labels_in_three_tests():
+    solution = solve(np.full(8, 1 / 8), 0.95, 30)
+    assert solution.value == pytest.approx(0.95**3)
+    assert solution.summary() == {
+        "value": pytest.approx(0.95**3),
+        "bound": solution.value,
+        "at_once": pytest.approx(2 / 8 - 1),
+        "random_value": solution.random_value,
+        "accuracy": pytest.approx(1.0),
+        "mean_interactions": pytest.approx(3.0),
+        "histogram": {0: 0.0, 1: 0.0, 2: 0.0, 3: pytest.approx(1.0)},
+    }
+    assert solution.action(between(0, 7), 0) == 3
+    assert solution.action(between(4, 7), 1) == 5
+    assert solution.action(between(6, 6), 3) == 8 + 6
+
+
+def test_three_labels_by_hand():
+    # Test 0 first: 0.9 (0.5 + 0.5 * 0.9) = 0.855, for the other two labels are worth 0.9 with one more test, and 0.2 at
+    # once. Test 1 first: 0.9 (0.8 * 0.9 + 0.2) = 0.828. At once: 0.
+    # Tests at random: two labels, a, are told apart by one test of three, a = 0.3 (1 + 2 a) = 0.75. All three, r, are
+    # divided by tests 0 and 1: r = 0.3 ((0.5 + 0.5 a) + (0.8 a + 0.2) + r) = 0.3 (0.875 + 0.8 + r) = 0.5025 / 0.7.
+    solution = solve([0.5, 0.3, 0.2], 0.9, 200)
+    assert solution.value == pytest.approx(0.855)
+    assert solution.at_once == pytest.approx(0.0)
+    assert solution.random_value == pytest.approx(0.5025 / 0.7)
+    assert [solution.action(between(0, 2), 0), solution.action(between(1, 2), 1)] == [0, 1]
+
+
+@pytest.mark.parametrize(
+    ("discount", "step_limit", "value"),
+    [
+        # n labels at gamma 0.1, times n: w(1) = 1 and w(n) = 0.1 (1 + w(n - 1)), one label at a time, so w(2) = 0.2,
+        # w(3) = 0.12, w(4) = 0.112, ... w(8) = 0.1111112. Halves would be worth 8 * 0.001.
+        (0.1, 30, 0.1111112 / 8),
+        (0.95, 3, 0.0),  # Two tests, and one of two labels to be guessed.
+        (0.95, 1, 2 / 8 - 1),
+        (0.1, 2, -0.05),  # One test, after which each answer is right once in four: -0.5, but a step later.
+    ],
+)
+def test_eight_equally_likely_labels_by_hand(discount, step_limit, value):
+    assert solve(np.full(8, 1 / 8), discount, step_limit).value == pytest.approx(value, abs=1e-12)
+
+
+def test_played_episodes_earn_the_value():
+    prior = PRIORS["a default of threshold"]
+    solution = solve(prior, 0.95, 30)
+    interactions, right = solution.play(np.arange(8))  # Each label once.
+    assert prior @ (0.95**interactions * np.where(right, 1, -1)) == pytest.approx(solution.value, abs=1e-12)
+    summary = solution.summary()
+    assert prior @ interactions == pytest.approx(summary["mean_interactions"], abs=1e-12)
+    assert prior @ right == pytest.approx(summary["accuracy"], abs=1e-12)
+
+
+def test_an_impossible_reading_is_refused():
+    with pytest.raises(ValueError, match=r"after interaction 6 the reading is 0; expected one of \[1\]"):
+        intervals.Thresholds(np.full(8, 1 / 8)).after(between(2, 4), 6, 0)
+
+
+def test_it_clamps_only_if_pulls_leave_several_graphs():
+    """By hand: pull 0. If it moves alone, pull 1. If one other moves, the graph is known. If both move, four are left.
+
+    In these, one pair may be missing. Each of three clamps reveals one pair: clamp 0 and pull 1, then clamp 1 and pull
+    0, then clamp 2 and pull 0 reveal whether 1-2, 0-2, 0-1 is missing; the first missing pair ends the search.
+    """
+    solution = ideals.of("strings")
+    interactions, right = solution.play(np.arange(8))
+    assert right.all()
+    # None and 1-2: two pulls. 0-1 and 0-2: one. Rows of three: 3, 5 or 7; the ring, 7.
+    assert sorted(interactions) == [1, 1, 2, 2, 3, 5, 7, 7]
+    assert solution.value == pytest.approx(sum(0.95**count for count in (1, 1, 2, 2, 3, 5, 7, 7)) / 8)
+    for graph in range(8):
+        state, clamps = solution.apparatus.start, 0
+        for step in range(interactions[graph]):
+            action = solution.action(state, step)
+            clamps += action >= 3
+            reading = solution.apparatus.readings(state[1])[action, graph]
+            state = solution.apparatus.after(state, action, reading)
+        assert (clamps > 0) == (graph in (3, 5, 6, 7))  # Two bands, or three.
