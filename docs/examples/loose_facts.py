@@ -10,4 +10,4 @@ def _hypotheses():
     return np.arange(loose.NUM_BLOCKS), loose.PRIOR
 
 
-DOMAIN = base.search_domain("loose", _hypotheses, skill="search", presets=base.PRESETS_OF_BITS)
+DOMAIN = base.search_domain("loose", _hypotheses, presets=base.PRESETS_OF_BITS)

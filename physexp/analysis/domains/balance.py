@@ -14,7 +14,6 @@ DOMAIN = base.resting_domain(
     "balance",
     _apparatus,
     read=lambda observation: int(observation["tilt"][0]),
-    skill="use a tool",
     presets=base.PRESETS_OF_BITS,
     targets={"balance-features": ("mean_return", 0.72), "balance-pixels": ("mean_return", 0.72)},
     hidden_columns=lambda hidden: {"weights": hidden},  # kg

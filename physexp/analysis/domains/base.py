@@ -29,17 +29,12 @@ class Ideal:
     A task that reveals the answer has the same ideal experimenter in every domain: it answers at once.
 
     Attributes:
-      options: a dataclass of the options that the ideal experimenter has besides the task's, with their defaults.
+      options: a dataclass of the options that the ideal experimenter has besides the task's, with their defaults
+        and checks.
     """
 
     def __init__(self, domain: str, solve: "Callable[..., ideal.Solution]", options: type = NoOptions):
-        """Prepares the search.
-
-        Args:
-          domain: the domain's name.
-          solve: returns the `Solution` for a task, its `task_kwargs`, a discount, and the options by name.
-          options: see the class.
-        """
+        """Takes a function of a task, its `task_kwargs`, a discount, and the options by name."""
         self.options = options
         self._domain, self._solve = domain, solve
         self._solutions: dict[str, ideal.Solution] = {}
@@ -50,14 +45,14 @@ class Ideal:
         Args:
           task, task_kwargs: as for `suite.load`; the seed is ignored.
           discount: the agent's gamma, above 0 and at most 1.
-          **options: options of the ideal experimenter, fields of `options`.
+          **options: fields of `options`.
 
         Raises:
           ValueError: for an unknown task or a value that is not allowed.
         """
         asked = {name: value for name, value in task_kwargs.items() if name != "random"}
         discount = checks.discount("discount", discount)
-        self.options(**options)  # Checks them.
+        checks.check_fields(self.options(**options))
         question = repr((task, sorted(asked.items()), discount, sorted(options.items())))
         if question not in self._solutions:
             self._solutions[question] = self._find(task, asked, discount, options)
@@ -77,25 +72,12 @@ class Ideal:
         return revealed.Solution(self._domain, task, task_kwargs, discount)
 
 
-def nothing(hidden: "np.ndarray") -> "Mapping[str, np.ndarray]":
-    """Returns no columns, for domains that declare none."""
-    return {}
-
-
-@functools.cache
-def _discount(domain_name: str) -> float:
-    from physexp import suite
-
-    return suite.load_task(domain_name, suite.TASKS_BY_DOMAIN[domain_name][0]).discount
-
-
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Domain:
     """Facts about a domain.
 
     Attributes:
       name: the domain's name, as `suite.load` takes it.
-      skill: the skill that it tests, in a few words.
       presets: default configurations for training, by task and algorithm. Their discount is replaced by the domain's.
         Tasks and algorithms without a preset use the algorithm's defaults.
       labels: by task, the short name of a condition, in which `{option}` stands for an option's value.
@@ -107,18 +89,19 @@ class Domain:
     """
 
     name: str
-    skill: str = ""
     presets: Mapping[str, Mapping[str, agent_config.AgentConfig]] = dataclasses.field(default_factory=dict)
     labels: Mapping[str, str] = dataclasses.field(default_factory=dict)
     targets: Mapping[str, tuple[str, float]] = dataclasses.field(default_factory=dict)
     ideal: Ideal | None = None
     baselines: "Mapping[str, Mapping[str, Callable[[], core.Actor]]]" = dataclasses.field(default_factory=dict)
-    hidden_columns: "Callable[[np.ndarray], Mapping[str, np.ndarray]]" = nothing
+    hidden_columns: "Callable[[np.ndarray], Mapping[str, np.ndarray]]" = lambda hidden: {}
 
-    @property
+    @functools.cached_property
     def discount(self) -> float:
         """Gamma of the returns that are scored: that of the domain's tasks."""
-        return _discount(self.name)
+        from physexp import suite
+
+        return suite.load_task(self.name, suite.TASKS_BY_DOMAIN[self.name][0]).discount
 
     def ideal_with(self, task_kwargs: Mapping[str, Any]) -> Ideal | None:
         """Returns `ideal` if it is exact with these options, otherwise None.
@@ -145,10 +128,9 @@ def resting_domain(
     """Returns a domain whose apparatus rests between interactions, so that its ideal experimenter is exact.
 
     Args:
-      name: the domain's name.
+      name, **facts: attributes of `Domain`.
       apparatus: returns the apparatus for the task's options.
       read: returns the reading in an observation of features.
-      **facts: other attributes of `Domain`.
     """
 
     def solve(task: str, task_kwargs: Mapping[str, Any], discount: float) -> "resting.Solution":
@@ -173,10 +155,9 @@ def search_domain(
     """Returns a domain with finitely many hidden properties, whose ideal experimenter is found by search.
 
     Args:
-      name: the domain's name.
+      name, **facts: attributes of `Domain`.
       hypotheses: returns all values of the hidden property, [H, ...], and their probabilities, float64 [H].
       read_as: as for `hypotheses.Hypotheses`.
-      **facts: other attributes of `Domain`.
     """
 
     def solve(task: str, task_kwargs: Mapping[str, Any], discount: float) -> "search.Solution":

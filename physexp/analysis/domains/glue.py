@@ -31,11 +31,10 @@ class GlueRule(core.EpisodicActor):
         """Makes the rule.
 
         Args:
-          interactions: the interactions to repeat, in turn.
-          num_interactions: number of interactions of the task.
+          interactions: the interactions to repeat, in turn, of `num_interactions`.
+          num_interactions, step_limit: of the task.
           noise: standard deviation of readings, m.
           wait: number of interactions before the answer; by default, as described above.
-          step_limit: maximum number of actions in an episode, including the answer.
         """
         self._wait, self._is_noisy, self._step_limit = wait, noise > 0, step_limit
         self._interactions, self._num_interactions = tuple(interactions), num_interactions

@@ -16,7 +16,6 @@ def _hypotheses():
 DOMAIN = base.search_domain(
     "sealed_box",
     _hypotheses,
-    skill="excite and watch",
     presets={
         "features": {
             "a3c": base.A3C_OF_BITS.replace(frames=_FRAMES),

@@ -14,7 +14,6 @@ def _hypotheses():
 DOMAIN = base.search_domain(
     "strike",
     _hypotheses,
-    skill="learn for a goal",
     presets={
         **base.PRESETS_OF_BITS,
         "pixels": {**base.PRESETS_OF_BITS["pixels"], "ppo": base.PPO_OF_FEW_IMAGES.replace(frames=3_000_000)},

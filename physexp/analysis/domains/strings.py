@@ -19,7 +19,6 @@ DOMAIN = base.resting_domain(
     "strings",
     _apparatus,
     read=_moved,
-    skill="control confounds",
     presets=base.PRESETS_OF_BITS,
     targets={"strings-features": ("mean_return", 0.82), "strings-pixels": ("mean_return", 0.82)},
     hidden_columns=lambda hidden: {"slacks": hidden},  # m; 0 where there is no band

@@ -14,7 +14,6 @@ DOMAIN = base.resting_domain(
     "threshold",
     _apparatus,
     read=lambda observation: int(observation["slid"][0]),
-    skill="halve what is left",
     presets=base.PRESETS_OF_BITS,
     targets={"threshold-features": ("mean_return", 0.84), "threshold-pixels": ("mean_return", 0.76)},
     hidden_columns=lambda hidden: {"friction": hidden},  # N

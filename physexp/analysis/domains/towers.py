@@ -59,13 +59,8 @@ _A3C = {
 
 
 def _ppo(task: str, learning_rate: float, entropy_cost: float) -> ppo.PPOConfig:
-    return base.ppo_like(
-        _A3C[task],
-        learning_rate=learning_rate,
-        entropy_cost=entropy_cost,
-        num_environments=32,
-        num_minibatches=2,
-    )
+    changes = dict(learning_rate=learning_rate, entropy_cost=entropy_cost)
+    return base.ppo_like(_A3C[task], **changes, num_environments=32, num_minibatches=2)
 
 
 # Never to answer is worth as much as to answer at random. Several updates on one batch end there before anything is
@@ -89,9 +84,6 @@ class IdealOptions:
         help="smallest difference that it can observe: in m for features, in differing pixels for images; 0 for every "
         "bit",
     )
-
-    def __post_init__(self) -> None:
-        checks.check_fields(self)
 
 
 def hypotheses(task: str, task_kwargs: Mapping[str, Any] | None = None, nuisances=None):
@@ -177,7 +169,6 @@ _IDEAL = base.Ideal(_NAME, _solve, IdealOptions)
 
 DOMAIN = base.Domain(
     name=_NAME,
-    skill="look for motion",
     presets={task: {"a3c": _A3C[task], "ppo": _PPO[task]} for task in _A3C},
     labels={"direct_features": "D-F", "direct_pixels": "D-P", "fist_features": "F-F", "fist_pixels": "F-P"},
     targets={

@@ -25,9 +25,6 @@ class IdealOptions:
         None, checks.optional(checks.whole(2, _MOST_BLOCKS)), help="number of blocks, 2 to 20; by default the task's"
     )
 
-    def __post_init__(self) -> None:
-        checks.check_fields(self)
-
 
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks: int | None = None):
     """Returns the ideal experimenter; with another number of blocks than the task's it cannot play.
@@ -66,13 +63,9 @@ def _hidden_columns(hidden):
 
 DOMAIN = base.Domain(
     name=_NAME,
-    skill="know when to stop",
     presets={
         "features": {"a3c": _FEATURES, "ppo": base.ppo_like(_FEATURES, frames=1_500_000, learning_rate=3e-3)},
-        "pixels": {
-            "a3c": _PIXELS,
-            "ppo": base.ppo_like(_PIXELS, learning_rate=5e-4, num_environments=64),
-        },
+        "pixels": {"a3c": _PIXELS, "ppo": base.ppo_like(_PIXELS, learning_rate=5e-4, num_environments=64)},
     },
     labels={"features": "{difficulty:g}-F", "pixels": "{difficulty:g}-P"},
     targets={

@@ -136,7 +136,7 @@ def test_hidden_columns_have_a_row_for_each_episode(domain):
 
 
 def test_other_packages_register_facts_about_their_domains(monkeypatch):
-    marbles = base.Domain(name="marbles", skill="count")
+    marbles = base.Domain(name="marbles", labels={"features": "M-F"})
     entry = types.SimpleNamespace(name="marbles", load=lambda: marbles)
     monkeypatch.setattr(domains.metadata, "entry_points", lambda group: [entry] if group == "physexp.facts" else [])
     assert domains._registered() == {"marbles": marbles}
