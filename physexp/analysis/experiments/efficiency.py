@@ -50,7 +50,7 @@ NEAR, FAR, DIRECT = "fist at the tower", "fist", "direct pushes"
 _DISTANCE = 0.16  # m, of the fist from the tower's axis, which leaves 1 cm between them; usually it is 0.32 m.
 
 
-def _actuated(actuator: str, kind: str, **task_kwargs: float) -> conditions.Condition:
+def _actuated(actuator: str, kind: str, **task_kwargs: Any) -> conditions.Condition:
     return conditions.with_belief(conditions.towers(actuator, kind)).changed(**task_kwargs)
 
 

@@ -96,7 +96,7 @@ def draw(earned: Earned):
     """Draws a panel for each domain: every agent's share of the ideal's return, and that of random interactions."""
     shown = [task for task in TASKS if (earned.agents.condition == task.label).any()]
     num_columns = min(4, len(shown))
-    grid = dict(columns=num_columns, rows=-(-len(shown) // num_columns), width=1.9, height=2.0)
+    grid: dict[str, Any] = dict(columns=num_columns, rows=-(-len(shown) // num_columns), width=1.9, height=2.0)
     figure, panels = plots.new(**grid, sharex=True, sharey=True, squeeze=False)
     for axes in panels.flat[len(shown) :]:
         axes.set_axis_off()

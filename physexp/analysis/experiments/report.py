@@ -109,8 +109,9 @@ def _summary(rows: Sequence[Row], configs: Sequence[str]) -> list[str]:
         ],
     }
     found = [f"{numbers} {_workers(configs)}".strip()]
-    for heading, its in points.items():
-        found += [heading, "\n".join(f"- {point}" for point in its)] if its else []
+    for heading, sentences in points.items():
+        if sentences:
+            found += [heading, "\n".join(f"- {sentence}" for sentence in sentences)]
     return found
 
 

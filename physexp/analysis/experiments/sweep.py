@@ -250,11 +250,15 @@ def _trial_path(run: run_lib.Run, trial: str) -> Path:
 def work(job: Job, results: base.Results) -> dict[str, bytes]:
     """Trains an agent, if that is not done, and plays the trials that are not stored; returns no files."""
     run = results.run(job.config)
+
+    def tell(line: str) -> None:
+        sys.stderr.write(f"{job.config.name}: {line}\n")
+
     with run.locked():
         if not run.agent_path.exists():
             trainer.train(
                 run,
-                tell=lambda line: sys.stderr.write(f"{job.config.name}: {line}\n"),
+                tell=tell,
                 start=None if run.checkpointer.paths() else job.config,
             )
         run.keep_agent_only()
