@@ -1,6 +1,7 @@
-"""Actors that are scored: baselines that observe nothing, the ideal, trained networks, and users' policies."""
+"""Actors that are scored: users' policies, trained networks, and baselines."""
 
 from collections.abc import Callable, Mapping
+import itertools
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,6 @@ class Policy(core.Actor):
         self._policy, self._state = policy, None
 
     def observe_first(self, timestep):
-        """Forgets the state."""
         self._state = None
 
     def select_action(self, observation):
@@ -31,31 +31,6 @@ class Policy(core.Actor):
         """Does nothing: the policy gets the next observation with the next call."""
 
 
-class Baseline(core.Actor):
-    """Chooses actions without observations."""
-
-    def __init__(self, choose: Callable[[np.random.Generator], int], first: int):
-        """Makes an actor.
-
-        Args:
-          choose: returns an action, from random numbers whose seed is the index of the episode.
-          first: the index of the first episode.
-        """
-        self._choose, self._number = choose, first - 1
-
-    def observe_first(self, timestep):
-        """Seeds the random numbers."""
-        self._number += 1
-        self._generator = np.random.default_rng(self._number)
-
-    def select_action(self, observation):
-        """Returns the next action."""
-        return self._choose(self._generator)
-
-    def observe(self, action, next_timestep):
-        """Does nothing."""
-
-
 class Network(core.Actor):
     """Plays a trained network; the index of an episode is the seed of its draws."""
 
@@ -63,7 +38,6 @@ class Network(core.Actor):
         self._network, self._greedy, self._number = network, greedy, first - 1
 
     def observe_first(self, timestep):
-        """Begins the next episode."""
         from physexp.agents import acting
 
         self._number += 1
@@ -71,28 +45,32 @@ class Network(core.Actor):
         self._actor.observe_first(timestep)
 
     def select_action(self, observation):
-        """Returns the network's action."""
         return self._actor.select_action(observation)
 
     def observe(self, action, next_timestep):
-        """Notes an action and the time step that followed."""
         self._actor.observe(action, next_timestep)
 
 
 def _random(question: protocol.Question, first: int) -> core.Actor:
-    return Baseline(lambda generator: int(generator.integers(question.num_actions)), first)
+    seeds = itertools.count(first)  # The indices of the episodes.
+
+    def policy(observation, generator):
+        generator = generator or np.random.default_rng(next(seeds))
+        return int(generator.integers(question.num_actions)), generator
+
+    return Policy(policy)
 
 
 def _at_once(question: protocol.Question, first: int) -> core.Actor:
     unplayed = episodes.Episode(protocol.drawn(question, 1)[0], np.zeros(0, np.int64), np.zeros(0), [])
     likeliest = int(protocol.ideal(question).beliefs(unplayed)[0].argmax())
-    return Baseline(lambda generator: question.num_interactions + likeliest, first)
+    return Policy(lambda observation, state: (question.num_interactions + likeliest, None))
 
 
 BASELINES: Mapping[str, Callable[[protocol.Question, int], core.Actor]] = {
     "random": _random,
     "at_once": _at_once,
-    "silent": lambda question, first: Baseline(lambda generator: 0, first),
+    "silent": lambda question, first: Policy(lambda observation, state: (0, None)),
     "ideal": lambda question, first: protocol.ideal(question).actor(),
 }
 """Experimenters for every task: random actions, the likeliest answer at once, no answer, and the ideal experimenter."""

@@ -7,7 +7,7 @@ import dm_env
 import numpy as np
 
 from physexp import suite
-from physexp.agents import core, environment_loop
+from physexp.agents import core
 
 
 @dataclasses.dataclass(frozen=True)
@@ -29,46 +29,18 @@ class Episode:
     observations: dict[str, np.ndarray] = dataclasses.field(default_factory=dict)
 
 
-class _Recorder:
-    """Observes an episode and keeps all of it."""
-
-    def observe_first(self, environment: dm_env.Environment, timestep: dm_env.TimeStep) -> None:
-        self.timesteps, self.actions = [timestep], []  # type: list[dm_env.TimeStep], list[int]
-
-    def observe(self, environment: dm_env.Environment, timestep: dm_env.TimeStep, action: int) -> None:
-        self.timesteps.append(timestep)
-        self.actions.append(action)
-
-    def get_metrics(self) -> dict[str, float]:
-        return {}
-
-
-class _Repeater(core.Actor):
-    """Takes the actions of an episode again."""
-
-    def __init__(self, actions: Sequence[int]):
-        self._actions, self._next = actions, iter(actions)
-
-    def observe_first(self, timestep):
-        """Does nothing."""
-
-    def select_action(self, observation):
-        action = next(self._next, None)
-        if action is None:
-            raise ValueError(f"the episode goes on after its {len(self._actions)} actions; some are missing")
-        return action
-
-    def observe(self, action, next_timestep):
-        """Does nothing."""
-
-
 def play(environment: suite.Environment, actor: core.Actor, number: int) -> Episode:
     """Plays the episode of an index."""
-    recorder = _Recorder()
     environment.task.next_episode = number
-    environment_loop.EnvironmentLoop(environment, actor, [recorder]).run_episode()
-    rewards = np.array([timestep.reward for timestep in recorder.timesteps[1:]], float)
-    return Episode(environment.task.hidden, np.array(recorder.actions, np.int64), rewards, recorder.timesteps)
+    timesteps: list[dm_env.TimeStep] = [environment.reset()]
+    actions: list[int] = []
+    actor.observe_first(timesteps[0])
+    while not timesteps[-1].last():
+        actions.append(actor.select_action(timesteps[-1].observation))
+        timesteps.append(environment.step(actions[-1]))
+        actor.observe(actions[-1], timesteps[-1])
+        actor.update()
+    return _recorded(environment, actions, timesteps)
 
 
 def replay(environment: suite.Environment, actions: Sequence[int], number: int) -> Episode:
@@ -77,7 +49,17 @@ def replay(environment: suite.Environment, actions: Sequence[int], number: int) 
     Raises:
       ValueError: if one of them is no action, or the episode does not end with the last of them.
     """
-    played = play(environment, _Repeater(actions), number)
-    if len(played.actions) < len(actions):
-        raise ValueError(f"the episode ends after {len(played.actions)} of its {len(actions)} actions")
-    return played
+    environment.task.next_episode = number
+    timesteps = [environment.reset()]
+    for action in actions:
+        if timesteps[-1].last():
+            raise ValueError(f"the episode ends after {len(timesteps) - 1} of its {len(actions)} actions")
+        timesteps.append(environment.step(action))
+    if not timesteps[-1].last():
+        raise ValueError(f"the episode goes on after its {len(actions)} actions; some are missing")
+    return _recorded(environment, actions, timesteps)
+
+
+def _recorded(environment: suite.Environment, actions: Sequence[int], timesteps: list[dm_env.TimeStep]) -> Episode:
+    rewards = np.array([timestep.reward for timestep in timesteps[1:]], float)
+    return Episode(environment.task.hidden, np.array(actions, np.int64), rewards, timesteps)

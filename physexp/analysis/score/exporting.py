@@ -2,16 +2,13 @@
 
 from collections.abc import Callable, Sequence
 import itertools
-import json
 from pathlib import Path
 import shutil
-import time
 from typing import Any
 
 import numpy as np
 
 from physexp import extras, suite
-from physexp.agents import files
 from physexp.analysis.data import provenance, tables
 from physexp.analysis.score import episodes, playing, protocol, scoring, steps, targets
 
@@ -44,20 +41,14 @@ def export(
     episodes until then are written, too.
 
     Args:
-      target: as `targets.find` returns it.
-      questions: the tasks.
-      num_episodes: of each of them.
-      folder: for all files; it is made, is empty, or holds some of these very episodes.
+      target, questions, num_episodes, folder, timeout: as for `scoring.score`.
       seed: of the environments; not the score's.
-      timeout: for each call of a user's function, s.
       as_minari: write a data set of Minari for each task, too.
       show: called with the number of episodes that have been played.
 
     Raises:
       MissingExtraError: if Minari is wanted and not installed.
-      OSError: if it cannot be written.
-      player.PlayerError: if an agent fails.
-      ValueError: if the folder holds something else, or a number makes no sense.
+      OSError, player.PlayerError, ValueError: as `scoring.score`.
     """
     if as_minari:
         extras.require("minari")
@@ -66,7 +57,7 @@ def export(
         raise ValueError(f"seed is {seed}, whose episodes are scored; give another one")
     minari_name = targets.file_name(target.name) if as_minari else None
     writers = {question: _Writer(folder, question, seed, minari_name) for question in questions}
-    names, begun = [question.name for question in questions], time.monotonic()
+    names = [question.name for question in questions]
     facts = {"target": target.name, "greedy": target.greedy, "seed": seed, "episodes": num_episodes}
     facts["agent"] = target.describe(names)
     defining = {**facts, "tasks": names, "versions": provenance.versions()}
@@ -77,15 +68,8 @@ def export(
                 writers[question].add(episode)
                 show(session.num_played)
             writers[question].write()
-        written = {
-            **facts,
-            **{"complete": not session.problem, "problem": session.problem},
-            **provenance.made_since(begun),
-            "tasks": {writer.question.name: writer.facts() for writer in writers.values() if writer.num_episodes},
-        }
-        files.write_atomically(folder / FILE, (json.dumps(written, indent=1) + "\n").encode())
-        session.raise_problem()
-    return written
+        tasks = {writer.question.name: writer.facts() for writer in writers.values() if writer.num_episodes}
+        return session.write(FILE, facts, {"tasks": tasks})
 
 
 class _Writer:

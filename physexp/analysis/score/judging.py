@@ -11,7 +11,7 @@ import multiprocessing
 from physexp.agents import processes
 from physexp.analysis.ideal import base as ideal_base
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import episodes, protocol, reference
+from physexp.analysis.score import episodes, protocol, scores
 
 _CACHED = 8192  # Judgements.
 
@@ -20,7 +20,6 @@ class Judge:
     """Judges episodes by their hidden properties and actions."""
 
     def __init__(self, solution: ideal_base.Solution):
-        """Takes the ideal experimenter."""
         self._solution = solution
         self._cache: dict[tuple[bytes, bytes], ideal_base.Judgement] = {}
 
@@ -48,7 +47,7 @@ class Judged:
     """
 
     actions: list[mistakes.Actions]
-    ideal: reference.Reference | None
+    ideal: scores.Reference | None
 
 
 def judge(
@@ -93,7 +92,7 @@ def _judged(question: protocol.Question, played: Sequence[episodes.Episode], sho
     for episode in played:
         found.append(judge(episode))
         show(len(found))
-    return Judged(found, reference.of(question, len(played)))
+    return Judged(found, scores.reference(question, len(played)))
 
 
 def _judged_by_worker(name: str, played: Sequence[episodes.Episode]) -> Judged:

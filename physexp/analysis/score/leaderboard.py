@@ -1,5 +1,6 @@
 """The leaderboard: a row for each folder with a verified score of the whole protocol, in words and as a figure."""
 
+import collections
 from collections.abc import Callable, Mapping, Sequence
 import dataclasses
 import os
@@ -11,7 +12,7 @@ import numpy as np
 
 from physexp.agents import files
 from physexp.analysis.data import plots, provenance, text
-from physexp.analysis.score import drawing, log, protocol, scores, scoring, verifying
+from physexp.analysis.score import log, protocol, report, scores, scoring, verifying
 
 FOLDER = "scores"
 NAME = "leaderboard"
@@ -75,13 +76,11 @@ def _row(folder: Path, questions: Sequence[protocol.Question], verify: Callable[
     found = scoring.read(folder)
     _check(folder, found, [question.name for question in questions])
     verify(folder)
-    played = scoring.task_scores(log.read(folder), questions)
+    played = scores.of_log(log.read(folder), questions, {})
     earned = scores.over(played, questions)
-    names = {one.question.name for one in played}
-    counts = {}
-    for domain in earned["domains"]:
-        tasks = [question.name for question in questions if question.domain == domain]
-        counts[domain] = sum(name in names for name in tasks), len(tasks)
+    of_all = collections.Counter(question.domain for question in questions)
+    done = collections.Counter(one.question.domain for one in played)
+    counts = {domain: (done[domain], of_all[domain]) for domain in earned["domains"]}
     return Row(folder.name, earned["whole"], earned["domains"], counts, found)
 
 
@@ -97,13 +96,10 @@ def _check(folder: Path, found: Mapping[str, Any], names: Sequence[str]) -> None
 
 
 def write(results: Path, show: Callable[[int], None] = lambda done: None) -> tuple[list[Path], list[str]]:
-    """Writes the leaderboard as Markdown, and its figure.
-
-    Returns:
-      The paths of both, and the lines of `read` about folders that give no row.
+    """Writes the leaderboard as Markdown, and its figure; returns the paths, and a line for each refused folder.
 
     Raises:
-      OSError: as `read`, or if a file cannot be written.
+      OSError: if there are no folders, or a file cannot be written.
       ValueError: if no folder gives a row.
     """
     rows, refused = read(results, show=show)
@@ -122,7 +118,7 @@ def markdown(rows: Sequence[Row]) -> str:
     return text.page(
         Path(__file__).with_name(f"{NAME}.md"),
         rows=rows,
-        words=drawing.words,
+        words=report.words,
         number=lambda score: f"{score:.3f}".replace("-0.000", "0.000"),
         quote=lambda name: parse.quote(os.fsencode(name)),
         commit=provenance.shortened,
@@ -140,19 +136,19 @@ def draw(rows: Sequence[Row]):
     places = np.arange(len(rows))[::-1]
     for place, row in zip(places, rows, strict=True):
         axes.axhline(place, color="0.93", linewidth=0.7, zorder=0)
-        ends = np.clip(row.whole["interval"], drawing.LOWEST, None)
+        ends = np.clip(row.whole["interval"], report.LOWEST, None)
         axes.plot(ends, [place] * 2, color="black", linewidth=9, alpha=0.3, solid_capstyle="butt")
-        score = max(drawing.LOWEST, row.whole["score"])
+        score = max(report.LOWEST, row.whole["score"])
         axes.plot(score, place, "|", color="black", markersize=15, markeredgewidth=2)
         for (domain, look), height in zip(looks.items(), heights, strict=True):
             if row.played[domain][0]:
-                axes.plot(max(drawing.LOWEST, row.domains[domain]["score"]), place + height, zorder=3, **look)
+                axes.plot(max(report.LOWEST, row.domains[domain]["score"]), place + height, zorder=3, **look)
     for domain, look in looks.items():
-        axes.plot([], [], linestyle="none", label=drawing.words(domain), **look)
+        axes.plot([], [], linestyle="none", label=report.words(domain), **look)
     axes.set_yticks(places, [plots.literal(text.plain(row.name)) for row in rows])
     axes.tick_params(axis="y", length=0)
-    axes.set(xlim=(drawing.LOWEST - 0.03, 1.04), ylim=(-0.7, len(rows) - 0.3))
+    axes.set(xlim=(report.LOWEST - 0.03, 1.04), ylim=(-0.7, len(rows) - 0.3))
     axes.set_xlabel("score: black, over all domains, with its 95 % interval; others, of each domain")
-    drawing.mark_ends(axes, len(rows))
+    report.mark_ends(axes, len(rows))
     axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
     return figure

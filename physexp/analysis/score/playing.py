@@ -11,9 +11,11 @@ import contextlib
 import itertools
 import json
 from pathlib import Path
+import time
 from typing import IO, Any
 
-from physexp.analysis.data import lock
+from physexp.agents import files
+from physexp.analysis.data import lock, provenance
 from physexp.analysis.score import episodes, player, protocol, targets, user_agent
 
 FILE = "played.jsonl"
@@ -28,19 +30,14 @@ class Session:
     """
 
     def __init__(self, file: IO[bytes], kept: Mapping[str, Sequence[Sequence[int]]], make: targets.Make):
-        self._file, self._kept, self._make = file, kept, make
+        self._file, self._kept, self._make, self._begun = file, kept, make, time.monotonic()
         self.num_played = sum(map(len, kept.values()))
         self.problem = ""
 
     def play(
         self, questions: Sequence[protocol.Question], num_episodes: int, seed: int
     ) -> Iterator[tuple[protocol.Question, episodes.Episode]]:
-        """Yields the first episodes of each task; stops at the first failure of an agent.
-
-        Args:
-          questions: the tasks.
-          num_episodes: of each of them.
-          seed: of the environments.
+        """Yields the first episodes of each task, in environments of a seed; stops at the first failure of an agent.
 
         Raises:
           OSError: if an episode cannot be kept.
@@ -56,13 +53,21 @@ class Session:
                 raise
             self.problem = str(error)
 
-    def raise_problem(self) -> None:
-        """Raises PlayerError if an agent has failed; the message says where the episodes before it are."""
+    def write(self, name: str, facts: Mapping[str, Any], results: Mapping[str, Any]) -> dict[str, Any]:
+        """Writes facts, the outcome, the provenance and results into a file of the folder; returns all of them.
+
+        Raises:
+          OSError: if it cannot be written.
+          player.PlayerError: if an agent has failed; the message says where the episodes before it are.
+        """
+        folder, outcome = Path(self._file.name).parent, {"complete": not self.problem, "problem": self.problem}
+        written = {**facts, **outcome, **provenance.made_since(self._begun), **results}
+        files.write_atomically(folder / name, (json.dumps(written, indent=1) + "\n").encode())
         if self.problem:
-            folder = Path(self._file.name).parent
             raise player.PlayerError(
                 f"{self.problem}; the episodes before it are in {folder}, and the same command goes on after them"
             )
+        return written
 
     def _play(self, question: protocol.Question, num_episodes: int, seed: int) -> Iterator[episodes.Episode]:
         kept = self._kept.get(question.name, ())[:num_episodes]
@@ -121,11 +126,7 @@ def session(folder: Path, target: targets.Target, timeout: float, facts: Mapping
 
 
 def _kept(file: IO[bytes], folder: Path, facts: Mapping[str, Any]) -> dict[str, list[list[int]]]:
-    """Returns the actions of the episodes in an open file, by task; begins it with the facts if it has none.
-
-    Raises:
-      ValueError: if it begins with other facts.
-    """
+    """Returns the actions of the episodes in an open file, by task; begins it with the facts if it has none."""
     file.seek(0)
     lines, size = [], 0
     for line in file.read().splitlines(keepends=True):
@@ -159,8 +160,6 @@ def _difference(theirs: Any, ours: Any) -> str:
 
 def unfinished(folder: Path) -> Path:
     """Returns the first of a folder, `FOLDER-2`, `FOLDER-3` and so on that is not complete."""
-    for number in itertools.count(1):
-        numbered = folder if number == 1 else folder.with_name(f"{folder.name}-{number}")
-        if not numbered.exists() or (numbered / FILE).exists() or not any(numbered.iterdir()):
-            return numbered
-    raise AssertionError
+    others = (folder.with_name(f"{folder.name}-{number}") for number in itertools.count(2))
+    names = itertools.chain([folder], others)
+    return next(one for one in names if not one.exists() or (one / FILE).exists() or not any(one.iterdir()))

@@ -1,28 +1,47 @@
-"""Writes the report of a score: a figure, and a page with the figure, a table and the facts, in one file."""
+"""Writes the report of a score: a figure, and a page with the figure, a table and the facts, in one file.
+
+The figure has the domains, the mistakes in each task, and the information from each interaction.
+"""
 
 import base64
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from physexp.agents import files
 from physexp.analysis.data import plots, provenance, text
-from physexp.analysis.score import drawing, scoring
+from physexp.analysis.ideal import mistakes
+from physexp.analysis.score import scoring
 
 NAME = "report"
+
+LOWEST = -1.0
+"""Lower scores are drawn there."""
+
+_COLORS = dict(zip(mistakes.KINDS, ("#E69F00", "#56B4E9", "#009E73", "#D55E00", "#000000", "#BBBBBB"), strict=True))
+_HATCHES = dict(zip(mistakes.KINDS, ("", "///", "...", "xx", "", "\\\\"), strict=True))
+_AGENT = plots.COLORS[1]
+_WIDTH = 11.2  # Of the figure, inches.
+_PANELS = 8  # In a row.
+_MAX_INTERACTIONS = 12  # In a panel.
+_INFORMATION = (
+    "Bits of information about the answer from the first interaction, the second, and so on, mean over all episodes; "
+    "outline: the ideal"
+)
 
 
 def write(folder: Path) -> list[Path]:
     """Writes the report of a score beside it; returns the paths of the page and the figure.
 
-    Args:
-      folder: a folder that `scoring.score` has written.
-
     Raises:
-      OSError: if it cannot be read or written.
+      OSError: if the folder cannot be read or written.
       ValueError: if its `score.json` is faulty.
     """
     found = scoring.read(folder)
     with plots.style():
-        figure = plots.png(drawing.draw(found))
+        figure = plots.png(draw(found))
     page = text.page(
         Path(__file__).with_name(f"{NAME}.html"),
         name=folder.resolve().name,
@@ -34,3 +53,138 @@ def write(folder: Path) -> list[Path]:
     for path, content in zip(paths, (page.encode(), figure), strict=True):
         files.write_atomically(path, content)
     return paths
+
+
+def draw(found: Mapping[str, Any]):
+    """Returns the figure of a score, from the content of `score.json`."""
+    num_tasks = len(found["tasks"])
+    of_rows = 0.95 + 0.24 * max(len(found["domains"]) + 1, num_tasks)
+    heights = [of_rows, 0.1 + 0.14 * -(-len(_costly_kinds(found)) // 2), 0.35 + 1.7 * -(-num_tasks // _PANELS)]
+    figure = plots.empty(_WIDTH, sum(heights))
+    above, legend, below = figure.subfigures(3, 1, height_ratios=heights)
+    of_domains, of_tasks = above.subplots(1, 2)
+    draw_domains(of_domains, found)
+    draw_mistakes(of_tasks, found)
+    _add_legend(legend, found)
+    columns = min(_PANELS, max(4, num_tasks))
+    panels = below.subplots(-(-num_tasks // columns), columns, squeeze=False).flat
+    for axes in panels[num_tasks:]:
+        axes.set_axis_off()
+    draw_information(panels[:num_tasks], found)
+    below.suptitle(_INFORMATION, fontsize=8.5, x=0.01, ha="left")
+    return figure
+
+
+def words(name: str) -> str:
+    """Returns the name of a domain or a task in words: `towers, fist` for `towers/fist_features`."""
+    domain, _, task = name.partition("/")
+    task = task.removesuffix("features").strip("_")
+    return ", ".join(part.replace("_", " ") for part in (domain, task) if part)
+
+
+def draw_domains(axes, found: Mapping[str, Any]) -> None:
+    """Draws the score of each domain and of all, with its interval, beside that of random actions."""
+    of_random = _random_scores(found)
+    rows = list(found["domains"].items())
+    if len(rows) > 1:
+        rows.append(("all domains", found["whole"]))
+    places = np.arange(len(rows))[::-1]
+    for place, (name, row) in zip(places, rows, strict=True):
+        low, high = np.clip(row["interval"], LOWEST, 1.0)
+        center = max(LOWEST, row["score"])
+        is_whole = name not in found["domains"]
+        color = "black" if is_whole else _AGENT
+        axes.plot([low, high], [place] * 2, color=color, linewidth=2.2, solid_capstyle="butt")
+        axes.plot(center, place, "D" if is_whole else "o", color=color, markersize=5, zorder=3)
+        at_left = center > 0.5 or -0.5 < center < 0  # Not over a mark of `mark_ends`.
+        axes.annotate(
+            f"{row['score']:.3f}",
+            (low if at_left else high, place),
+            xytext=(-5 if at_left else 5, 0),
+            textcoords="offset points",
+            ha="right" if at_left else "left",
+            va="center",
+            fontsize=7.5,
+            bbox=dict(facecolor="white", edgecolor="none", alpha=0.8, pad=0.5),
+        )
+        if not is_whole:
+            axes.plot(max(LOWEST, of_random[name]), place, "|", color=plots.GREY, markersize=8, markeredgewidth=1.4)
+    axes.set_yticks(places, [words(name) for name, _ in rows])
+    axes.set(xlim=(LOWEST - 0.04, 1.06), ylim=(-0.7, len(rows) - 0.3), xlabel="score (grey: random actions)")
+    axes.tick_params(axis="y", length=0)
+    mark_ends(axes, len(rows))
+
+
+def draw_mistakes(axes, found: Mapping[str, Any]) -> None:
+    """Draws a bar for each task: the score, followed by the cost of each kind of mistake, up to 1."""
+    places = np.arange(len(found["tasks"]))[::-1]
+    for place, task in zip(places, found["tasks"].values(), strict=True):
+        end = task["score"]
+        axes.barh(place, max(0.0, end), color=_AGENT, alpha=0.3, height=0.62)
+        axes.plot([end] * 2, [place - 0.36, place + 0.36], color=_AGENT, linewidth=1.6, zorder=3)
+        for kind, cost in task["mistakes"].items():
+            axes.barh(place, cost, left=end, height=0.62, **_look(kind))
+            end += cost
+    lowest = min(-0.1, *(task["score"] for task in found["tasks"].values()))
+    axes.set_yticks(places, [words(name) for name in found["tasks"]])
+    axes.set(xlim=(lowest - 0.04, 1.06), ylim=(-0.7, len(places) - 0.3), xlabel="score, and then the cost of mistakes")
+    axes.tick_params(axis="y", length=0)
+    mark_ends(axes, len(places))
+
+
+def draw_information(panels: Sequence[Any], found: Mapping[str, Any]) -> None:
+    """Draws for each task, in axes of its own, the bits from each interaction beside those of the ideal."""
+    for axes, (name, task) in zip(panels, found["tasks"].items(), strict=True):
+        ours, ideal = np.array(task["gains"]), np.array(task["ideal_gains"] or [])
+        count = min(_MAX_INTERACTIONS, max(_reach(ours), _reach(ideal), 1))
+        axes.bar(np.arange(1, count + 1), _first(ours, count), color=_AGENT, alpha=0.75, width=0.8)
+        if len(ideal):
+            axes.stairs(_first(ideal, count), np.arange(count + 1) + 0.5, color="black", linewidth=1.2)
+        highest = max(0.1, *_first(ours, count), *_first(ideal, count))
+        axes.set(title=words(name), xlim=(0.3, count + 0.7), ylim=(0, 1.12 * highest))
+        axes.set_xticks(range(1, count + 1) if count <= 6 else range(2, count + 1, 2))
+        axes.set_xlabel("interaction", fontsize=7)
+        axes.tick_params(labelsize=7)
+    panels[0].set_ylabel("bits")
+
+
+def mark_ends(axes, num_rows: int) -> None:
+    """Marks the scores 0, without an experiment, and 1, the ideal."""
+    for level, name in ((0.0, "no experiment"), (1.0, "ideal")):
+        plots.reference(axes, level, "", vertical=True)
+        axes.text(level, num_rows - 0.35, name, ha="center", va="bottom", fontsize=6.5, color="0.3")
+
+
+def _random_scores(found: Mapping[str, Any]) -> dict[str, float]:
+    """Returns the expected scores of random actions, by domain."""
+    of_domains: dict[str, list[float]] = {}
+    for name, task in found["tasks"].items():
+        share = (task["random"] - task["floor"]) / (task["ideal"] - task["floor"])
+        of_domains.setdefault(name.partition("/")[0], []).append(share)
+    return {domain: float(np.mean(shares)) for domain, shares in of_domains.items()}
+
+
+def _costly_kinds(found: Mapping[str, Any]) -> list[str]:
+    """Returns the kinds of mistakes whose bars are wide enough to be seen."""
+    return [kind for kind in mistakes.KINDS if any(task["mistakes"][kind] > 5e-4 for task in found["tasks"].values())]
+
+
+def _look(kind: str) -> dict[str, Any]:
+    return dict(facecolor=_COLORS[kind], hatch=_HATCHES[kind], edgecolor="white", linewidth=0)
+
+
+def _add_legend(figure, found: Mapping[str, Any]) -> None:
+    from matplotlib import patches
+
+    handles = [patches.Patch(**_look(kind), label=f"{kind}: {mistakes.KINDS[kind]}") for kind in _costly_kinds(found)]
+    if handles:
+        figure.legend(handles=handles, fontsize=6.5, handlelength=1.4, loc="upper center", ncols=2)
+
+
+def _reach(gains: np.ndarray) -> int:
+    """Returns the number of interactions after which 99 % of the bits are known."""
+    return int(np.searchsorted(np.cumsum(gains), 0.99 * gains.sum()) + 1) if gains.sum() > 1e-9 else 0
+
+
+def _first(gains: np.ndarray, count: int) -> np.ndarray:
+    return np.pad(gains[:count], (0, max(0, count - len(gains))))

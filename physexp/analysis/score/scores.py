@@ -8,17 +8,60 @@ trimmed.
 
 from collections.abc import Mapping, Sequence
 import dataclasses
+import functools
 from typing import Any
 
 import numpy as np
+import pyarrow
 from scipy import stats
 
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import log, protocol, reference
+from physexp.analysis.score import episodes, log, protocol
 from physexp.suite.engine import rules
 
 _RESAMPLES = 2_000
 _TRIMMED = 0.25  # Share of the domains on either side of the interquartile mean.
+
+
+@dataclasses.dataclass(frozen=True)
+class Reference:
+    """Means over the first episodes of a task.
+
+    Attributes:
+      interactions: in an episode.
+      gains: bits of information about the answer from the first interaction, the second and so on, 0 after the end of
+        an episode, float64 [K].
+    """
+
+    interactions: float
+    gains: np.ndarray
+
+    @property
+    def bits_per_interaction(self) -> float:
+        """Mean information from an interaction; 0 if there are none."""
+        return float(self.gains.sum() / self.interactions) if self.interactions else 0.0
+
+
+@functools.cache
+def reference(question: protocol.Question, num_episodes: int) -> Reference | None:
+    """Plays the ideal experimenter; returns None if it cannot play from the observations of the task.
+
+    The hidden property determines how it plays, so it plays one episode of each.
+    """
+    solution = protocol.ideal(question)
+    try:
+        actor = solution.actor()
+    except ValueError:
+        return None
+    drawn = protocol.drawn(question, num_episodes)
+    _, first, counts = np.unique(drawn, axis=0, return_index=True, return_counts=True)
+    environment = protocol.load(question)
+    played = [episodes.play(environment, actor, int(number)) for number in first]
+    environment.close()
+    gains = [mistakes.information(solution.beliefs(episode))[:-1] for episode in played]
+    lengths = np.array([len(bits) for bits in gains])
+    padded = np.array([np.pad(bits, (0, lengths.max() - len(bits))) for bits in gains])
+    return Reference(float(counts @ lengths / num_episodes), counts @ padded / num_episodes)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -48,7 +91,7 @@ class TaskScore:
     right: np.ndarray
     silent: np.ndarray
     gains: np.ndarray
-    known: reference.Reference | None
+    known: Reference | None
 
     @property
     def scores(self) -> np.ndarray:
@@ -64,7 +107,7 @@ class TaskScore:
             "ideal": self.ideal,
             "floor": self.floor,
             "at_once": self.at_once,
-            "random": reference.random_return(self.question),
+            "random": random_return(self.question),
             "score": float(self.scores.mean()),
             "interval": _interval(_resampled(self.scores, seed)),
             "raw_score": float(self.raw.mean()),
@@ -82,16 +125,23 @@ class TaskScore:
         }
 
 
-def of_task(
-    question: protocol.Question, columns: Mapping[str, np.ndarray], known: reference.Reference | None = None
-) -> TaskScore:
-    """Returns the score of a task.
+def of_log(
+    found: pyarrow.Table, questions: Sequence[protocol.Question], ideals: Mapping[str, Reference | None]
+) -> list[TaskScore]:
+    """Returns the scores of the tasks that are in a log.
 
     Args:
-      question: the task.
-      columns: the log's columns of its rows: whole episodes, one after the other.
-      known: statistics of the ideal experimenter over the same number of episodes, where they are known.
+      found: the log.
+      questions: the tasks; those that are not in the log are left out.
+      ideals: statistics of the ideal experimenter by task, over the same number of episodes, where they are known.
     """
+    parts = [(question, log.of_task(found, question)) for question in questions]
+    return [
+        _of_task(question, columns, ideals.get(question.name)) for question, columns in parts if len(columns["step"])
+    ]
+
+
+def _of_task(question: protocol.Question, columns: Mapping[str, np.ndarray], known: Reference | None) -> TaskScore:
     first = columns["step"] == 0
     index = np.cumsum(first) - 1
     last = np.append(first[1:], True)
@@ -117,6 +167,16 @@ def of_task(
         gains=np.bincount(columns["step"][~are_answers], columns["bits"][~are_answers]) / first.sum(),
         known=known,
     )
+
+
+def random_return(question: protocol.Question) -> float:
+    """Returns the expected return of uniformly random actions; one of the L answers is right in each episode."""
+    num_labels = question.num_actions - question.num_interactions
+    goes_on = question.num_interactions / question.num_actions
+    steps = np.arange(question.step_limit)
+    answer = rules.WRONG + (rules.RIGHT - rules.WRONG) / num_labels
+    answered = np.sum((question.discount * goes_on) ** steps) * (1 - goes_on) * answer
+    return float(answered + question.discount ** steps[-1] * goes_on**question.step_limit * rules.WRONG)
 
 
 def summary(found: Sequence[TaskScore]) -> dict[str, Any]:

@@ -3,18 +3,13 @@
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 import dataclasses
-import json
 from pathlib import Path
-import time
-import types
 from typing import Any
-
-import pyarrow
 
 from physexp import checks
 from physexp.agents import files
 from physexp.analysis.data import provenance, untrusted
-from physexp.analysis.score import episodes, judging, log, playing, protocol, reference, scores, targets
+from physexp.analysis.score import episodes, judging, log, playing, protocol, scores, targets
 
 FILE = "score.json"
 _TRAINED = {
@@ -73,7 +68,7 @@ def score(
     names = [question.name for question in questions]
     extent = {"seed": protocol.SEED, "episodes": num_episodes, "tasks": names}
     facts = {"version": protocol.VERSION, "target": target.name, "greedy": target.greedy, "protocol": extent}
-    agent, begun = target.describe(names), time.monotonic()
+    agent = target.describe(names)
     defining = {**facts, "agent": agent, "versions": provenance.versions()}
     with playing.session(folder, target, timeout, defining) as session:
         played = _play(session, questions, num_episodes, lambda: show(session.num_played // 2))
@@ -81,9 +76,8 @@ def score(
             {question: [episode for _, episode in its] for question, its in played.items()},
             lambda done: show((session.num_played + done) // 2),
         )
-        outcome = {"complete": not session.problem, "problem": session.problem}
-        written = _write(folder, played, judged, begun, {**facts, "agent": {**agent, **(made or {})}, **outcome})
-        session.raise_problem()
+        metrics = _write_log(folder, played, judged)
+        written = session.write(FILE, {**facts, "agent": {**agent, **(made or {})}}, metrics)
         finish(folder)
     return written
 
@@ -103,10 +97,8 @@ def _play(
     return found
 
 
-def _write(
-    folder: Path, played: _Played, judged: Mapping[str, judging.Judged], begun: float, facts: Mapping[str, Any]
-) -> dict[str, Any]:
-    """Writes the log, and then its metrics beside facts; returns these two."""
+def _write_log(folder: Path, played: _Played, judged: Mapping[str, judging.Judged]) -> dict[str, Any]:
+    """Writes the log; returns its metrics."""
     found = log.table(
         {**columns, **log.judged(question, episode.actions, actions)}
         for question, its in played.items()
@@ -114,36 +106,7 @@ def _write(
     )
     log.write(folder, found)
     ideals = {name: one.ideal for name, one in judged.items()}
-    written = {**facts, **provenance.made_since(begun), **metrics(found, list(played), ideals)}
-    files.write_atomically(folder / FILE, (json.dumps(written, indent=1) + "\n").encode())
-    return written
-
-
-def metrics(
-    found: pyarrow.Table, questions: Sequence[protocol.Question], ideals: Mapping[str, reference.Reference | None]
-) -> dict[str, Any]:
-    """Returns the metrics of a log, those of the tasks that were played; for the arguments see `task_scores`."""
-    return scores.summary(task_scores(found, questions, ideals))
-
-
-def task_scores(
-    found: pyarrow.Table,
-    questions: Sequence[protocol.Question],
-    ideals: Mapping[str, reference.Reference | None] = types.MappingProxyType({}),
-) -> list[scores.TaskScore]:
-    """Returns the scores of those of the tasks that are in a log.
-
-    Args:
-      found: the log.
-      questions: the tasks.
-      ideals: statistics of the ideal experimenter by task, where they are known.
-    """
-    parts = [(question, log.of_task(found, question)) for question in questions]
-    return [
-        scores.of_task(question, columns, ideals.get(question.name))
-        for question, columns in parts
-        if len(columns["step"])
-    ]
+    return scores.summary(scores.of_log(found, list(played), ideals))
 
 
 def read(folder: Path) -> dict[str, Any]:
@@ -183,4 +146,4 @@ def check(num_episodes: int, maximum: int, timeout: float) -> None:
     """Raises ValueError for numbers that make no sense."""
     if not 1 <= num_episodes <= maximum:
         raise ValueError(f"episodes is {num_episodes}; give a number from 1 to {maximum:,}")
-    checks.between("timeout", timeout, 0, _MAX_SECONDS, "s", without=0)
+    checks.within(0, _MAX_SECONDS, "s", without=0)("timeout", timeout)

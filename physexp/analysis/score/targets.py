@@ -66,11 +66,7 @@ class Target:
 
     @contextlib.contextmanager
     def playing(self, timeout: float) -> Iterator[Make]:
-        """Returns a context in which actors play; those of a user's function have a process of their own.
-
-        Args:
-          timeout: for each call of a user's function, s.
-        """
+        """Returns a context in which actors play; a user's function has its own process and `timeout` s a call."""
         if self.make is not None:
             yield self.make
             return
@@ -110,7 +106,6 @@ def file_name(name: str) -> str:
 
 
 def _agent(name: str, greedy: bool) -> Target:
-    """Returns a trained agent."""
     from physexp.analysis.training import finding, publishing
 
     try:
@@ -141,11 +136,7 @@ def _agent(name: str, greedy: bool) -> Target:
 
 
 def _team(name: str, greedy: bool) -> Target:
-    """Returns a team, of names of agents and of teams with commas between them.
-
-    Raises:
-      ValueError: if one of them is no trained agent, or two play the same task.
-    """
+    """Returns a team, of names of agents and of teams with commas between them."""
     members: dict[protocol.Question, Target] = {}
     for part in name.split(","):
         if _is_function(part) or part in actors.BASELINES or part in _baselines_of_domains():

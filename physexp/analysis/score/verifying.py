@@ -12,7 +12,7 @@ import numpy as np
 
 import physexp
 from physexp.analysis.data import provenance
-from physexp.analysis.score import episodes, judging, log, protocol, reference, scoring
+from physexp.analysis.score import episodes, judging, log, protocol, scores, scoring
 
 _TOLERANCE = 1e-9  # Of floating-point numbers, on any machine.
 
@@ -49,9 +49,11 @@ def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dic
             show(done)
         environment.close()
     ideals = {
-        question.name: reference.of(question, count) for question, count in zip(questions, counts, strict=True) if count
+        question.name: scores.reference(question, count)
+        for question, count in zip(questions, counts, strict=True)
+        if count
     }
-    again = scoring.metrics(found, questions, ideals)
+    again = scores.summary(scores.of_log(found, questions, ideals))
     _compare_metrics(folder / scoring.FILE, {name: written[name] for name in again}, again)
     return {
         "episodes": len(logged),
@@ -66,9 +68,6 @@ def verify_once(folder: Path) -> None:
 
     An empty file in `~/.cache/physexp/verified` (or below `$XDG_CACHE_HOME`) stands for verified files. It lies outside
     the results, so that it cannot come with a row.
-
-    Raises:
-      OSError, ValueError: as `verify`.
     """
     known = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "physexp" / "verified"
     known.mkdir(parents=True, exist_ok=True)
@@ -99,7 +98,6 @@ def _counts(path: Path, num_episodes: int, written: Mapping[str, Any], num_tasks
 
 
 def _compare(place: str, logged: Mapping[str, np.ndarray], again: Mapping[str, np.ndarray]) -> None:
-    """Refuses rows that differ from those of playing again."""
     for name in log.SCHEMA.names:
         theirs, ours = logged[name], again[name]
         is_close = name in log.JUDGED.names and ours.dtype.kind == "f"
@@ -113,7 +111,6 @@ def _compare(place: str, logged: Mapping[str, np.ndarray], again: Mapping[str, n
 
 
 def _compare_metrics(path: Path, written: Any, again: Mapping[str, Any], place: str = "") -> None:
-    """Refuses metrics that do not follow from the log."""
     if not isinstance(written, dict) or set(written) - set(again):
         raise ValueError(f"{path}: {place or 'it '}has other metrics than {', '.join(again)}; score again, elsewhere")
     for name, ours in again.items():

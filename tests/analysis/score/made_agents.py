@@ -87,10 +87,6 @@ _MODULE = textwrap.dedent(
         _hang()
 
 
-    def answers_half(question):
-        return _after_two_episodes(lambda: _answer(b'{"action"'))
-
-
     def answers_ahead(question):
         return _after_two_episodes(lambda: _answer(2 * b'{"action": 0}\\n'))
 
@@ -116,10 +112,6 @@ _MODULE = textwrap.dedent(
 
     def chooses_text(question):
         return _after_two_episodes(lambda: "push")
-
-
-    def chooses_a_truth(question):
-        return _after_two_episodes(lambda: True)
 
 
     def chooses_too_much(question):

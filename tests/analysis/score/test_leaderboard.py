@@ -8,12 +8,11 @@ import shutil
 from urllib import parse
 
 import commands
-import made_agents
 import numpy as np
 import pyarrow
 import pytest
 
-from physexp.analysis.score import leaderboard, log, protocol, scoring, targets, verifying
+from physexp.analysis.score import leaderboard, log, protocol, scores, scoring, targets, verifying
 
 ROOT = Path(__file__).parents[3]
 EPISODES = 4
@@ -78,7 +77,7 @@ def test_a_forged_row_is_named_and_the_others_are_shown(copied):
     rows = log.read(folder).to_pandas()
     changed = pyarrow.Table.from_pandas(rows.assign(worth=rows.value + 5), log.SCHEMA, preserve_index=False)
     log.write(folder, changed)
-    change_facts(folder, **scoring.metrics(changed, BOTH, {}))  # The metrics follow from the forged log.
+    change_facts(folder, **scores.summary(scores.of_log(changed, BOTH, {})))  # The metrics follow from the forged log.
     done = commands.run("leaderboard", "--results-dir", results, first=shorten)
     assert done.returncode == 1 and f"{folder} is no row: " in done.stderr
     assert "threshold/features, episode 0, step 0: worth is " in done.stderr
@@ -97,6 +96,7 @@ def shorten():
         ({"agent": {"frames": "many"}}, "frames is 'many'"),
         ({"agent": {"agents": {"strings/features": {"commit": 7}}}}, "commit is 7"),
         ({"version": "v0"}, "is of protocol 'v0'"),
+        ({"complete": False, "problem": "made:dies ended"}, "is not complete: made:dies ended"),
         ({"protocol": {"seed": 2000003, "episodes": EPISODES, "tasks": []}}, "is of no task"),
         ({"protocol": {"seed": 2000003, "episodes": 2, "tasks": []}}, "has 2 episodes of each task; a row has 4"),
     ],
@@ -134,16 +134,6 @@ def test_a_row_is_played_again_once_it_changes(copied, monkeypatch):
     leaderboard.read(results)
     leaderboard.read(results)
     assert played == [folder]
-
-
-def test_a_score_that_ended_early_is_no_row(results, tmp_path, monkeypatch):
-    made_agents.put_into(tmp_path)
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "scores").mkdir()
-    with pytest.raises(ValueError, match="made:dies ended"):
-        scoring.score(targets.find("made:dies"), BOTH[:1], EPISODES, tmp_path / "scores" / "dies")
-    with pytest.raises(ValueError, match="dies is no row: .*dies is not complete: made:dies ended"):
-        leaderboard.write(tmp_path)
 
 
 def test_without_scores_there_is_no_leaderboard(tmp_path):

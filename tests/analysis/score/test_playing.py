@@ -80,10 +80,8 @@ def test_an_actor_gets_every_time_step_and_its_prints_are_no_output(capfd):
         ("made:returns_no_pair", r"failed: TypeError: a policy returns an action and the next state; .* returned 3 \("),
         ("made:dies", r"ended its process, exit code -9 \(threshold/features, episode 2, step 0\)"),
         ("made:chooses_text", r"chose 'push', which is no action \(.* step 0\); return an integer from 0 to 15"),
-        ("made:chooses_a_truth", "chose True, which is no action"),
         ("made:chooses_too_much", "chose 16, which is no action"),
         ("made:hangs", r"did nothing within 2 s \(threshold/features, episode 2, step 0\)"),
-        ("made:answers_half", r"did nothing within 2 s \(threshold/features, episode 2, step 0\)"),
         ("made:answers_ahead", r"failed: it wrote to the connection of its process \(.* step 0\)"),
     ],
 )
@@ -231,7 +229,7 @@ def test_the_command_refuses_before_anything_is_played(here, words, said):
     assert not (here / "scores").exists()
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
 def test_an_interrupted_score_goes_on_and_plays_nothing_twice(here, number):
     words = ["score", "made:waits", "--tasks", "threshold/features", "--episodes", "5"]
     begun = here / "begun"
@@ -240,7 +238,7 @@ def test_an_interrupted_score_goes_on_and_plays_nothing_twice(here, number):
         process.send_signal(number)
         _, errors = process.communicate()
     assert process.returncode == (-9 if number == signal.SIGKILL else 128 + number)
-    if number != signal.SIGKILL:
+    if number == signal.SIGINT:
         assert errors == (
             "the episodes that were played are in scores/made_waits; the same command goes on after them\n"
             "physexp: interrupted\n"
@@ -292,31 +290,20 @@ def test_a_score_goes_on_with_the_episodes_that_were_written_whole():
     assert not played.exists()
 
 
-def slow_and_fast():
-    """A hundred aimless episodes of Sealed Box, which take half a minute to judge, and one of Threshold."""
-    (slow,), (fast,) = protocol.named(["sealed_box/features"]), THRESHOLD
-    ways = np.random.default_rng(0).integers(slow.num_interactions, size=(100, 20))
-    aimless = zip(protocol.drawn(slow, 100), ways, strict=True)
-    answer = episodes.Episode(protocol.drawn(fast, 1)[0], np.array([fast.num_interactions]), np.zeros(1), [])
-    return {slow: [episodes.Episode(one, way, np.zeros(20), []) for one, way in aimless], fast: [answer]}
-
-
-def test_an_interruption_ends_judges_at_once():
-    def interrupt(done):
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        judging.judge(slow_and_fast(), interrupt)
-    assert not multiprocessing.active_children()
-
-
 def test_a_killed_judge_is_an_error():
     def kill(done):
         for worker in multiprocessing.active_children():
             worker.kill()
 
+    # A hundred aimless episodes of Sealed Box take half a minute to judge; the one of Threshold is done before.
+    (slow,), (fast,) = protocol.named(["sealed_box/features"]), THRESHOLD
+    ways = np.random.default_rng(0).integers(slow.num_interactions, size=(100, 20))
+    aimless = zip(protocol.drawn(slow, 100), ways, strict=True)
+    answer = episodes.Episode(protocol.drawn(fast, 1)[0], np.array([fast.num_interactions]), np.zeros(1), [])
+    played = {slow: [episodes.Episode(one, way, np.zeros(20), []) for one, way in aimless], fast: [answer]}
     with pytest.raises(futures.BrokenExecutor):
-        judging.judge(slow_and_fast(), kill)
+        judging.judge(played, kill)
+    assert not multiprocessing.active_children()
 
 
 def test_a_hangup_of_the_terminal_ends_judges_without_a_word(here):

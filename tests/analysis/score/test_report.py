@@ -11,7 +11,7 @@ import pytest
 import screens
 
 from physexp.analysis.data import plots
-from physexp.analysis.score import drawing, episodes, protocol, reference, report, scoring, targets, verifying
+from physexp.analysis.score import episodes, protocol, report, scores, scoring, targets
 from physexp.suite.engine import rules
 
 TASKS = ["threshold/features", "strings/features"]
@@ -71,7 +71,7 @@ def test_all_text_of_a_score_is_shown_as_text(folder, tmp_path):
 def test_bars_of_mistakes_begin_at_the_score_and_end_at_1(found):
     with plots.style():
         _, axes = plots.new()
-        drawing.draw_mistakes(axes, found)
+        report.draw_mistakes(axes, found)
     bars = {}
     for patch in axes.patches:
         bars.setdefault(round(patch.get_y() + patch.get_height() / 2), []).append(patch)
@@ -84,7 +84,7 @@ def test_bars_of_mistakes_begin_at_the_score_and_end_at_1(found):
 
 def test_bits_of_each_interaction_are_drawn_beside_the_ideals(found):
     _, panels = plots.new(columns=len(found["tasks"]))
-    drawing.draw_information(panels, found)
+    report.draw_information(panels, found)
     threshold = panels[0]
     # The ideal halves eight levels three times: a bit each.
     np.testing.assert_allclose(threshold.patches[-1].get_data().values[:3], 1)
@@ -102,18 +102,12 @@ def test_random_actions_return_on_average_the_expected_return():
         returns.append(rewards[-1] * asked.discount ** (len(rewards) - 1))
     error = np.std(returns) / np.sqrt(len(returns))
     # One in 16,000 is further off than four standard errors; the instances are always the same.
-    assert abs(np.mean(returns) - reference.random_return(asked)) < 4 * error
+    assert abs(np.mean(returns) - scores.random_return(asked)) < 4 * error
     environment.close()
     one_step = type(asked)(**{**vars(asked), "step_limit": 1})
     # Half of 16 actions are answers, one of 8 of which is right; the others end the episode as wrong ones do.
     expected = (rules.RIGHT / 8 + 7 * rules.WRONG / 8) / 2 + rules.WRONG / 2
-    assert reference.random_return(one_step) == pytest.approx(expected)
-
-
-def test_the_report_is_not_verified(folder, tmp_path):
-    copied = shutil.copytree(folder, tmp_path / "copied")
-    (copied / "report.html").write_text("<h1>1.000</h1>")
-    assert verifying.verify(copied)["episodes"] == 8 * len(TASKS)
+    assert scores.random_return(one_step) == pytest.approx(expected)
 
 
 def test_the_command_writes_the_given_facts_of_the_agent(tmp_path):

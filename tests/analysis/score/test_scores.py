@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from physexp import suite
-from physexp.analysis.score import episodes, judging, log, protocol, reference, scores, scoring, targets
+from physexp.analysis.score import episodes, judging, log, protocol, scores, scoring, targets
 
 FEATURES = [protocol.question(*names) for names in suite.tagged("features")]
 COUNT = 6
@@ -19,7 +19,8 @@ def play(target, asked, count=COUNT):
         episode = episodes.play(environment, actor, number)
         played.append({**log.played(asked, number, episode), **log.judged(asked, episode.actions, judge(episode))})
     environment.close()
-    return scores.of_task(asked, log.of_task(log.table(played), asked), reference.of(asked, count))
+    (found,) = scores.of_log(log.table(played), [asked], {asked.name: scores.reference(asked, count)})
+    return found
 
 
 @pytest.mark.parametrize("asked", FEATURES, ids=lambda asked: asked.name)
