@@ -110,7 +110,7 @@ class Run:
 
     def _remove_litter(self) -> None:
         """Removes the partial files of a trainer that was killed."""
-        for folder in (self.path, self.path / "episodes.parquet"):
+        for folder in (self.path, self.path / "episodes.parquet", self.path / "checkpoints"):
             files.remove_litter(folder)
         for partial in (self.path / "replays").glob(".replay-*"):
             shutil.rmtree(partial)
