@@ -16,7 +16,6 @@ import struct
 import subprocess
 import sys
 import threading
-import time
 import types
 
 import psutil
@@ -91,7 +90,6 @@ class Process:
     Attributes:
       pid: of the process, and of the group that it leads.
       returncode: its exit status, below zero the signal that killed it; None while it runs.
-      seconds: how long it took, once it is over.
     """
 
     def __init__(self, function, *args, first=None, cwd=None, env=None, stderr=subprocess.PIPE):
@@ -103,8 +101,7 @@ class Process:
           env: all of its environment variables; this process's by default.
           stderr: `subprocess.STDOUT` sends errors where the output goes.
         """
-        self._started = time.monotonic()
-        self.returncode, self.seconds = None, None
+        self.returncode = None
         forkserver.ensure_running()
         output, writer = os.pipe()
         errors, error_writer = os.pipe() if stderr == subprocess.PIPE else (None, writer)
@@ -125,8 +122,7 @@ class Process:
 
     def poll(self):
         """Returns the exit status, or None while the process runs."""
-        if self.returncode is None and self._process.exitcode is not None:
-            self.returncode, self.seconds = self._process.exitcode, time.monotonic() - self._started
+        self.returncode = self._process.exitcode
         return self.returncode
 
     def wait(self) -> int:

@@ -9,6 +9,7 @@ import signal
 import sys
 
 import commands
+import psutil
 from waiting import wait_until
 
 from physexp.agents.a3c import config as a3c
@@ -76,46 +77,29 @@ def trainer(run, **kwargs):
     return commands.start(*resumed(run), **kwargs)
 
 
-class Member:
-    """A process found in /proc."""
-
-    def __init__(self, pid):
-        self.pid = pid
-
-    def kill(self, number=signal.SIGKILL):
-        with contextlib.suppress(ProcessLookupError):
-            os.kill(self.pid, number)
-
-    def ignores(self, number):
-        """Whether it ignores a signal; False once it has ended."""
-        try:
-            status = Path(f"/proc/{self.pid}/status").read_text()
-        except (FileNotFoundError, ProcessLookupError):
-            return False
-        (line,) = (line for line in status.splitlines() if line.startswith("SigIgn"))
-        return bool(int(line.split()[1], 16) >> (number - 1) & 1)
-
-
-def group(leader, words=""):
-    """The living processes of a group whose command line contains `words`."""
+def group(leader):
+    """The living processes of a group."""
     found = []
-    for entry in Path("/proc").iterdir():
-        if not entry.name.isdigit():
-            continue
-        try:
-            state, _, group_of = (entry / "stat").read_text().rpartition(")")[2].split()[:3]
-            command = (entry / "cmdline").read_bytes().decode()
-        except (FileNotFoundError, ProcessLookupError):
-            continue
-        if int(group_of) == leader and state != "Z" and words in command:
-            found.append(Member(int(entry.name)))
+    for process in psutil.process_iter():
+        with contextlib.suppress(ProcessLookupError, psutil.NoSuchProcess):
+            if os.getpgid(process.pid) == leader and process.status() != psutil.STATUS_ZOMBIE:
+                found.append(process)
     return found
+
+
+def _ignores(process, number):
+    """Whether a process ignores a signal; False once it has ended."""
+    try:
+        status = Path(f"/proc/{process.pid}/status").read_text()
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+    (line,) = (line for line in status.splitlines() if line.startswith("SigIgn"))
+    return bool(int(line.split()[1], 16) >> (number - 1) & 1)
 
 
 def workers(process):
     """The worker processes of a trainer: unlike programs that it is about to run, they ignore SIGTERM."""
-    spawned = group(process.pid, "spawn_main") or group(process.pid, "forkserver")
-    return [member for member in spawned if member.pid != process.pid and member.ignores(signal.SIGTERM)]
+    return [member for member in group(process.pid) if member.pid != process.pid and _ignores(member, signal.SIGTERM)]
 
 
 def wait_for_checkpoint(process, run, beyond=-1):

@@ -5,15 +5,14 @@ and look at the folder that it leaves.
 """
 
 import collections
-import ctypes
 import dataclasses
+import functools
 import itertools
 import json
 import os
 from pathlib import Path
 import random
 import resource
-import shutil
 import signal
 import subprocess
 import sys
@@ -58,47 +57,43 @@ class Tally(collections.Counter):
         print(f"{self._what}: {sum(self.values())} attacks; {counts}")
 
 
-# Ways to die. They are called in the child before the function.
+# Ways to die and confinements. They are called in the child before the function, as partial functions.
 
 
-@dataclasses.dataclass(frozen=True)
-class AtCall:
+def die_at_call(number: int) -> None:
     """Dies by SIGKILL at the n-th entry into, or exit from, a function that touches files."""
+    counter = itertools.count()
 
-    number: int
+    def count():
+        if next(counter) == number:
+            os.kill(os.getpid(), signal.SIGKILL)
 
-    def __call__(self):
-        _profile(self._count(itertools.count()))
-
-    def _count(self, counter):
-        def count():
-            if next(counter) == self.number:
-                os.kill(os.getpid(), signal.SIGKILL)
-
-        return count
+    _profile(count)
 
 
-@dataclasses.dataclass(frozen=True)
-class AtByte:
+def die_at_byte(number: int) -> None:
     """Has the kernel kill the process when a file would grow beyond a number of bytes."""
-
-    number: int
-
-    def __call__(self):
-        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-        resource.setrlimit(resource.RLIMIT_FSIZE, (self.number, self.number))
-        signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (number, number))
+    signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
 
 
-@dataclasses.dataclass(frozen=True)
-class AtMoment:
+def die_at_moment(seconds: float) -> None:
     """Has the kernel kill the process after a time."""
+    signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
 
-    seconds: float
 
-    def __call__(self):
-        signal.signal(signal.SIGALRM, signal.SIG_DFL)
-        signal.setitimer(signal.ITIMER_REAL, self.seconds)
+def fill_disk(number: int) -> None:
+    """Lets the disk take no file of more than a number of bytes (EFBIG)."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (number, number))
+
+
+def limit_memory(number: int) -> None:
+    """Limits the memory that the process may take beyond its own, bytes."""
+    limit = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize() + number
+    resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -111,12 +106,10 @@ class Extent:
 
     def draw(self, generator: random.Random):
         """Returns a random way to die, anywhere in the run."""
-        way = generator.choice([AtCall, AtCall, AtByte, AtMoment])
-        if way is AtCall:
-            return AtCall(generator.randrange(self.calls))
-        if way is AtByte:
-            return AtByte(generator.randrange(self.bytes))
-        return AtMoment(max(1e-6, generator.uniform(0, self.seconds)))
+        way = generator.choice([die_at_call, die_at_call, die_at_byte, die_at_moment])
+        ranges = {die_at_call: self.calls, die_at_byte: self.bytes, die_at_moment: self.seconds}
+        at = generator.uniform(1e-6, ranges[way])
+        return functools.partial(way, at if way is die_at_moment else int(at))
 
 
 def measure(function, folder: Path, *args) -> Extent:
@@ -148,87 +141,7 @@ def _profile(count) -> None:
     sys.setprofile(profile)
 
 
-# Confinements. They are called in the child before the function.
-
-
-@dataclasses.dataclass(frozen=True)
-class FullAtByte:
-    """Lets the disk take no file of more than a number of bytes (EFBIG)."""
-
-    number: int
-
-    def __call__(self):
-        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (self.number, self.number))
-
-
-@dataclasses.dataclass(frozen=True)
-class Memory:
-    """Limits the memory that the process may take beyond its own."""
-
-    number: int
-
-    def __call__(self):
-        limit = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize() + self.number
-        resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
-
-
-@dataclasses.dataclass(frozen=True)
-class SmallDisk:
-    """Limits the room on the disk of a folder to its present content and some bytes more (ENOSPC)."""
-
-    folder: Path
-    room: int
-
-    def __call__(self):
-        """Mounts a small file system in the folder's place, whose content is copied back at the end."""
-        saved = Path(tempfile.mkdtemp()) / "saved"
-        shutil.copytree(self.folder, saved)
-        _in_own_mounts()
-        pages = sum(-(-path.stat().st_size // 4096) for path in saved.rglob("*") if path.is_file())
-        options = f"size={4096 * max(1, pages) + self.room}"
-        _call("mount", b"none", os.fsencode(self.folder), b"tmpfs", 0, options.encode())
-        shutil.copytree(saved, self.folder, dirs_exist_ok=True)
-        child = os.fork()
-        if not child:
-            return
-        _, status = os.waitpid(child, 0)
-        shutil.rmtree(saved)
-        shutil.copytree(self.folder, saved)
-        _call("umount2", os.fsencode(self.folder), _LAZILY)
-        shutil.rmtree(self.folder)
-        shutil.copytree(saved, self.folder)
-        shutil.rmtree(saved.parent)
-        os._exit(os.waitstatus_to_exitcode(status))
-
-
-_LAZILY = 2  # Even while it is in use.
-
-
-def _in_own_mounts() -> None:
-    """Gives this process mounts of its own, that end with it; raises OSError if this user may not."""
-    new_mounts, new_user, recursive_and_private = 0x20000, 0x10000000, 0x4000 | 0x40000
-    user, group = os.getuid(), os.getgid()
-    _call("unshare", new_mounts if user == 0 else new_mounts | new_user)
-    if user:
-        Path("/proc/self/setgroups").write_text("deny")
-        Path("/proc/self/uid_map").write_text(f"0 {user} 1")
-        Path("/proc/self/gid_map").write_text(f"0 {group} 1")
-    _call("mount", b"none", b"/", None, recursive_and_private, None)
-
-
-def _call(name, *arguments) -> None:
-    """Calls a function of the C library; raises OSError if it fails."""
-    if getattr(ctypes.CDLL(None, use_errno=True), name)(*arguments):
-        raise OSError(ctypes.get_errno(), f"cannot have mounts of one's own: {name} failed")
-
-
 # Children.
-
-
-def barrier(parties: int):
-    """Returns a barrier for children."""
-    return commands.context.Barrier(parties)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -238,12 +151,10 @@ class End:
     Attributes:
       code: its exit status; below zero the signal that killed it.
       said: its stdout and stderr.
-      seconds: its duration.
     """
 
     code: int
     said: str
-    seconds: float
 
     @property
     def was_killed(self) -> bool:
@@ -267,7 +178,7 @@ class Child(commands.Process):
         """Waits for its end, and ends all that it has started."""
         self.wait()
         self.kill_all()
-        return End(self.returncode, self.stdout.read(), self.seconds)
+        return End(self.returncode, self.stdout.read())
 
 
 def run(function, *args, first=None) -> End:

@@ -5,7 +5,7 @@ import pytest
 import reading
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def made(tmp_path_factory):
     """A folder with one of everything that is written, see `reading.make`."""
     folder = tmp_path_factory.mktemp("made")

@@ -1,5 +1,6 @@
 """Files that are damaged, or come from somebody who means harm, are harmless or refused in one line."""
 
+import functools
 import io
 import json
 import os
@@ -91,7 +92,7 @@ def read_damaged(name, made, folder, seed, num_flips):
 def test_a_damaged_file_is_harmless_or_refused_in_one_line(name, made, tmp_path):
     seed, folder = attacks.generator().getrandbits(32), tmp_path / "made"
     arguments = (name, made, folder, seed, attacks.repetitions(25, share=5))
-    end = attacks.run(read_damaged, *arguments, first=attacks.Memory(MEMORY))
+    end = attacks.run(read_damaged, *arguments, first=functools.partial(attacks.limit_memory, MEMORY))
     assert end.code == 0, end.said[-2000:]
     harmless = {"the same", "refused"} | (set() if reading.FILES[name].has_checksum else {"another value"})
     with attacks.Tally(f"damaged, {name}") as tally:

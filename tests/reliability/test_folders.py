@@ -1,4 +1,4 @@
-"""A trainer whose folder or disk fails ends with one line, and goes on afterwards as if nothing had happened."""
+"""A trainer whose folder or disk fails, or is another's, ends with one line, and training goes on afterwards."""
 
 import functools
 import itertools
@@ -11,6 +11,8 @@ import pytest
 import reading
 import subjects
 
+from physexp import suite
+from physexp.agents import starting
 from physexp.analysis.training import recorder
 from physexp.analysis.training import run as run_lib
 
@@ -55,100 +57,42 @@ def assert_goes_on(run, expected):
     assert attacks.litter(run.path) == []
 
 
-def let_another_train(path):
-    """Removes the lock, and waits until another trainer has tried."""
-    (path / ".lock").unlink()
-    (path.parent / "removed").touch()
-    while not (path.parent / "tried").exists():
-        time.sleep(0.01)
-
-
-def test_two_trainers_never_write_in_turns_when_the_lock_is_removed(expected, tmp_path):
-    rows, episodes, *variables = expected[0]
-    run = new_run(tmp_path / "run")
-    # A row in the middle: there is a checkpoint for the other to go on from.
-    first = attacks.Child(train_disturbed, run.path, len(rows) // 2, let_another_train)
-    while not (tmp_path / "removed").exists():
-        assert first.poll() is None, first.end().said
-        time.sleep(0.01)
-    second = attacks.run(commands.physexp, *subjects.words(run))
-    (tmp_path / "tried").touch()
-    ends = [first.end(), second]
-    assert sorted(end.code == 0 for end in ends) == [False, True], ends
-    next(end for end in ends if end.code).assert_refused(str(run.path))
-    contents = subjects.contents(run)
-    assert list(contents[2:]) == variables
-    assert_goes_on(run, contents)
-
-
-def move(path):
-    path.rename(path.with_name("moved"))
-
-
 def replace(path):
     """Moves the folder, and puts another run in its place."""
-    move(path)
+    path.rename(path.with_name("moved"))
     new_run(path)
 
 
-def set_mode(path, mode):
-    for folder in [path, *(item for item in path.rglob("*") if item.is_dir())]:
-        folder.chmod(mode)
-
-
-make_read_only = functools.partial(set_mode, mode=0o555)
-
-
-@pytest.mark.parametrize(
-    "act", [move, replace, shutil.rmtree, make_read_only], ids=["moved", "replaced", "gone", "shut"]
-)
+@pytest.mark.parametrize("act", [replace, shutil.rmtree], ids=["replaced", "gone"])
 def test_a_folder_that_changes_under_a_trainer_stops_it(act, expected, tmp_path):
     contents, _ = expected
     run = new_run(tmp_path / "run")
     number = attacks.generator().randint(1, len(contents[0]) - 1)
-    end = attacks.run(train_disturbed, run.path, number, act, first=commands.bound)
-    if act is make_read_only:
-        set_mode(run.path, 0o755)
-    end.assert_refused(str(run.path))
-    left = sorted(item.name for item in run.path.glob("*")) if run.path.exists() else []
-    if act is make_read_only:
-        assert_goes_on(run, contents)
-    else:
-        assert left == (["config.json"] if act is replace else [])
-    if act in (move, replace):
+    attacks.run(train_disturbed, run.path, number, act).assert_refused(str(run.path))
+    if act is replace:
+        assert sorted(item.name for item in run.path.glob("*")) == ["config.json"]
         assert_goes_on(run_lib.Run(run.path.with_name("moved")), contents)
+    else:
+        assert not run.path.exists()
 
 
-def full(kind, generator, folder, attack, sizes):
+def full_disk(generator, attack, sizes):
     """Returns a full disk: from the first byte at first, then from a random one."""
-    if kind == "EFBIG":
-        return attacks.FullAtByte(generator.randrange(max(sizes)) if attack else 0)
-    return attacks.SmallDisk(folder, 4096 * generator.randrange(2 + 2 * sum(sizes) // 4096) if attack else 0)
+    return functools.partial(attacks.fill_disk, generator.randrange(max(sizes)) if attack else 0)
 
 
-def skip_without_mounts(end):
-    if "cannot have mounts of one's own" in end.said:
-        pytest.skip("a full disk needs the right to mount a file system (root, or user namespaces)")
-
-
-@pytest.mark.parametrize("kind", ["EFBIG", "ENOSPC"])
-def test_training_on_a_full_disk_goes_on_when_there_is_room(kind, expected, tmp_path):
+def test_training_on_a_full_disk_goes_on_when_there_is_room(expected, tmp_path):
+    contents, sizes = expected
     generator = attacks.generator()
-    with attacks.Tally(f"full disk, train, {kind}") as tally:
-        for attack in range(attacks.repetitions(2, share=0.1)):
-            run = new_run(tmp_path / str(attack))
-            disk = full(kind, generator, run.path, attack, expected[1])
-            end = attacks.run(train_disturbed, run.path, 0, None, first=disk)
-            skip_without_mounts(end)
-            if end.code:
-                end.assert_refused(str(run.path))
-            assert_goes_on(run, expected[0])
-            tally["one line; resumed" if end.code else "there was room"] += 1
+    for attack in range(attacks.repetitions(2, share=0.1)):
+        run = new_run(tmp_path / str(attack))
+        end = attacks.run(train_disturbed, run.path, 0, None, first=full_disk(generator, attack, sizes))
+        end.assert_refused(str(run.path))
+        assert_goes_on(run, contents)
 
 
-@pytest.mark.parametrize("kind", ["EFBIG", "ENOSPC"])
 @pytest.mark.parametrize("command", ["publish", "replay"])
-def test_a_full_disk_costs_no_agent_and_no_replay(command, kind, made, tmp_path):
+def test_a_full_disk_costs_no_agent_and_no_replay(command, made, tmp_path):
     generator, run_path, there = attacks.generator(), made / "run", tmp_path / "there"
     there.mkdir()
     words = {
@@ -159,14 +103,38 @@ def test_a_full_disk_costs_no_agent_and_no_replay(command, kind, made, tmp_path)
     before = {path.name: path.read_bytes() for path in there.iterdir()}
     sizes = [len(content) for content in before.values()]
     for attack in range(attacks.repetitions(1, share=0.1)):
-        end = attacks.run(commands.physexp, *words, first=full(kind, generator, there, attack, sizes))
-        skip_without_mounts(end)
-        after = {path.name: path.read_bytes() for path in there.iterdir()}
-        assert set(after) == set(before)
-        if end.code:
-            end.assert_refused(str(there))
-            if command == "replay":  # The episodes for which there was room may have taken the old ones' place.
-                reading.verify(there / "replay.rrd")
-            else:
-                assert after == before
-        before = after
+        end = attacks.run(commands.physexp, *words, first=full_disk(generator, attack, sizes))
+        end.assert_refused(str(there))
+        assert {path.name for path in there.iterdir()} == set(before)
+        if command == "replay":  # The episodes for which there was room may have taken the old ones' place.
+            reading.verify(there / "replay.rrd")
+        else:
+            assert {path.name: path.read_bytes() for path in there.iterdir()} == before
+
+
+def start(go, delay, *words):
+    """Runs a command as soon as both are ready, or a moment after that."""
+    go.wait()
+    time.sleep(delay)
+    commands.physexp(*words)
+
+
+def test_of_two_new_runs_in_one_folder_one_trains_and_one_is_refused(tmp_path):
+    generator = attacks.generator()
+    for attack in range(attacks.repetitions(2, share=0.25)):
+        run = run_lib.Run(tmp_path / str(attack))
+        go = commands.context.Barrier(2)
+        words = ["train", "which_is_heavier", "features", "--run-dir", run.path, *subjects.OPTIONS, "--seed"]
+        children = [
+            attacks.Child(start, go, generator.choice([0.0, generator.uniform(0, 0.5)]), *words, seed)
+            for seed in (1, 2)
+        ]
+        ends = [child.end() for child in children]
+        assert sorted(end.code for end in ends) == [0, 2], ends
+        winner = [end.code for end in ends].index(0)
+        ends[1 - winner].assert_refused(str(run.path))
+        assert run.config.agent.seed == winner + 1 and run.is_finished
+        rows, episodes, _, num_episodes = subjects.contents(run)
+        assert num_episodes == rows[-1]["episodes"] and len({row["frames"] for row in rows}) == len(rows)
+        seed = starting.worker_seed(run.config.agent.seed, 0)
+        assert {row["seed"] for row in episodes} == {suite.environment_seed(seed, index) for index in range(4)}

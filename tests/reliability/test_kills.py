@@ -4,19 +4,15 @@ import functools
 import shutil
 
 import attacks
-import pyarrow
-from pyarrow import parquet
 import pytest
 import reading
 import subjects
 import torch
 
 from physexp.agents import checkpointing
-from physexp.analysis.data import tables
-from physexp.analysis.experiments import base, sweep
 from physexp.analysis.replay import recording, writing
 from physexp.analysis.score import log, playing, protocol, scoring, targets
-from physexp.analysis.training import finding, recorder
+from physexp.analysis.training import finding
 from physexp.analysis.training import run as run_lib
 
 pytestmark = pytest.mark.long
@@ -58,18 +54,8 @@ def read_checkpoint(folder):
     return facts["number"]
 
 
-def write_table(folder, number):
-    columns = {name: [0] * (number + 1) for name in run_lib.EPISODES.names} | {"actions": [[0, 1]] * (number + 1)}
-    tables.write(folder / "episodes.parquet", pyarrow.table(columns, run_lib.EPISODES))
-
-
-def read_table(folder):
-    return len(tables.read(folder / "episodes.parquet", run_lib.EPISODES)) - 1
-
-
 WRITES = {
     "checkpoint": (write_checkpoint, read_checkpoint),
-    "table": (write_table, read_table),
     "published agent": (subjects.publish, subjects.published),
 }
 """Kinds of writes: a function that writes a number, and one that reads it back."""
@@ -154,9 +140,6 @@ def test_a_network_that_is_kept_alone_is_never_missing(uninterrupted, tmp_path):
         assert attacks.litter(folder) == []
 
 
-# A score, and a sweep's agent.
-
-
 def score(folder):
     scoring.score(targets.find("random"), protocol.named(["threshold/features", "strings/features"]), 6, folder)
 
@@ -167,30 +150,3 @@ def test_a_killed_score_goes_on_to_the_same_log(tmp_path):
         if not (folder / scoring.FILE).exists() or (folder / playing.FILE).exists():
             go_on(score, folder)
         assert log.read(folder).equals(log.read(tmp_path / "whole"))
-
-
-JOB = sweep.Job(
-    subjects.config(frames=30),
-    (base.Trial(name="learned", num_steps=10), base.Trial(name="random", interaction="random", num_steps=10)),
-)
-
-
-def sweep_one(folder):
-    recorder.ROW_SECONDS = -1.0  # A row for each update, however long they take.
-    sweep.work(JOB, base.Results(folder))
-
-
-def swept(folder):
-    """The files, rows and tables that a sweep leaves of an agent, without times."""
-    run = base.Results(folder).run(JOB.config)
-    rows = [{name: row[name] for name in ("frames", "success_rate", "entropy")} for row in run.metrics()]
-    played = {path.name: parquet.read_table(path).to_pylist() for path in run.path.glob("*.parquet") if path.is_file()}
-    names = sorted(path.name for path in run.path.iterdir() if not path.name.startswith("superseded"))
-    return names, rows, variables(run), played
-
-
-def test_a_killed_sweep_goes_on_to_the_same_agent_and_episodes(tmp_path):
-    extent = attacks.measure(sweep_one, tmp_path / "whole")
-    for folder in killed("sweep", sweep_one, extent, new_folders(tmp_path), 2, share=0.1):
-        go_on(sweep_one, folder)
-        assert swept(folder) == swept(tmp_path / "whole")
