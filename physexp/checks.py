@@ -146,11 +146,6 @@ def within(minimum: float, maximum: float, unit: str = "", without: float | None
     return check
 
 
-def between(name: str, value: Any, minimum: float, maximum: float, unit: str = "", without: Any = None) -> float:
-    """Returns a number within bounds as a float."""
-    return float(within(minimum, maximum, unit, without)(name, value))
-
-
 discount = within(0, 1, without=0)
 """The check of a discount factor."""
 
