@@ -15,7 +15,7 @@ import numpy as np
 if TYPE_CHECKING:  # torch takes a second to import, and here only annotations name it.
     import torch
 
-    from physexp.agents import rounds
+    from physexp.agents import learning, rounds
 
 
 class Batch(Protocol):
@@ -121,19 +121,25 @@ class EpisodicActor(Actor):
 
 
 class Learner(abc.ABC):
-    """Improves variables from experience."""
+    """Improves variables from experience.
+
+    Attributes:
+      variables: all that training changes.
+    """
+
+    variables: "learning.Variables[Any]"
 
     @abc.abstractmethod
     def step(self) -> dict[str, float]:
         """Performs one update; returns its metrics."""
 
-    @abc.abstractmethod
     def save(self) -> "dict[str, torch.Tensor]":
-        """Returns tensors by name from which `restore` continues exactly."""
+        """Returns copies of all variables, by name, from which `restore` continues exactly."""
+        return self.variables.save()
 
-    @abc.abstractmethod
-    def restore(self, state: "Mapping[str, torch.Tensor]") -> None:
-        """Restores the result of `save`."""
+    def restore(self, tensors: "Mapping[str, torch.Tensor]") -> None:
+        """Restores the result of `save`; raises ValueError if it does not fit."""
+        self.variables.restore(tensors)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -163,7 +169,7 @@ class Agent(abc.ABC):
         """Returns the environment steps trained on."""
 
     @abc.abstractmethod
-    def updates(self, poll_seconds: float = 0.5) -> Generator[Update | None, None, None]:
+    def updates(self) -> Generator[Update | None, None, None]:
         """Trains until `frames` or `stop`; yields each update, or None if none came in time; raises AgentError."""
 
     @abc.abstractmethod

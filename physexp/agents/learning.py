@@ -1,7 +1,7 @@
 """Parts that learners share: variables and their optimizer, targets of whole episodes, clipped gradients."""
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Generic, Self, TypeVar
+from collections.abc import Mapping, Sequence
+from typing import Generic, Self, TypeVar
 
 import numpy as np
 import torch
@@ -75,21 +75,13 @@ class Variables(Generic[Network]):
         """Restores everything from the tensors of `save`.
 
         Raises:
-          ValueError: if the tensors do not fit, are not finite, or have impossible counts; nothing is changed then.
+          ValueError: if the tensors do not fit or are not finite; nothing is changed then.
         """
         own = self.tensors()
         try:
             tensors_lib.check(tensors, own)
         except ValueError as error:
             raise ValueError(f"the checkpoint {error}") from None
-        frames, updates, rounds = (tensors[name].reshape(-1).tolist() for name in ("frames", "updates", "rounds"))
-        if min(*frames, *updates, *rounds) < 0 or updates[0] > min(frames[0], sum(rounds)):
-            raise ValueError(
-                f"the checkpoint counts {updates[0]} updates of {frames[0]} frames in {sum(rounds)} rounds"
-            )
-        for name, value in tensors.items():
-            if name.endswith(("/step", "/exp_avg_sq")) and bool((value < 0).any()):
-                raise ValueError(f"the checkpoint has negative numbers in {name}, where none can be")
         for name, value in own.items():
             value.copy_(tensors[name])
 
@@ -105,24 +97,6 @@ class Variables(Generic[Network]):
         """Counts an update that was made from `num_frames` environment steps."""
         self.frames += num_frames
         self.updates += 1
-
-
-class Learner(core.Learner):
-    """A learner whose state is its variables.
-
-    Attributes:
-      variables: all that training changes.
-    """
-
-    variables: Variables[Any]
-
-    def save(self) -> dict[str, torch.Tensor]:
-        """Returns copies of all variables, by name."""
-        return self.variables.save()
-
-    def restore(self, state: Mapping[str, torch.Tensor]) -> None:
-        """Takes up the tensors of `save`."""
-        self.variables.restore(state)
 
 
 def network_variables(tensors: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:
@@ -156,7 +130,7 @@ def actor_critic_gradients(
     parts: tuple[torch.Tensor, torch.Tensor, torch.Tensor],
     entropy_cost: float,
     config: config_lib.ActorCriticConfig,
-    arrays: Callable[[], dict[str, np.ndarray]],
+    episodes: rounds.Round,
 ) -> tuple[list[torch.Tensor], dict[str, float]]:
     """Returns the clipped gradient of an actor-critic's loss for each parameter, and the metrics of the loss.
 
@@ -164,15 +138,12 @@ def actor_critic_gradients(
       network: the network.
       parts: the loss of the policy, that of the baseline, and the entropy.
       entropy_cost: weight of the entropy.
-      config: the agent's configuration.
-      arrays: returns the arrays that the loss was computed from.
-
-    Raises:
-      DivergedError: as `clipped_gradients`.
+      config: the agent's configuration, with the weight of the baseline.
+      episodes: as for `clipped_gradients`, which raises its error.
     """
     policy_loss, baseline_loss, entropy = parts
     loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
-    gradients, norm = clipped_gradients(network, loss, arrays)
+    gradients, norm = clipped_gradients(network, loss, episodes)
     return gradients, {
         "policy_loss": policy_loss.item(),
         "baseline_loss": baseline_loss.item(),
@@ -182,24 +153,17 @@ def actor_critic_gradients(
 
 
 def clipped_gradients(
-    network: torch.nn.Module,
-    loss: torch.Tensor,
-    arrays: Callable[[], dict[str, np.ndarray]],
+    network: torch.nn.Module, loss: torch.Tensor, episodes: rounds.Round
 ) -> tuple[list[torch.Tensor], float]:
     """Returns the gradient of a loss for each parameter, clipped to a global norm, and the norm before clipping.
 
-    Args:
-      network: the network.
-      loss: the loss.
-      arrays: returns the arrays that the loss was computed from.
-
     Raises:
-      DivergedError: if the loss or the norm is not finite; it holds these arrays.
+      DivergedError: if the loss or the norm is not finite; it holds the arrays of the episodes.
     """
     network.zero_grad()
     loss.backward()
     norm = torch.nn.utils.clip_grad_norm_(network.parameters(), MAX_GRADIENT_NORM)
     if not (torch.isfinite(loss) and torch.isfinite(norm)):
-        raise core.DivergedError(f"loss {loss.item()} with gradient norm {norm.item()}", arrays())
+        raise core.DivergedError(f"loss {loss.item()} with gradient norm {norm.item()}", episodes.arrays())
     gradients = [parameter.grad for parameter in network.parameters()]
     return [gradient for gradient in gradients if gradient is not None], norm.item()

@@ -37,15 +37,7 @@ class LSTM(nn.LSTM):
         return torch.addmm(self.bias_ih_l0 + self.bias_hh_l0, inputs, self.weight_ih_l0.t())
 
     def step(self, projected: torch.Tensor, state: State) -> tuple[torch.Tensor, State]:
-        """Computes one time step, not to be differentiated.
-
-        Args:
-          projected: what `project` returned for N inputs.
-          state: hidden and cell state.
-
-        Returns:
-          Outputs [N, H] and the next state.
-        """
+        """Computes one time step of projected inputs, without gradients; returns outputs [N, H] and the next state."""
         if projected.is_cuda:
             outputs, after = self(projected[None], state)
             return outputs[0], after

@@ -94,9 +94,16 @@ class RecurrentNetwork(nn.Module, abc.ABC):
     def initial_state(self, batch_size: int) -> State:
         """Returns the state at the start of episodes."""
 
-    @abc.abstractmethod
     def encode(self, observation: Observation) -> torch.Tensor:
-        """Encodes observations, arrays [N, ...], for `step`, float32 [N, F]."""
+        """Encodes observations, arrays [N, ...], for `step`, float32 [N, F]; equal images are encoded once."""
+        with devices.autocast(self.device, self.sees_images):
+            inputs, places = self.torso.distinct(observation)
+            encoded = self.project(inputs.to(self.device)).float()
+        return encoded if places is None else encoded[places]
+
+    def project(self, inputs: torch.Tensor) -> torch.Tensor:
+        """Returns the torso's outputs, [N, num_outputs], as `step` takes them, [N, F]; by default, unchanged."""
+        return inputs
 
     @abc.abstractmethod
     def step(self, inputs: torch.Tensor, state: State) -> tuple[Output, State]:
@@ -240,12 +247,9 @@ class RecurrentActorCritic(RecurrentNetwork):
         if logits:
             self.policy.bias.data += torch.tensor(logits)
 
-    def encode(self, observation: Observation) -> torch.Tensor:
-        """Returns the gates' inputs from observations; see `RecurrentNetwork`."""
-        with devices.autocast(self.device, self.sees_images):
-            inputs, places = self.torso.distinct(observation)
-            projected = self.lstm.project(inputs.to(self.device)).float()
-            return projected if places is None else projected[places]
+    def project(self, inputs: torch.Tensor) -> torch.Tensor:
+        """Returns the inputs of the LSTM's gates; see `RecurrentNetwork`."""
+        return self.lstm.project(inputs)
 
     def step(self, inputs: torch.Tensor, state: State) -> tuple[Output, State]:
         """Computes one time step; see `RecurrentNetwork`."""
@@ -254,15 +258,7 @@ class RecurrentActorCritic(RecurrentNetwork):
         return Output(*self._heads(outputs)), state
 
     def unroll(self, inputs: torch.Tensor, batch_sizes: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
-        """Computes whole episodes from their first steps, packed: sorted from the longest to the shortest, no padding.
-
-        Args:
-          inputs: what `encode` returned, [N, F]: all first steps, then all second steps, and so on.
-          batch_sizes: how many episodes have a t-th step, int64 [T]; they sum to N.
-
-        Returns:
-          Logits [N, A] and values [N].
-        """
+        """Returns logits [N, A] and values [N] of encoded episodes, packed as `lstm.LSTM.unroll` takes them."""
         return self._heads(self.lstm.unroll(inputs, batch_sizes))
 
     def _heads(self, outputs: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:

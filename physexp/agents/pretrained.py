@@ -162,9 +162,6 @@ def _digest(network: networks.RecurrentNetwork, names_: list[str]) -> str:
 
 
 def halve(network: networks.RecurrentNetwork) -> networks.RecurrentNetwork:
-    """Rounds a network's weights, in place, to half precision; returns the network."""
-    with torch.no_grad():
-        for value in network.state_dict().values():
-            if value.is_floating_point():
-                value.copy_(value.half().float())
+    """Rounds a network's weights, in place, to half precision; raises ValueError if they are not finite then."""
+    network.load_state_dict(tensors_lib.halved(network.state_dict()))
     return network

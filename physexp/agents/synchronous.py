@@ -4,14 +4,13 @@ from collections.abc import Generator, Mapping
 
 import torch
 
-from physexp.agents import core, guests, learning, rounds
+from physexp.agents import core, guests, rounds
 
 
-class SynchronousLearner(learning.Learner):
+class SynchronousLearner(core.Learner):
     """Plays a round at each step, with the parameters that all rounds before have led to.
 
     Attributes:
-      variables: all that training changes.
       last_round: the round that was played last.
     """
 
@@ -27,13 +26,9 @@ class SynchronousAgent(core.Agent):
     """Takes the steps of a learner."""
 
     def __init__(self, learner: SynchronousLearner, frames: int, seed: int, num_threads: int):
-        """Takes a learner.
+        """Takes a learner, the frames to train it for, and the seed of its environments.
 
-        Args:
-          learner: the learner.
-          frames: environment steps to train for.
-          seed: seed of its environments.
-          num_threads: threads for convolutions; without images one thread is faster.
+        Convolutions are computed in `num_threads`; without images one thread is faster.
         """
         self._learner, self._max_frames, self._seed = learner, frames, seed
         self._num_threads = num_threads if learner.variables.network.sees_images else 1
@@ -44,7 +39,7 @@ class SynchronousAgent(core.Agent):
         """Returns the environment steps trained on."""
         return int(self._learner.variables.frames)
 
-    def updates(self, poll_seconds: float = 0.5) -> Generator[core.Update | None, None, None]:
+    def updates(self) -> Generator[core.Update | None, None, None]:
         """Yields each update until all frames are done or `stop` was called."""
         while not self._is_stopping and self.frames < self._max_frames:
             episode = self._learner.next_episode

@@ -16,20 +16,11 @@ from physexp.agents.ppo import config as ppo
 BAD = [
     (a3c.A3CConfig, "discount", 1.5),
     (belief.BeliefConfig, "frames", 0),
-    (ppo.PPOConfig, "seed", -1),
     (a3c.A3CConfig, "learning_rate", 0.0),
     (a3c.A3CConfig, "gae_lambda", 1.1),
-    (a3c.A3CConfig, "checkpoint_seconds", 0.0),
     (ppo.PPOConfig, "entropy_cost", -0.1),
-    (ppo.PPOConfig, "final_entropy_cost", -1.0),
     (ppo.PPOConfig, "baseline_cost", math.nan),
-    (ppo.PPOConfig, "observation_scale", -1.0),
     (a3c.A3CConfig, "num_workers", 0),
-    (a3c.A3CConfig, "envs_per_worker", 0),
-    (ppo.PPOConfig, "num_environments", 0),
-    (ppo.PPOConfig, "num_threads", 0),
-    (ppo.PPOConfig, "num_minibatches", 0),
-    (belief.BeliefConfig, "max_interactions", 0),
     (belief.BeliefConfig, "frames_per_update", 0),
     (belief.BeliefConfig, "replay_episodes", 15),  # A round has 16.
 ]

@@ -1,7 +1,5 @@
 """The belief learner: targets by Bayes' rule and Bellman's equation, exploration, the replay, and the best agent."""
 
-import math
-
 import numpy as np
 import pytest
 from seeds import fresh_seed
@@ -71,14 +69,6 @@ def test_a_step_towards_the_posterior_is_one_on_the_likelihood(is_right):
     belief_in_answer = logits.softmax(1)[0, 2]
     (-torch.log(belief_in_answer if is_right else 1 - belief_in_answer)).backward()
     torch.testing.assert_close(found, logits.grad)
-
-
-def test_every_step_played_is_trained_towards_the_label():
-    logits = torch.zeros(3, 2, 4)
-    logits[2, 1] = 100.0  # Beyond the end of the second episode.
-    labels = torch.tensor([[1.0, 0, 0, 0], [0, 1.0, 0, 0]])
-    played = torch.arange(3)[:, None] < torch.tensor([3, 2])
-    assert losses.belief_loss(logits[None], labels, played[None]).tolist() == pytest.approx([math.log(4)])
 
 
 @pytest.mark.parametrize("memory", ["attention", "lstm"])

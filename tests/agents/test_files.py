@@ -1,13 +1,11 @@
 """Files are replaced as a whole, and files of tensors come back to the bit or are refused."""
 
-import json
 import math
 import random
 import struct
 import subprocess
 import sys
 import textwrap
-import threading
 
 import bits
 import pytest
@@ -77,23 +75,6 @@ def test_a_killed_writer_leaves_a_whole_file(tmp_path):
     assert names(tmp_path) == ["file"]
 
 
-def test_threads_that_write_one_file_each_write_all_of_it(tmp_path):
-    contents = [bytes([number]) * 300_000 for number in range(4)]
-    threads = [threading.Thread(target=files.write_atomically, args=(tmp_path / "f", each)) for each in contents]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert (tmp_path / "f").read_bytes() in contents and names(tmp_path) == ["f"]
-
-
-def test_a_folder_in_the_place_of_the_file_is_named(tmp_path):
-    (tmp_path / "file").mkdir()
-    with pytest.raises(OSError, match="file'$"):
-        files.write_atomically(tmp_path / "file", b"new")
-    assert names(tmp_path) == ["file"]
-
-
 # Tensors with facts.
 
 
@@ -104,16 +85,6 @@ def test_tensors_and_facts_come_back_bit_for_bit(tmp_path):
     assert set(found) == set(TENSORS)
     for name, value in TENSORS.items():
         assert torch.equal(found[name], value) and found[name].dtype == value.dtype
-
-
-def test_a_file_of_tensors_is_plain_data(tmp_path):
-    tensors.write(tmp_path / "file", TENSORS, FACTS)
-    content = (tmp_path / "file").read_bytes()
-    # A safetensors file: the header's length (8 bytes, little endian), the header as JSON, then the raw numbers: one
-    # int64, six float32 and two bytes.
-    (length,) = struct.unpack("<Q", content[:8])
-    assert set(json.loads(content[8 : 8 + length])) == {"__metadata__", *TENSORS}
-    assert len(content) == 8 + length + 8 + 24 + 2
 
 
 def test_every_bit_of_a_file_of_tensors_counts(tmp_path):

@@ -20,17 +20,6 @@ def test_returns_are_discounted_sums_of_the_rewards_that_follow():
     assert returns[:, 0].tolist() == [3.0, 4.0, 4.0]
 
 
-def test_nothing_is_bootstrapped_past_an_episodes_end():
-    # gamma = 0.5. Episode a lasts 3 actions: rewards 0, 0, 1: G = 0.25, 0.5, 1.
-    # Episode b lasts 1 action with reward -1: G0 = -1. Numbers behind its end (here 100 on purpose) have no
-    # way into G0, since the discount after its last action is 0.
-    rewards = torch.tensor([[0.0, -1.0], [0.0, 100.0], [1.0, 100.0]])
-    discounts = torch.tensor([[0.5, 0.0], [0.5, 0.0], [0.0, 0.0]])
-    returns = losses.discounted_returns(rewards, discounts)
-    assert returns[:, 0].tolist() == [0.25, 0.5, 1.0]
-    assert returns[0, 1].item() == -1.0
-
-
 def test_advantages_with_a_lambda_of_one_are_returns_minus_values():
     generator = torch.Generator().manual_seed(fresh_seed())
     rewards, values = (torch.randn(6, 4, generator=generator) for _ in range(2))

@@ -12,7 +12,7 @@ from torch import multiprocessing
 import trainers
 
 from physexp import suite
-from physexp.agents import acting, core, learning, networks
+from physexp.agents import core, learning, networks
 from physexp.agents.a3c import agent as agent_lib
 from physexp.agents.a3c import config as config_lib
 from physexp.agents.a3c import learning as a3c
@@ -33,24 +33,17 @@ def make_network():
     return networks.RecurrentActorCritic(spec, 8, observation_scale=10.0)
 
 
-def make_learner(shared, lock, worker, record=lambda *_: None):
-    batch = suite.load_batch("which_is_heavier", "features", CONFIG.envs_per_worker, {"random": worker})
-    network = make_network()
-
-    def play(number):
-        generator = np.random.default_rng([worker, number])
-        return acting.play_round(network, batch, number, acting.drawn(generator), keep_inputs=True)
-
-    return a3c.A3CLearner(network, shared, lock, play, record, worker, CONFIG)
-
-
 def apply_constant_gradient(shared, gradient):
     shared.apply([torch.full_like(parameter, gradient) for parameter in shared.network.parameters()], 0.001)
 
 
+def load(seed, num_environments, num_threads):
+    return suite.load_batch("which_is_heavier", "features", num_environments, {"random": seed}, num_threads)
+
+
 def learn_once(shared, lock, worker, sender):
     torch.set_num_threads(1)
-    make_learner(shared, lock, worker, lambda episode, metrics, round_: sender.send((metrics, round_))).step()
+    a3c.A3CLearner(worker, load, CONFIG, shared, lock, sender.send).step()
 
 
 def run_all(processes):
@@ -90,30 +83,16 @@ def test_two_learners_at_once_share_weights_statistics_and_counters(context):
         ]
     )
     updates = [receiver.recv() for receiver, _ in pipes]
-    assert sorted(metrics["updates"] for metrics, _ in updates) == [1, 2], "each saw the other's update, or came first"
+    assert sorted(update.metrics["updates"] for update in updates) == [1, 2], (
+        "each saw the other's update, or came first"
+    )
     assert int(shared.updates) == 2 and shared.rounds.tolist() == [1, 1]
-    assert int(shared.frames) == sum(played.num_frames for _, played in updates)
+    assert int(shared.frames) == sum(update.episodes.num_frames for update in updates)
     after = shared.tensors()
     assert {value.item() for name, value in after.items() if name.endswith("/step")} == {2.0}
     for name in after:
         if name.startswith("network/") or name.endswith("/exp_avg"):
             assert not torch.equal(before[name], after[name]), f"{name} has not moved"
-
-
-def test_a_learner_goes_on_from_saved_variables_to_the_same_ones(context):
-    learner = make_learner(learning.Variables(make_network()), context.Lock(), 0)
-    learner.step()
-    saved = learner.save()
-    ends = []
-    for _ in range(2):
-        learner.restore(saved)
-        for _ in range(2):
-            learner.step()
-        ends.append(learner.save())
-    once, again = ends
-    assert int(again["updates"]) == 3
-    for name in once:
-        assert torch.equal(once[name], again[name]), f"{name} differs after the same updates"
 
 
 def die_with(lock):
@@ -133,7 +112,7 @@ def test_variables_are_not_saved_after_a_worker_died_in_an_update(tmp_path, cont
 def make_environment_of_one(seed, num_environments, num_threads):
     if num_environments > 1:
         raise OSError("no license")
-    return suite.load_batch("which_is_heavier", "features", num_environments, {"random": seed}, num_threads)
+    return load(seed, num_environments, num_threads)
 
 
 def test_an_error_in_a_worker_ends_training_in_one_line_that_names_it():

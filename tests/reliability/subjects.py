@@ -3,7 +3,7 @@
 from pyarrow import parquet
 import torch
 
-from physexp.agents import networks, pretrained, registry
+from physexp.agents import networks, pretrained
 from physexp.agents.ppo import config as ppo
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import finding, recorder, trainer
@@ -50,7 +50,7 @@ def contents(run: run_lib.Run):
 
 def network(number: float) -> networks.RecurrentActorCritic:
     """A network of the small agent, of which every variable is a number."""
-    made = registry.make_network(trainer.make_environment(config(), 0, 1, 1), SMALL)
+    made = trainer.make_network(config())
     with torch.no_grad():
         for value in made.state_dict().values():
             value.fill_(number)

@@ -12,6 +12,7 @@ from physexp.agents import core, learning, processes, starting
 from physexp.agents.a3c import config as config_lib
 from physexp.agents.a3c import worker
 
+_POLL_SECONDS = 0.5  # At most until the caller looks for signals and checkpoints, without any update.
 _LOCK_SECONDS = 0.01  # Between looks at the workers while one of them holds the lock.
 
 
@@ -23,12 +24,7 @@ class A3C(core.Agent):
     """
 
     def __init__(self, make_environment: core.EnvironmentFactory, config: config_lib.A3CConfig):
-        """Prepares the shared variables; `updates` starts the workers.
-
-        Args:
-          make_environment: called in each worker; must be picklable.
-          config: the configuration.
-        """
+        """Prepares the shared variables; `updates` starts the workers, each of which makes its environments."""
         self._make_environment, self._config = make_environment, config
         environment = make_environment(config.seed, 1, 1)
         network = starting.initial_network(environment, config)
@@ -58,12 +54,12 @@ class A3C(core.Agent):
         """Asks training to end; may be called by a signal's handler."""
         self._is_stopping = True
 
-    def updates(self, poll_seconds: float = 0.5) -> Generator[core.Update | None, None, None]:
+    def updates(self) -> Generator[core.Update | None, None, None]:
         """Yields each update; when a worker dies, raises WorkerError and ends the others."""
         try:
             self._start()
             while self._workers:
-                self._receive(poll_seconds)
+                self._receive(_POLL_SECONDS)
                 if self._is_stopping:
                     with self._locked():  # So that no worker is killed in the middle of an update.
                         self._kill()

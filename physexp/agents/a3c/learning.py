@@ -5,44 +5,32 @@ from multiprocessing import synchronize
 
 import torch
 
-from physexp.agents import learning, losses, networks, rounds
+from physexp.agents import acting, core, devices, learning, losses, networks, rounds, starting
 from physexp.agents.a3c import config as config_lib
 
-Record = Callable[[int, dict[str, float], rounds.Round], None]
-"""Receives an update: the index of its episodes, its metrics, and the round that it was made from."""
 
-
-class A3CLearner(learning.Learner):
+class A3CLearner(core.Learner):
     """One worker's learner: reads the shared parameters, plays a round, and applies its gradient to them.
 
-    Attributes:
-      variables: the variables that all workers share.
+    The lock is held while the shared variables are read or written, and while an update is sent: an update is in the
+    variables and in the records, or in neither, whenever the worker is killed.
     """
 
     def __init__(
         self,
-        network: networks.RecurrentActorCritic,
+        worker: int,
+        make_environment: core.EnvironmentFactory,
+        config: config_lib.A3CConfig,
         variables: learning.Variables[networks.RecurrentActorCritic],
         lock: synchronize.Lock,
-        play: Callable[[int], rounds.Round],
-        record: Record,
-        worker: int,
-        config: config_lib.A3CConfig,
+        send: Callable[[core.Update], None],
     ):
-        """Joins a worker's own network to the shared variables.
-
-        Args:
-          network: the worker's copy of the network.
-          variables: the shared variables.
-          lock: held while the shared variables are read or written.
-          play: plays a round, from the index of its episodes, with the worker's network.
-          record: called with each update while the lock is held: an update is in the variables and in the records, or
-            in neither, whenever the worker is killed.
-          worker: index of the worker.
-          config: the agent's configuration.
-        """
-        self._network, self.variables, self._lock = network, variables, lock
-        self._play, self._record, self._worker, self._config = play, record, worker, config
+        """Makes the environments of the worker of an index, and its copy of the shared network."""
+        self._worker, self._config, self.variables, self._lock, self._send = worker, config, variables, lock, send
+        self._seed = starting.worker_seed(config.seed, worker)
+        self._environment = make_environment(self._seed, config.envs_per_worker, 1)
+        network = starting.make_network(networks.RecurrentActorCritic, self._environment, config)
+        self._network = network.to(devices.choose(config.device, network.sees_images))
 
     def step(self) -> dict[str, float]:
         """Makes one update; returns its metrics."""
@@ -52,11 +40,10 @@ class A3CLearner(learning.Learner):
             frames, updates = int(variables.frames), int(variables.updates)
             episode = int(variables.rounds[self._worker])
         learning_rate, entropy_cost = config.at(frames)
-        episodes = self._play(episode)
+        choose = acting.drawn(starting.round_generator(config.seed, self._worker, episode))
+        episodes = acting.play_round(self._network, self._environment, episode, choose, keep_inputs=True)
         parts = round_losses(self._network, episodes, config.discount, config.gae_lambda, config.entropy_prior)
-        gradients, metrics = learning.actor_critic_gradients(
-            self._network, parts, entropy_cost, config, episodes.arrays
-        )
+        gradients, metrics = learning.actor_critic_gradients(self._network, parts, entropy_cost, config, episodes)
         with self._lock:
             staleness = int(variables.updates) - updates
             variables.rounds[self._worker] += 1
@@ -69,7 +56,7 @@ class A3CLearner(learning.Learner):
                 "frames": int(variables.frames),
                 "staleness": staleness,
             }
-            self._record(episode, metrics, episodes.record())
+            self._send(core.Update(self._seed, episode, metrics, episodes.record()))
         return metrics
 
 

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Mapping
 import copy
 import dataclasses
-import functools
 import math
 
 import numpy as np
@@ -25,8 +24,8 @@ _NUM_OUTCOMES = 1024  # Answers that calibration is measured on.
 _WINDOW = 512  # Greedy episodes between two comparisons with the best.
 _NO_METRICS = dict.fromkeys(("belief_loss", "value_loss", "gradient_norm"), math.nan)  # Of a round without a step.
 
-Play = Callable[[networks.BeliefNetwork, int, acting_lib.Choose], rounds.Round]
-"""Plays the round of a number with a network, and keeps the encoded observations."""
+Play = Callable[[int, acting_lib.Choose], rounds.Round]
+"""Plays the round of a number with the averaged network, and keeps the encoded observations."""
 
 
 @dataclasses.dataclass
@@ -128,7 +127,7 @@ class BeliefLearner(synchronous.SynchronousLearner):
         """Plays a round, and makes as many steps of Adam as its frames ask for."""
         config, variables, number = self._config, self.variables, self.next_episode
         policy = acting.BehaviourPolicy(variables.network.num_interactions, config, number)
-        self.last_round = played = self._play(variables.averaged, number, policy.choose)
+        self.last_round = played = self._play(number, policy.choose)
         variables.episodes.add(played, number)
         self._measure_changes(played)
         self._measure_answers(policy, played)
@@ -180,7 +179,7 @@ class BeliefLearner(synchronous.SynchronousLearner):
         taken = actions.clamp(max=network.num_interactions - 1).expand(len(logits), *actions.shape)
         values = network.values(beliefs, shares).gather(-1, taken[..., None])[..., 0]
         value_loss = losses.value_loss(values, targets, played & (actions < network.num_interactions) & learns)
-        gradients, norm = learning.clipped_gradients(network, (belief_loss + value_loss).sum(), episodes.arrays)
+        gradients, norm = learning.clipped_gradients(network, (belief_loss + value_loss).sum(), episodes)
         self.variables.apply(gradients, learning_rate)
         with torch.no_grad():
             torch._foreach_lerp_(list(averaged.parameters()), list(network.parameters()), 1 - _EMA_DECAY)
@@ -219,11 +218,10 @@ class BeliefLearner(synchronous.SynchronousLearner):
             "calibration_error": losses.calibration_error(beliefs, outcomes),
         }
 
-    def restore(self, state: Mapping[str, torch.Tensor]) -> None:
+    def restore(self, tensors: Mapping[str, torch.Tensor]) -> None:
         """Takes up what `save` returned, and plays the kept episodes again to have their observations."""
-        super().restore(state)
-        play = functools.partial(self._play, self.variables.averaged)
-        self.variables.episodes.restore(play, self.next_episode)
+        super().restore(tensors)
+        self.variables.episodes.restore(self._play, self.next_episode)
 
 
 def label_targets(

@@ -8,7 +8,7 @@ import torch
 from torch import nn
 from torch.nn import functional
 
-from physexp.agents import core, devices, networks
+from physexp.agents import core, networks
 from physexp.agents.belief import config as config_lib
 from physexp.agents.belief import losses
 
@@ -54,16 +54,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         max_interactions: int,
         discount: float,
     ):
-        """Builds the network, with weights from torch's global seed.
-
-        Args:
-          observation_spec: features, or one image.
-          num_actions: how many actions there are.
-          num_interactions: how many of them are interactions; they come first, labels after them.
-          memory: the members' memory of an episode, attention or lstm.
-          max_interactions: after this number it prefers to answer.
-          discount: gamma.
-        """
+        """Builds the network, with weights from torch's global seed; for the hyperparameters see `BeliefConfig`."""
         super().__init__(observation_spec, _PIXEL_SCALE, 1.0)
         self.num_interactions, self.max_interactions, self.discount = num_interactions, max_interactions, discount
         self.torso.requires_grad_(False)
@@ -91,13 +82,6 @@ class BeliefNetwork(networks.RecurrentNetwork):
         shapes = (1, batch_size, 0, self._num_seen), (1, batch_size, 1, self.num_interactions)
         seen, done = (torch.zeros(shape, dtype=torch.float32, device=self.device) for shape in shapes)
         return seen, done
-
-    def encode(self, observation: networks.Observation) -> torch.Tensor:
-        """Encodes observations; see `RecurrentNetwork`."""
-        with devices.autocast(self.device, self.sees_images):
-            inputs, places = self.torso.distinct(observation)
-        inputs = inputs.to(self.device).float()
-        return inputs if places is None else inputs[places]
 
     def step(self, inputs: torch.Tensor, state: networks.State) -> tuple[networks.Output, networks.State]:
         """Computes one time step; see `RecurrentNetwork`. The policy prefers the action of the highest value."""

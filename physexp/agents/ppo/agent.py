@@ -10,15 +10,14 @@ class PPO(synchronous.SynchronousAgent):
 
     def __init__(self, make_environment: core.EnvironmentFactory, config: config_lib.PPOConfig):
         """Makes the environments and the network."""
-        self._config = config
         seed = starting.worker_seed(config.seed, 0)
-        self._environment = make_environment(seed, config.num_environments, config.num_threads)
-        self._network = starting.initial_network(self._environment, config)
-        self._network.to(devices.choose(config.device, self._network.sees_images))
-        learner = ppo_learning.PPOLearner(learning.Variables(self._network), self._play, config)
-        super().__init__(learner, config.frames, seed, config.num_threads)
+        environment = make_environment(seed, config.num_environments, config.num_threads)
+        network = starting.initial_network(environment, config)
+        network.to(devices.choose(config.device, network.sees_images))
 
-    def _play(self, episode: int) -> rounds.Round:
-        generator = starting.round_generator(self._config.seed, 0, episode)
-        choose = acting.drawn(generator)
-        return acting.play_round(self._network, self._environment, episode, choose, keep_behaviour=True)
+        def play(episode: int) -> rounds.Round:
+            choose = acting.drawn(starting.round_generator(config.seed, 0, episode))
+            return acting.play_round(network, environment, episode, choose, keep_behaviour=True)
+
+        learner = ppo_learning.PPOLearner(learning.Variables(network), play, config)
+        super().__init__(learner, config.frames, seed, config.num_threads)

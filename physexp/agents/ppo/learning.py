@@ -63,7 +63,7 @@ class PPOLearner(synchronous.SynchronousLearner):
             _CLIP,
             config.entropy_prior,
         )
-        gradients, metrics = learning.actor_critic_gradients(network, parts, entropy_cost, config, episodes.arrays)
+        gradients, metrics = learning.actor_critic_gradients(network, parts, entropy_cost, config, episodes)
         self.variables.apply(gradients, learning_rate)
         return metrics
 

@@ -126,7 +126,7 @@ def training_rate(task: Task, seconds: float) -> float:
     agent = trainer.make_agent(config_lib.TrainConfig(domain=task[0], task=task[1], agent=preset))
     heard: set[int] = set()
     start, frames, at_start = None, 0, 0
-    for update in agent.updates(poll_seconds=0.1):
+    for update in agent.updates():
         if update is not None:
             heard.add(update.seed)
             frames = int(update.metrics["frames"])

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 
 import torch
 
-from physexp.agents import registry
 from physexp.analysis.replay import recording, writing
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
@@ -33,9 +32,7 @@ class Writer:
         last = max((int(name) for name in names if name.isdecimal() and int(name) <= frames), default=0)
         if frames - last < self._config.replay_every:
             return
-        environment = trainer.make_environment(self._config, 0, 1, 1)
-        network = registry.make_network(environment, self._config.agent)
-        environment.close()
+        network = trainer.make_network(self._config)
         network.load_state_dict(variables)
         title = f"{self._config.name} after {frames:,} steps"
         self._folder.mkdir(exist_ok=True)

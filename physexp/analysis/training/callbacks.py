@@ -13,13 +13,7 @@ def ignore(_: Any) -> None:
 
 
 def expendable(watch: Callable[..., Any], tell: Tell, name: str) -> Callable[..., None]:
-    """Returns a watcher that is left out after its first failure, with a line that says so.
-
-    Args:
-      watch: the watcher.
-      tell: called with the line.
-      name: the watcher's name in the line.
-    """
+    """Returns a watcher that is left out after its first failure, with a line that names it."""
     has_failed = False
 
     def call(*arguments: Any) -> None:

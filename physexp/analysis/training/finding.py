@@ -37,10 +37,7 @@ def load_network(run: run_lib.Run) -> networks.RecurrentNetwork:
     Raises:
       ValueError: if there is none yet, or its files are damaged or do not fit; it names the file.
     """
-    config = run.config
-    environment = trainer.make_environment(config, 0, 1, 1)
-    network = registry.make_network(environment, config.agent)
-    environment.close()
+    network = trainer.make_network(run.config)
     network.load_state_dict(run.variables(network.state_dict()))
     return network.eval()
 
@@ -192,7 +189,7 @@ def _flag(name: str, value: Any) -> list[str]:
     flag = name.replace("_", "-")
     if isinstance(value, bool):
         return [f"--{flag}" if value else f"--no-{flag}"]
-    return [
-        f"--{flag}",
-        *(agent_config.shown(item) for item in (value if isinstance(value, (list, tuple)) else [value])),
-    ]
+    items = [agent_config.shown(item) for item in (value if isinstance(value, (list, tuple)) else [value])]
+    if any(item.startswith("-") for item in items):  # Which could be read as another option.
+        return [f"--{flag}={item}" for item in items]
+    return [f"--{flag}", *items]

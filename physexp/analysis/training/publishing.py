@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from physexp import suite
-from physexp.agents import pretrained, tensors
+from physexp.agents import pretrained
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import finding, playing
 from physexp.analysis.training import run as run_lib
@@ -32,9 +32,7 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int, replaces: bool = 
             "another --output-dir"
         )
     trained = finding.provenance(run)
-    network = finding.load_network(run)
-    tensors.halved(network.state_dict())  # Refuses weights that cannot be kept before anything is played.
-    network = pretrained.halve(network)
+    network = pretrained.halve(finding.load_network(run))  # Refuses weights that cannot be kept.
     figures = {
         way: playing.play(network, config, num_episodes, greedy=way == "greedy").summary(config.agent.discount)
         for way in ("drawn", "greedy")

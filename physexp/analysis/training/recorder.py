@@ -39,15 +39,7 @@ class Recorder:
         tell: callbacks.Tell = callbacks.ignore,
         on_checkpoint: OnCheckpoint | None = None,
     ):
-        """Records nothing yet.
-
-        Args:
-          run: the run, whose folder is locked.
-          config: its configuration.
-          report: called with each row of metrics.
-          tell: called with a line for each checkpoint that is damaged, and when a watcher fails.
-          on_checkpoint: watches the network as it is trained.
-        """
+        """Records nothing yet; for the calls see `trainer.train`, by which the run's folder is locked."""
         self._run, self._config, self._tell = run, config, tell
         self._report = callbacks.expendable(report, tell, "the report of training")
         watch = on_checkpoint or (lambda frames, variables: None)

@@ -109,14 +109,7 @@ def of_curve(run: run_lib.Run) -> pyarrow.Table:
 def of_evaluation(
     rows: pyarrow.Table, config: config_lib.TrainConfig, trial: str, task_kwargs: Mapping[str, Any]
 ) -> pyarrow.Table:
-    """Returns the row of `EVALUATIONS` of the episodes, rows of `EPISODES`, that a run has played in a trial.
-
-    Args:
-      rows: the episodes.
-      config: of the run.
-      trial: the name of the trial.
-      task_kwargs: options of the task that differ from those of training.
-    """
+    """Returns the row of `EVALUATIONS` of the rows of `EPISODES` that a run has played in a trial; see `completed`."""
     frame = completed(rows, config, ["reward", "length", "interactions", "label"], task_kwargs=task_kwargs)
     row = {
         **_named(config),
@@ -134,14 +127,7 @@ def of_evaluation(
 def of_episodes(
     played: episodes.Episodes, config: config_lib.TrainConfig, trial: str, control_timestep: np.ndarray
 ) -> pyarrow.Table:
-    """Returns the rows of `EPISODES` of some episodes.
-
-    Args:
-      played: the episodes.
-      config: of the agent that played them.
-      trial: the name of the trial.
-      control_timestep: time between the actions of each episode, s, float64 [number of episodes].
-    """
+    """Returns the rows of `EPISODES` of what an agent has played in a trial, with the time between actions, s [N]."""
     return played.table(EPISODES, **_named(config), trial=trial, control_timestep=control_timestep)
 
 

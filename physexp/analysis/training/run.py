@@ -254,12 +254,7 @@ class Run:
         return metrics.read(self._metrics_path)
 
     def append_episodes(self, frames: int, rows: pyarrow.Table) -> None:
-        """Adds a part to `episodes.parquet`.
-
-        Args:
-          frames: of training, by now; they name the part.
-          rows: episodes, with the columns of `EPISODES`.
-        """
+        """Adds rows of `EPISODES` to `episodes.parquet`, as a part with the name of the frames trained by now."""
         folder = self.path / "episodes.parquet"
         folder.mkdir(exist_ok=True)
         tables.write(folder / f"part-{frames:015d}.parquet", rows, compression="zstd")

@@ -5,7 +5,7 @@ import functools
 import shutil
 
 from physexp import suite
-from physexp.agents import core, devices, guests, processes, registry
+from physexp.agents import core, devices, guests, networks, processes, registry, starting
 from physexp.analysis.training import callbacks, stopping
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import recorder as recorder_lib
@@ -22,9 +22,18 @@ def make_environment(config: config_lib.TrainConfig, seed: int, num_environments
     return suite.load_batch(config.domain, config.task, num_environments, task_kwargs, num_threads)
 
 
+def make_network(config: config_lib.TrainConfig) -> networks.RecurrentNetwork:
+    """Returns the network of a run's agent, its weights drawn from the seed."""
+    environment = make_environment(config, 0, 1, 1)
+    network = starting.make_network(registry.NETWORKS[config.agent.algorithm], environment, config.agent)
+    environment.close()
+    return network
+
+
+@guests.own_torch()
 def make_agent(config: config_lib.TrainConfig) -> core.Agent:
     """Returns the agent of a run, as it is before training."""
-    return registry.make(functools.partial(make_environment, config), config.agent)
+    return registry.AGENTS[config.agent.algorithm](functools.partial(make_environment, config), config.agent)
 
 
 def check(config: config_lib.TrainConfig) -> None:

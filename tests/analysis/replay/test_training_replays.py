@@ -6,7 +6,6 @@ import subprocess
 from rerun.chunk import RrdReader
 import trainers
 
-from physexp.agents import registry
 from physexp.analysis.replay import training, writing
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
@@ -53,7 +52,7 @@ def test_a_run_that_goes_on_counts_steps_from_its_last_replay(tmp_path, monkeypa
     for name in ("000000000003000", "000000000009000", "mine"):  # The second comes from frames that were lost.
         (run.path / "replays" / f"{name}.rrd").touch()
     config = dataclasses.replace(SMALL, replay_every=2000)
-    network = registry.make_network(trainer.make_environment(config, 0, 1, 1), config.agent)
+    network = trainer.make_network(config)
     written = []
     monkeypatch.setattr(writing, "write", lambda path, groups: written.append(path.name))
     for frames in (4999, 5000):

@@ -11,7 +11,6 @@ from seeds import fresh_seed
 import torch
 import trainers
 
-from physexp.agents import pretrained
 from physexp.analysis.data import episodes
 from physexp.analysis.training import finding, playing, trainer
 from physexp.analysis.training import run as run_lib
@@ -73,15 +72,6 @@ def test_evaluation_repeats_with_its_seed_and_differs_with_another(untrained):
     assert not (np.array_equal(first.length, other.length) and np.array_equal(first.reward, other.reward))
 
 
-def test_an_untrained_agent_answers_by_chance_with_either_interaction(untrained):
-    for interaction in playing.INTERACTIONS:
-        played = playing.evaluate(untrained, 400, interaction, seed=fresh_seed())
-        # Right with probability 1/4: the count stays within 6 standard deviations, 6 * sqrt(400 * 3/16) = 52.
-        assert abs((played.reward > 0).sum() - 100) < 53
-        assert set(np.unique(played.reward)) == {-1.0, 1.0}
-        assert (played.interactions <= played.length).all()
-
-
 def test_evaluation_refuses_what_makes_no_sense(untrained, tmp_path):
     with pytest.raises(ValueError, match="interaction is 'guessed'; choose from learned, random"):
         playing.evaluate(untrained, 10, "guessed")
@@ -105,15 +95,6 @@ def test_the_evaluated_network_is_that_of_the_last_checkpoint(untrained):
     played = playing.evaluate(untrained, 200, seed=fresh_seed())
     assert (played.length == 1).all() and not played.interactions.any()
     assert 0 < (played.reward > 0).sum() < 200
-
-
-NAMES = [name for name in pretrained.names() if "/" not in name]
-
-
-def test_every_shipped_agent_is_found_by_its_options():
-    for name in NAMES:
-        config = finding.find_agent(name).config
-        assert finding.find_agent(config.task_name, config.task_kwargs).config == config
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,5 @@
 """After damage to a run's folder, training goes on from the files that are whole, or says why it does not."""
 
-import os
 from pathlib import Path
 import random
 
@@ -10,7 +9,6 @@ from seeds import fresh_seed
 import torch
 import trainers
 
-from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
 
 
@@ -107,31 +105,6 @@ def test_a_folder_that_becomes_read_only_ends_training_which_can_go_on(tmp_path)
     assert f"the last checkpoint, after {reached:,} frames, is whole, --resume it" in line
     with run.locked():
         run.check_resumable()
-
-
-def remove_lock(run):
-    (run.path / ".lock").unlink()
-
-
-def move(run):
-    run.path.rename(run.path.with_name("moved"))
-
-
-@pytest.mark.parametrize(("happens", "name"), [(remove_lock, "run"), (move, "moved")])
-def test_a_trainer_that_loses_its_folder_stops_and_writes_nothing_more(happens, name, tmp_path):
-    run = trainers.create(tmp_path / "run", "ppo", frames=10**9, checkpoint_seconds=0.01, seed=fresh_seed())
-
-    def report(row):
-        if len(run.metrics()) == 2:
-            happens(run)
-
-    with pytest.raises(RuntimeError, match=r"\.lock was removed, or the folder moved; its last checkpoint is as it"):
-        trainer.train(run, report)
-    assert os.listdir(tmp_path) == [name], "nothing is made in the old place"
-    left = run_lib.Run(tmp_path / name)
-    left.check_resumable()
-    assert len(left.metrics()) == 2
-    assert int(left.checkpointer.latest()[0]["frames"]) == left.metrics()[-1]["frames"]
 
 
 def test_a_batch_that_cannot_be_saved_does_not_hide_why_training_stopped(tmp_path):

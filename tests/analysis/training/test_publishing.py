@@ -56,12 +56,6 @@ def test_the_agent_is_the_runs_rounded_to_half_precision(published):
         finding.find_agent(str(path), {"difficulty": 3})
 
 
-def test_the_command_on_the_card_describes_the_same_run(published):
-    run, path = published
-    command = pretrained.load_file(path).card["command"]
-    assert parsed(command) == ("which_is_heavier", "features", {"difficulty": 10.0}, run.config.agent)
-
-
 @pytest.mark.parametrize("name", pretrained.names())
 def test_the_command_of_an_agent_of_the_package_describes_it(name):
     card = pretrained.card_named(name)
@@ -76,7 +70,7 @@ def _another(value):
     if isinstance(value, str):
         return {"auto": "cpu", "attention": "lstm"}[value]
     if isinstance(value, tuple):
-        return (0.5, -1.0)
+        return (-1e-05, 0.5)
     return 2 * value or 1 if isinstance(value, int) else value / 2 + 0.001
 
 
@@ -123,14 +117,6 @@ def test_weights_that_are_not_finite_are_refused(worst, published, tmp_path):
     with pytest.raises(ValueError, match=f"^{where}.*policy.bias"):
         publishing.publish(run, tmp_path / "agents", num_episodes=1)
     assert not (tmp_path / "agents").exists()
-
-
-@pytest.mark.parametrize("name", ["nothing/at_all", "config.json", "towers-fist_feature"])
-def test_a_target_that_is_no_agent_is_refused_with_what_to_give(name, published):
-    target = str(published[0].path / name) if name == "config.json" else name
-    with pytest.raises(ValueError, match=r"give the folder of a run, .*NAME.safetensors") as refused:
-        finding.find_agent(target)
-    assert "\n" not in str(refused.value)
 
 
 def test_an_agent_of_another_network_than_its_task_needs_is_refused(published, tmp_path):

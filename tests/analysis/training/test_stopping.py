@@ -1,9 +1,7 @@
-"""A signal, a dead worker, a full disk: training ends clearly, and nothing before the last checkpoint is lost."""
+"""A signal, a dead worker, a loss that is not finite: training ends clearly, and its last checkpoint is whole."""
 
-import functools
 import os
 import re
-import resource
 import shlex
 import signal
 import subprocess
@@ -77,18 +75,6 @@ def test_ignored_signals_stay_ignored_and_handlers_are_put_back():
     assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
 
 
-def test_sigterm_to_all_processes_writes_a_checkpoint(tmp_path):
-    run = trainers.create(tmp_path / "run", frames=ENDLESS, checkpoint_seconds=3600.0)
-    with trainers.trainer(run) as process:
-        # No checkpoint is due: the one in the end was written because of the signal.
-        wait_until(run.metrics, "a row of metrics, and so something to keep")
-        os.killpg(process.pid, signal.SIGTERM)
-        _, errors = process.communicate()
-    assert process.returncode == 128 + signal.SIGTERM, errors
-    assert errors.splitlines()[-1] == "physexp: interrupted" and "Traceback" not in errors
-    assert_last_checkpoint_fits(run)
-
-
 def test_a_closed_terminal_ends_training_with_a_checkpoint(tmp_path):
     run = trainers.create(tmp_path / "run", frames=ENDLESS, checkpoint_seconds=3600.0)
     terminal, inside = os.openpty()
@@ -135,21 +121,12 @@ def test_ctrl_c_writes_a_checkpoint_and_the_printed_command_goes_on(tmp_path):
 # Workers.
 
 
-def have_both_played(run):
-    try:
-        found = run.checkpointer.latest()
-    except OSError:  # Replaced while it was read.
-        return False
-    return found is not None and bool((found[0]["rounds"] > 0).all())
-
-
 def test_a_killed_worker_ends_training_in_one_line_that_names_it(tmp_path):
     run = trainers.create(tmp_path / "run", frames=ENDLESS, num_workers=2)
     with trainers.trainer(run) as process:
-        wait_until(lambda: have_both_played(run), "rounds of both workers")
-        victims = trainers.workers(process)
-        assert len(victims) == 2
-        victims[0].kill()
+        trainers.wait_for_checkpoint(process, run)
+        wait_until(lambda: len(trainers.workers(process)) == 2, "both workers")
+        trainers.workers(process)[0].kill()
         _, errors = process.communicate()
     assert process.returncode == 1 and "Traceback" not in errors
     line = errors.splitlines()[-1]
@@ -183,22 +160,3 @@ def test_a_loss_that_is_not_finite_ends_training_and_leaves_the_batch(tmp_path):
         assert batch["lengths"].max() == steps
         assert len(batch["inputs"]) == batch["lengths"].sum()
     assert run.checkpointer.paths() == [checkpoint] and checkpoint.read_bytes() == content
-
-
-# Files.
-
-
-def test_a_full_disk_ends_training_and_keeps_the_last_checkpoint(tmp_path):
-    run = trainers.create(tmp_path / "run", frames=ENDLESS)
-    checkpoint = trainers.save_first_checkpoint(run)
-    content = checkpoint.read_bytes()
-    # A checkpoint is three times the parameters; the kernel refuses files of more than half of it.
-    limit = len(content) // 2
-    small_files = functools.partial(resource.setrlimit, resource.RLIMIT_FSIZE, (limit, limit))
-    with trainers.trainer(run, first=small_files) as process:
-        _, errors = process.communicate()
-    assert process.returncode in (1, 2)
-    assert "Traceback" not in errors and str(run.path) in errors.splitlines()[-1], errors
-    assert run.checkpointer.paths() == [checkpoint] and checkpoint.read_bytes() == content
-    assert_last_checkpoint_fits(run)
-    assert not list((run.path / "checkpoints").glob("*.tmp")), "a failed write leaves no litter"
