@@ -15,7 +15,7 @@ import numpy as np
 if TYPE_CHECKING:  # torch takes a second to import, and here only annotations name it.
     import torch
 
-    from physexp.agents import learning, rounds
+    from physexp.agents import rounds
 
 
 class Batch(Protocol):
@@ -124,10 +124,10 @@ class Learner(abc.ABC):
     """Improves variables from experience.
 
     Attributes:
-      variables: all that training changes.
+      variables: `learning.Variables`, all that training changes.
     """
 
-    variables: "learning.Variables[Any]"
+    variables: Any
 
     @abc.abstractmethod
     def step(self) -> dict[str, float]:
@@ -135,7 +135,8 @@ class Learner(abc.ABC):
 
     def save(self) -> "dict[str, torch.Tensor]":
         """Returns copies of all variables, by name, from which `restore` continues exactly."""
-        return self.variables.save()
+        tensors: dict[str, torch.Tensor] = self.variables.save()
+        return tensors
 
     def restore(self, tensors: "Mapping[str, torch.Tensor]") -> None:
         """Restores the result of `save`; raises ValueError if it does not fit."""
