@@ -72,7 +72,7 @@ def test_acting_logits_and_values_equal_those_of_training(domain, task):
     assert start == len(logits) == episodes.num_frames
 
 
-def test_kept_inputs_and_their_gradients_are_those_of_the_single_environment():
+def test_kept_inputs_and_gradients_equal_those_of_a_single_environment():
     # Episodes are rebuilt step by step in the single environment, and encoded anew.
     seed = fresh_seed()
     batch = suite.load_batch("which_is_heavier", "features", 6, {"random": seed})

@@ -127,7 +127,7 @@ def of_evaluation(
 def of_episodes(
     played: episodes.Episodes, config: config_lib.TrainConfig, trial: str, control_timestep: np.ndarray
 ) -> pyarrow.Table:
-    """Returns the rows of `EPISODES` of what an agent has played in a trial, with the time between actions, s [N]."""
+    """Returns an agent's episodes in a trial as rows of `EPISODES`, with the time between actions, s [N]."""
     return played.table(EPISODES, **_named(config), trial=trial, control_timestep=control_timestep)
 
 

@@ -212,7 +212,7 @@ class Task(abc.ABC):
     def begin(
         self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray, nuisances: np.ndarray
     ) -> tuple[list[tuple[str, np.ndarray, np.ndarray]], apparatus_lib.Starts]:
-        """Returns what N episodes start with: model fields, their addresses, int [M], and values, [N, M]; and states.
+        """Returns the model fields of N episodes with addresses, int [M], and values, [N, M], and their initial states.
 
         They follow from the hidden properties, [N, ...], and the nuisances, [N, 0] without variation.
         """
