@@ -128,7 +128,8 @@ def resting_domain(
     """Returns a domain whose apparatus rests between interactions, so that its ideal experimenter is exact.
 
     Args:
-      name, **facts: attributes of `Domain`.
+      name: name of the domain.
+      **facts: attributes of `Domain`.
       apparatus: returns the apparatus for the task's options.
       read: returns the reading in an observation of features.
     """
@@ -155,7 +156,8 @@ def search_domain(
     """Returns a domain with finitely many hidden properties, whose ideal experimenter is found by search.
 
     Args:
-      name, **facts: attributes of `Domain`.
+      name: name of the domain.
+      **facts: attributes of `Domain`.
       hypotheses: returns all values of the hidden property, [H, ...], and their probabilities, float64 [H].
       read_as: as for `hypotheses.Hypotheses`.
     """
