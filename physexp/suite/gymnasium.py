@@ -8,24 +8,45 @@ Importing this module registers every task, so that Gymnasium finds them by name
 """
 
 from collections.abc import Mapping
+import dataclasses
+import inspect
+import math
 from typing import Any, NoReturn
 
+import dm_env
+
 from physexp import checks, extras, suite
+from physexp.suite.engine import batch as batch_lib
+from physexp.suite.engine import contract, rendering, seeding
 
 extras.require("gymnasium")
 
 import gymnasium  # noqa: E402
-from gymnasium import error  # noqa: E402
+from gymnasium import error, spaces  # noqa: E402
 from gymnasium.vector import utils as vector_utils  # noqa: E402
 from gymnasium.vector import vector_env  # noqa: E402
 import numpy as np  # noqa: E402
 
-from physexp.suite import adapters  # noqa: E402
-
 Observation = dict[str, np.ndarray] | np.ndarray
 Infos = dict[str, Any]
 
-_RENDER_MODE = checks.optional(checks.word("rgb_array", "rgb_array_grid"))
+RENDER_MODE = checks.optional(checks.word("rgb_array"))
+"""The check of how one environment is drawn: as an array, or not at all."""
+
+_RENDER_MODE_OF_MANY = checks.optional(checks.word("rgb_array", "rgb_array_grid"))
+_SEED = checks.optional(checks.whole(0, seeding.LARGEST_SEED))
+_LARGEST_GRID = 1920  # Pixels, of the images of many environments side by side.
+
+
+def observation_space(spec: Mapping[str, dm_env.specs.Array], is_flat: bool = False) -> spaces.Space[Any]:
+    """Returns the space of observations, of flattened ones if `is_flat`; features have the bounds of their specs."""
+    boxes: dict[str, spaces.Space[Any]] = {}
+    for name, array in spec.items():
+        low, high = (0, 255) if array.dtype == np.uint8 else (-np.inf, np.inf)
+        if isinstance(array, dm_env.specs.BoundedArray):
+            low, high = (np.broadcast_to(side, array.shape) for side in (array.minimum, array.maximum))
+        boxes[name] = spaces.Box(low, high, array.shape, array.dtype)
+    return spaces.flatten_space(spaces.Dict(boxes)) if is_flat else spaces.Dict(boxes)
 
 
 class Environment(gymnasium.Env[Any, Any]):
@@ -51,14 +72,14 @@ class Environment(gymnasium.Env[Any, Any]):
           render_mode: `rgb_array`, or None.
           flat_observation: observe one vector of all arrays, sorted by name.
         """
-        adapters.RENDER_MODE("render_mode", render_mode)
-        self._is_flat = checks.flag("flat_observation", flat_observation)
-        adapters.refuse_unknown(Environment, domain, task_kwargs)
-        self._environment = suite.load(domain, task, task_kwargs=task_kwargs)
+        RENDER_MODE("render_mode", render_mode)
+        _refuse_unknown(Environment, domain, task_kwargs)
+        self._environment = suite.load(domain, task, task_kwargs, {"flat_observation": flat_observation})
+        self._is_flat = flat_observation
         self._playing = False
         self.render_mode = render_mode
-        self.metadata = {**self.metadata, "render_fps": adapters.frames_per_second(self._environment.task)}
-        self.observation_space = adapters.observation_space(self._environment.observation_spec(), self._is_flat)
+        self.metadata = {**self.metadata, "render_fps": _frames_per_second(self._environment.task)}
+        self.observation_space = observation_space(self._environment.task.observation_spec(), self._is_flat)
         self.action_space = gymnasium.spaces.Discrete(self._environment.action_spec().num_values)
         super().reset(seed=self._environment.task.options.random)  # `np_random_seed` is the seed that is played.
 
@@ -78,7 +99,7 @@ class Environment(gymnasium.Env[Any, Any]):
         The option `episode` is the index of another one. A reset with `info["seed"]` as the seed and
         `info["episode_index"]` as the option `episode` starts an episode again.
         """
-        seed, options = adapters.check_seed(seed), adapters.check_options(options, "episode")
+        seed, options = _SEED("seed", seed), _check_options(options, "episode")
         super().reset(seed=seed)
         task = self._environment.task
         if seed is not None:
@@ -98,7 +119,7 @@ class Environment(gymnasium.Env[Any, Any]):
           ValueError: if the action is not one of the action space's; the episode stays as it was.
           gymnasium.error.ResetNeeded: if no episode has begun, or it is over.
         """
-        adapters.check_started(self._playing)
+        _check_started(self._playing)
         task = self._environment.task
         diverged = task.num_divergences
         timestep = self._environment.step(action)
@@ -107,7 +128,7 @@ class Environment(gymnasium.Env[Any, Any]):
         info = {}
         if ended:
             of_one = (np.array([value]) for value in (task.steps, float(timestep.reward), task.correct_answer))
-            info = {name: values.item() for name, values in adapters.outcomes(task, *of_one).items()}
+            info = {name: values.item() for name, values in _outcomes(task, *of_one).items()}
         return self._shown(timestep.observation), float(timestep.reward), ended and not lost, lost, info
 
     def render(self) -> Any:
@@ -121,7 +142,7 @@ class Environment(gymnasium.Env[Any, Any]):
         self._environment.__reduce__()
 
     def _shown(self, observation: Mapping[str, np.ndarray]) -> Observation:
-        return adapters.flattened(observation) if self._is_flat else dict(observation)
+        return observation["observations"] if self._is_flat else dict(observation)
 
 
 class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
@@ -163,11 +184,11 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
           autoreset_mode: `next_step`, `same_step` or `disabled`, or one of Gymnasium's `AutoresetMode`.
           max_episode_steps: Gymnasium's own limit; episodes end by themselves, so it may not be less than the task's.
         """
-        _RENDER_MODE("render_mode", render_mode)
-        self.num_envs = adapters.check_num_envs(num_envs)
+        _RENDER_MODE_OF_MANY("render_mode", render_mode)
+        self.num_envs = checks.integer("num_envs", num_envs, 1, batch_lib.MOST_ENVIRONMENTS)
         self.autoreset_mode = _check_autoreset_mode(autoreset_mode)
         self._is_flat = checks.flag("flat_observation", flat_observation)
-        adapters.refuse_unknown(VectorEnvironment, domain, task_kwargs)
+        _refuse_unknown(VectorEnvironment, domain, task_kwargs)
         self._batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
         if max_episode_steps is not None:
             checks.integer("max_episode_steps", max_episode_steps, self._batch.task.rules.step_limit)
@@ -178,9 +199,9 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
         self.metadata = {
             **self.metadata,
             "autoreset_mode": self.autoreset_mode,
-            "render_fps": adapters.frames_per_second(self._batch.task),
+            "render_fps": _frames_per_second(self._batch.task),
         }
-        self.single_observation_space = adapters.observation_space(self._batch.observation_spec(), self._is_flat)
+        self.single_observation_space = observation_space(self._batch.observation_spec(), self._is_flat)
         self.single_action_space = gymnasium.spaces.Discrete(self._batch.action_spec().num_values)
         self.observation_space = vector_utils.batch_space(self.single_observation_space, num_envs)
         self.action_space = vector_utils.batch_space(self.single_action_space, num_envs)
@@ -204,7 +225,7 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
           options: `episode`, the index of the episode to start in place of the next one; `reset_mask`, bool
             [num_envs], true for the environments to reset, which are all at first.
         """
-        seed, options = adapters.check_seed(seed), adapters.check_options(options, "episode", "reset_mask")
+        seed, options = _SEED("seed", seed), _check_options(options, "episode", "reset_mask")
         mask = self._check_mask(options.get("reset_mask"), seed)
         super().reset(seed=seed)
         if seed is not None:
@@ -221,7 +242,7 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
           gymnasium.error.ResetNeeded: if `reset` has never been called, or, where `autoreset_mode` is `disabled`, if an
             episode is over.
         """
-        adapters.check_started(self._started)
+        _check_started(self._started)
         if self.autoreset_mode is vector_env.AutoresetMode.DISABLED and self._ended.any():
             raise error.ResetNeeded("an episode is over; reset it with options={'reset_mask': terminated | truncated}")
         timestep = self._batch.step(actions)  # Starts the next episode where one had ended before.
@@ -229,7 +250,7 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
         lost = ended & (rewards == 0)  # Only a diverged simulation ends without a verdict.
         self._observation, self._ended = dict(timestep.observation), ended
         batch = self._batch
-        infos = _masked(adapters.outcomes(batch.task, batch.steps, rewards, batch.correct_answers), ended)
+        infos = _masked(_outcomes(batch.task, batch.steps, rewards, batch.correct_answers), ended)
         if self.autoreset_mode is vector_env.AutoresetMode.SAME_STEP and ended.any():
             last = list(vector_utils.iterate(self.observation_space, self._shown()))
             final = np.full(self.num_envs, None, object)
@@ -238,15 +259,26 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
             infos = {"final_obs": final, "_final_obs": ended, "final_info": infos, "_final_info": ended.copy()}
             infos |= self._begin(ended)
         else:
-            infos |= _masked(adapters.beginnings(batch), timestep.first())
+            infos |= self._beginnings(timestep.first())
         return self._shown(), rewards, ended & ~lost, lost, infos
 
     def render(self) -> Any:
-        """Returns images for people as the render mode says: a tuple (see `adapters.images`) or one; or None."""
+        """Returns images for people as the render mode says: a tuple of one for each environment, or one; or None.
+
+        Images are uint8 [size, size, 3], of at most 480 pixels each and 1920 side by side. In a single one they are row
+        by row in a square, and places that are left over are black.
+        """
         if self.render_mode is None:
             return None
-        drawn = adapters.images(self._batch)
-        return drawn if self.render_mode == "rgb_array" else adapters.grid(drawn)
+        per_side = math.ceil(math.sqrt(self.num_envs))
+        size = min(rendering.SIZE_FOR_PEOPLE, _LARGEST_GRID // per_side)
+        images = self._batch.render(size)
+        if self.render_mode == "rgb_array":
+            return tuple(images)
+        rows = math.ceil(self.num_envs / per_side)
+        tiles = np.zeros((rows * per_side, size, size, 3), np.uint8)
+        tiles[: self.num_envs] = images
+        return tiles.reshape(rows, per_side, size, size, 3).swapaxes(1, 2).reshape(rows * size, per_side * size, 3)
 
     def close_extras(self, **kwargs: Any) -> None:
         self._batch.close()
@@ -260,12 +292,17 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
         for name, values in first.items():
             self._observation[name][mask] = values
         self._ended = self._ended & ~mask
-        return _masked(adapters.beginnings(self._batch), mask)
+        return self._beginnings(mask)
+
+    def _beginnings(self, mask: np.ndarray) -> Infos:
+        """Returns the infos of episodes that have begun: seeds and indices, which rebuild them."""
+        return _masked({"seed": self._batch.seeds, "episode_index": self._batch.episodes}, mask)
 
     def _shown(self) -> Observation:
         """Returns the observations, which nothing changes later."""
         if self._is_flat:
-            return adapters.flattened(self._observation, 1)
+            arrays = (self._observation[name] for name in sorted(self._observation))
+            return np.concatenate([array.reshape(self.num_envs, -1) for array in arrays], axis=-1)
         return {name: values.copy() for name, values in self._observation.items()}
 
     def _check_mask(self, mask: Any, seed: int | None) -> np.ndarray:
@@ -276,10 +313,53 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
         if array.dtype != bool or array.shape != (self.num_envs,) or not array.any():
             raise ValueError(f"reset_mask is {checks.shown(mask)}; give {self.num_envs} booleans, one of them true")
         if not array.all():
-            adapters.check_started(self._started)
+            _check_started(self._started)
             if seed is not None:
                 raise ValueError(f"seed is {seed} beside a reset_mask; a seed starts all environments: reset all")
         return array
+
+
+def _refuse_unknown(kind: type, domain: str, task_kwargs: Mapping[str, Any]) -> None:
+    """Raises TypeError, as Python does, for a keyword that neither a class nor the domain's options have."""
+    own = list(inspect.signature(kind).parameters)[2:-1]  # Between the names of the task and its options.
+    allowed = [*own, *(field.name for field in dataclasses.fields(suite.options(domain)))]
+    for name in task_kwargs:
+        if name not in allowed:
+            raise TypeError(
+                f"{kind.__name__} got an unexpected keyword argument {name!r}; allowed: {', '.join(allowed)}"
+            )
+
+
+def _check_options(options: Any, *allowed: str) -> dict[str, Any]:
+    """Returns the options of a reset; raises ValueError for an unknown one, or an index that no episode has."""
+    if not isinstance(options, Mapping | None):
+        raise ValueError(f"options is {checks.shown(options)}; give a dictionary with {', '.join(allowed)}, or None")
+    found = dict(options or {})
+    for name in found:
+        if name not in allowed:
+            raise ValueError(f"options has {checks.shown(name)}; allowed: {', '.join(allowed)}")
+    if "episode" in found:
+        found["episode"] = checks.integer("episode", found["episode"], 0, seeding.LAST_EPISODE)
+    return found
+
+
+def _check_started(started: bool) -> None:
+    """Raises `gymnasium.error.ResetNeeded` if no episode has begun."""
+    if not started:
+        raise error.ResetNeeded("there is no episode to step in; call reset() first")
+
+
+def _frames_per_second(task: contract.Task) -> int:
+    """Returns how many images a second of an episode has."""
+    return max(1, round(1 / task.options.control_timestep))
+
+
+def _outcomes(
+    task: contract.Task, steps: np.ndarray, rewards: np.ndarray, answers: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Returns the infos of N episodes that have ended, arrays [N], from their steps, last rewards and right labels."""
+    returns = rewards * task.discount ** (steps - 1.0)
+    return {"correct_answer": answers, "discounted_return": returns, "is_success": rewards > 0}
 
 
 def _check_autoreset_mode(given: Any) -> vector_env.AutoresetMode:

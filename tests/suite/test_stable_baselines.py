@@ -51,17 +51,17 @@ def test_the_seeds_that_are_told_rebuild_the_episodes(seed):
         again = suite.load("which_is_heavier", "features", {"random": info["seed"]})
         again.task.next_episode = info["episode_index"]
         again.reset()
-        np.testing.assert_array_equal(again.task.hidden, vector._batch.hidden[row])
+        np.testing.assert_array_equal(again.task.hidden, vector.batch.hidden[row])
     vector.reset()
     assert [info["episode_index"] for info in vector.reset_infos] == [5, 6, 5]
 
 
 def test_keywords_and_options_that_there_are_not_are_refused():
-    with pytest.raises(TypeError, match="^VecEnv got an unexpected keyword argument 'frameskip'; allowed: num_envs, "):
+    with pytest.raises(TypeError, match="got an unexpected keyword argument 'frameskip'; allowed: num_envs, "):
         stable_baselines.VecEnv("threshold", "features", 2, frameskip=1)
     vector = stable_baselines.VecEnv("threshold", "features", 2)
     vector.set_options({"episodes": 1})
-    with pytest.raises(ValueError, match="^options has 'episodes'; allowed: episode$"):
+    with pytest.raises(ValueError, match="^options has 'episodes'; allowed: episode"):
         vector.reset()
     vector.set_options([{"episode": 1}, {"episode": 2}])
     with pytest.raises(ValueError, match="^options differ between environments; give all the same$"):
@@ -71,8 +71,8 @@ def test_keywords_and_options_that_there_are_not_are_refused():
 def test_an_episode_whose_simulation_diverges_is_truncated_and_no_other_is(caplog):
     vector = stable_baselines.VecEnv("which_is_heavier", "features", 3, random=0)
     vector.reset()
-    snapshots.view(vector._batch, "qvel", 1)[0] = np.nan
-    _, rewards, dones, infos = vector.step(np.array([0, 0, 4 + (vector._batch.correct_answers[2] + 1) % 4]))
+    snapshots.view(vector.batch, "qvel", 1)[0] = np.nan
+    _, rewards, dones, infos = vector.step(np.array([0, 0, 4 + (vector.batch.correct_answers[2] + 1) % 4]))
     assert dones.tolist() == [False, True, True] and rewards.tolist() == [0, 0, -1]
     assert infos[1]["TimeLimit.truncated"] is True and infos[2]["TimeLimit.truncated"] is False
     vector.close()

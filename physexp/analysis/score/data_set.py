@@ -16,7 +16,6 @@ import minari  # noqa: E402
 from minari.data_collector.episode_buffer import EpisodeBuffer  # noqa: E402
 from minari.dataset.minari_storage import MinariStorage  # noqa: E402
 
-from physexp.suite import adapters  # noqa: E402
 from physexp.suite import gymnasium as environments  # noqa: E402
 
 _OF_EPISODE = ("answer", "hidden")
@@ -42,7 +41,7 @@ class DataSet:
         path.mkdir(parents=True)
         self._storage = MinariStorage.new(
             path,
-            observation_space=adapters.observation_space(question.observation_spec),
+            observation_space=environments.observation_space(question.observation_spec),
             action_space=gymnasium.spaces.Discrete(question.num_actions),
             env_spec=gymnasium.spec(environments.environment_id(question.domain, question.task)),
             jpeg_encoding=False,  # It would change images.
