@@ -121,26 +121,11 @@ class EpisodicActor(Actor):
 
 
 class Learner(abc.ABC):
-    """Improves variables from experience.
-
-    Attributes:
-      variables: `learning.Variables`, all that training changes.
-    """
-
-    variables: Any
+    """Improves variables from experience."""
 
     @abc.abstractmethod
     def step(self) -> dict[str, float]:
         """Performs one update; returns its metrics."""
-
-    def save(self) -> "dict[str, torch.Tensor]":
-        """Returns copies of all variables, by name, from which `restore` continues exactly."""
-        tensors: dict[str, torch.Tensor] = self.variables.save()
-        return tensors
-
-    def restore(self, tensors: "Mapping[str, torch.Tensor]") -> None:
-        """Restores the result of `save`; raises ValueError if it does not fit."""
-        self.variables.restore(tensors)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -162,28 +147,36 @@ class Update:
 
 
 class Agent(abc.ABC):
-    """Acts and learns until it has trained for its configured number of frames."""
+    """Acts and learns until it has trained for its configured number of frames.
+
+    Attributes:
+      variables: `learning.Variables`, all that training changes.
+    """
+
+    variables: Any
+    _is_stopping = False
 
     @property
-    @abc.abstractmethod
     def frames(self) -> int:
         """Returns the environment steps trained on."""
+        return int(self.variables.frames)
 
     @abc.abstractmethod
     def updates(self) -> Generator[Update | None, None, None]:
         """Trains until `frames` or `stop`; yields each update, or None if none came in time; raises AgentError."""
 
-    @abc.abstractmethod
     def stop(self) -> None:
         """Ends training after the current update; may be called by a signal's handler."""
+        self._is_stopping = True
 
-    @abc.abstractmethod
     def save(self) -> "dict[str, torch.Tensor]":
         """Returns a consistent copy of all variables by name, between two updates."""
+        tensors: dict[str, torch.Tensor] = self.variables.save()
+        return tensors
 
-    @abc.abstractmethod
     def restore(self, tensors: "Mapping[str, torch.Tensor]") -> None:
         """Restores the result of `save`, before `updates`; raises ValueError if it does not fit the configuration."""
+        self.variables.restore(tensors)
 
 
 class AgentError(RuntimeError):

@@ -1,5 +1,6 @@
-"""The device that a network computes on, and its precision."""
+"""How torch computes: the device, its precision, and settings that leave the caller's alone."""
 
+from collections.abc import Iterator
 import contextlib
 import functools
 from pathlib import Path
@@ -35,3 +36,21 @@ def _has_fast_bfloat16(device_type: str) -> bool:
         return bool(torch.cuda.is_bf16_supported(including_emulation=False))
     cpuinfo = Path("/proc/cpuinfo")
     return cpuinfo.exists() and " amx_bf16 " in cpuinfo.read_text(encoding="utf-8")
+
+
+@contextlib.contextmanager
+def own_torch(num_threads: int = 1) -> Iterator[None]:
+    """Returns a context in which torch has its usual settings, and these threads; it decorates functions, too.
+
+    The settings are the random state, the number of threads, the default type, and that gradients are computed.
+    Afterwards the caller finds its own.
+    """
+    threads, dtype = torch.get_num_threads(), torch.get_default_dtype()
+    try:
+        torch.set_num_threads(num_threads)
+        torch.set_default_dtype(torch.float32)
+        with torch.random.fork_rng(devices=[]), torch.inference_mode(False), torch.enable_grad():
+            yield
+    finally:
+        torch.set_default_dtype(dtype)
+        torch.set_num_threads(threads)

@@ -30,11 +30,8 @@ class Variables(Generic[Network]):
     def __init__(self, network: Network, num_workers: int = 1, weight_decay: float = 0.0):
         """Makes an optimizer for a network, and counters at zero.
 
-        Args:
-          network: the network.
-          num_workers: number of workers.
-          weight_decay: each step shrinks the weights, but not the biases, by this times the learning rate (Loshchilov &
-            Hutter, 2019).
+        Each step shrinks the weights, but not the biases, by `weight_decay` times the learning rate (Loshchilov &
+        Hutter, 2019).
         """
         self.network = network
         self._trained = {name: each for name, each in network.named_parameters() if each.requires_grad}
@@ -93,10 +90,12 @@ class Variables(Generic[Network]):
             group["lr"] = learning_rate
         self.optimizer.step()
 
-    def count(self, num_frames: int) -> None:
-        """Counts an update that was made from `num_frames` environment steps."""
+    def count(self, num_frames: int, worker: int = 0) -> dict[str, float]:
+        """Counts a worker's round of `num_frames` environment steps and its update; returns both counts by name."""
+        self.rounds[worker] += 1
         self.frames += num_frames
         self.updates += 1
+        return {"updates": int(self.updates), "frames": int(self.frames)}
 
 
 def network_variables(tensors: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:
@@ -110,11 +109,8 @@ def targets(
 ) -> tuple[torch.Tensor, torch.Tensor]:
     """Computes returns and advantages of a round's actions, packed, float32 [N] each.
 
-    Args:
-      episodes: the round.
-      values: estimates of the return at each action, packed, [N].
-      discount: the agent's gamma.
-      trace: lambda of generalized advantage estimation, see `losses.generalized_advantages`.
+    `values` estimate the return at each action, packed, [N]; `trace` is the lambda of
+    `losses.generalized_advantages`.
     """
     rewards, played = torch.from_numpy(episodes.rewards), torch.from_numpy(episodes.played)
     goes_on = np.arange(len(episodes.actions))[:, None] < episodes.lengths - 1
@@ -126,27 +122,32 @@ def targets(
 
 
 def actor_critic_gradients(
-    network: torch.nn.Module,
-    parts: tuple[torch.Tensor, torch.Tensor, torch.Tensor],
-    entropy_cost: float,
-    config: config_lib.ActorCriticConfig,
+    network: networks.RecurrentActorCritic,
     episodes: rounds.Round,
+    config: config_lib.ActorCriticConfig,
+    entropy_cost: float,
+    policy_loss: losses.PolicyLoss = losses.policy_gradient_loss,
 ) -> tuple[list[torch.Tensor], dict[str, float]]:
     """Returns the clipped gradient of an actor-critic's loss for each parameter, and the metrics of the loss.
 
-    Args:
-      network: the network.
-      parts: the loss of the policy, that of the baseline, and the entropy.
-      entropy_cost: weight of the entropy.
-      config: the agent's configuration, with the weight of the baseline.
-      episodes: as for `clipped_gradients`, which raises its error.
+    The network is unrolled over whole episodes, in the order of `Round.select`. Advantages are relative to the values
+    that were estimated when they were played, or else to the network's own. Raises as `clipped_gradients`.
     """
-    policy_loss, baseline_loss, entropy = parts
-    loss = policy_loss + config.baseline_cost * baseline_loss - entropy_cost * entropy
+    inputs = network.encode(episodes.observation) if episodes.inputs is None else episodes.inputs
+    logits, values = network.unroll(inputs, episodes.batch_sizes)
+    expected = values.detach().cpu() if episodes.values is None else episodes.values
+    returns, advantages = targets(episodes, expected, config.discount, config.gae_lambda)
+    actions, returns, advantages = (
+        array.to(logits.device) for array in (episodes.packed(episodes.actions), returns, advantages)
+    )
+    policy, baseline, entropy = losses.actor_critic_losses(
+        logits, values, actions, returns, advantages, config.entropy_prior, policy_loss
+    )
+    loss = policy + config.baseline_cost * baseline - entropy_cost * entropy
     gradients, norm = clipped_gradients(network, loss, episodes)
     return gradients, {
-        "policy_loss": policy_loss.item(),
-        "baseline_loss": baseline_loss.item(),
+        "policy_loss": policy.item(),
+        "baseline_loss": baseline.item(),
         "entropy": entropy.item(),
         "gradient_norm": norm,
     }

@@ -1,11 +1,11 @@
 """Returns and losses as pure functions on tensors with leading axes [T, B] (time, episode)."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import torch
 
-Losses = tuple[torch.Tensor, torch.Tensor, torch.Tensor]
-"""Policy loss, baseline loss and entropy."""
+PolicyLoss = Callable[[torch.Tensor, torch.Tensor], torch.Tensor]
+"""Maps log probabilities of the actions taken and their advantages, [...], to a loss."""
 
 
 def discounted_returns(rewards: torch.Tensor, discounts: torch.Tensor) -> torch.Tensor:
@@ -52,6 +52,30 @@ def generalized_advantages(
     return advantages
 
 
+def policy_gradient_loss(chosen: torch.Tensor, advantages: torch.Tensor) -> torch.Tensor:
+    """Returns the mean of -log pi(a) times the advantage; see `PolicyLoss`."""
+    return -(chosen * advantages.detach()).mean()
+
+
+def clipped_policy_loss(behaviour: torch.Tensor, clip: float) -> PolicyLoss:
+    """Returns the policy loss of PPO (Schulman et al., 2017, equation 7).
+
+    It is the mean of -min(ratio times the advantage, clipped ratio times the advantage), with the ratio of the policy's
+    probability of an action to that under the policy that took it. Past a ratio of 1 - epsilon or 1 + epsilon an action
+    gains nothing more.
+
+    Args:
+      behaviour: log probabilities of the actions under the policy that took them, [...].
+      clip: epsilon.
+    """
+
+    def loss(chosen: torch.Tensor, advantages: torch.Tensor) -> torch.Tensor:
+        ratios = (chosen - behaviour).exp()
+        return -torch.minimum(ratios * advantages, ratios.clamp(1 - clip, 1 + clip) * advantages).mean()
+
+    return loss
+
+
 def actor_critic_losses(
     logits: torch.Tensor,
     values: torch.Tensor,
@@ -59,7 +83,8 @@ def actor_critic_losses(
     returns: torch.Tensor,
     advantages: torch.Tensor,
     prior: Sequence[float] = (),
-) -> Losses:
+    policy_loss: PolicyLoss = policy_gradient_loss,
+) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
     """Computes the three losses of advantage actor-critic (Mnih et al., 2016, Section 4), means over all leading axes.
 
     Args:
@@ -69,51 +94,14 @@ def actor_critic_losses(
       returns: returns that followed, the targets of the values, [...].
       advantages: by how much each action was better than expected, [...]; constants.
       prior: logits of a policy, one for each action, which the entropy is relative to; none for the uniform policy.
+      policy_loss: the loss of the actions taken.
 
     Returns:
-      Policy loss, -log pi(a) times the advantage; baseline loss, half the squared error of the values; and the mean
-      entropy of the policy (nats), to which a prior adds the mean of its logits: it is largest at the prior's policy.
+      Policy loss; baseline loss, half the squared error of the values; and the mean entropy of the policy (nats), to
+      which a prior adds the mean of its logits: it is largest at the prior's policy.
     """
     log_probabilities = torch.log_softmax(logits, dim=-1)
-    policy_loss = -(_of_actions(log_probabilities, actions) * advantages.detach()).mean()
-    return policy_loss, _baseline_loss(values, returns), _entropy(log_probabilities, prior)
-
-
-def clipped_losses(
-    logits: torch.Tensor,
-    values: torch.Tensor,
-    actions: torch.Tensor,
-    behaviour: torch.Tensor,
-    returns: torch.Tensor,
-    advantages: torch.Tensor,
-    clip: float,
-    prior: Sequence[float] = (),
-) -> Losses:
-    """Computes the three losses of PPO (Schulman et al., 2017, equations 7 and 9), means over all leading axes.
-
-    Args:
-      logits, values, actions, returns, advantages, prior: as for `actor_critic_losses`.
-      behaviour: log probabilities of the actions under the policy that took them, [...].
-      clip: epsilon: past a ratio of 1 - epsilon or 1 + epsilon, an action gains nothing more.
-
-    Returns:
-      Policy loss, -min(ratio times the advantage, clipped ratio times the advantage); baseline loss and entropy as of
-      `actor_critic_losses`.
-    """
-    log_probabilities = torch.log_softmax(logits, dim=-1)
-    ratios = (_of_actions(log_probabilities, actions) - behaviour).exp()
-    gains = torch.minimum(ratios * advantages, ratios.clamp(1 - clip, 1 + clip) * advantages)
-    return -gains.mean(), _baseline_loss(values, returns), _entropy(log_probabilities, prior)
-
-
-def _of_actions(log_probabilities: torch.Tensor, actions: torch.Tensor) -> torch.Tensor:
-    return log_probabilities.gather(-1, actions[..., None]).squeeze(-1)
-
-
-def _baseline_loss(values: torch.Tensor, returns: torch.Tensor) -> torch.Tensor:
-    return 0.5 * (returns - values).square().mean()
-
-
-def _entropy(log_probabilities: torch.Tensor, prior: Sequence[float]) -> torch.Tensor:
+    chosen = log_probabilities.gather(-1, actions[..., None]).squeeze(-1)
     relative = log_probabilities - log_probabilities.new_tensor(prior) if prior else log_probabilities
-    return -(log_probabilities.exp() * relative).sum(-1).mean()
+    entropy = -(log_probabilities.exp() * relative).sum(-1).mean()
+    return policy_loss(chosen, advantages), 0.5 * (returns - values).square().mean(), entropy

@@ -10,7 +10,7 @@ import numpy as np
 import torch
 
 from physexp import checks
-from physexp.agents import acting, config, core, files, guests, networks, registry
+from physexp.agents import acting, config, core, devices, files, networks, registry
 from physexp.agents import tensors as tensors_lib
 
 FOLDER = Path(__file__).with_name("pretrained_agents")
@@ -124,7 +124,7 @@ def _make(facts: Mapping[str, Any], seed: int = 0) -> networks.RecurrentNetwork:
     for key, value in facts["hyperparameters"].items():
         if not checks.is_number(value) and not isinstance(value, str):
             raise ValueError(f"{key} is {value!r}")
-    with guests.own_torch():
+    with devices.own_torch():
         torch.default_generator.manual_seed(seed)
         return _KINDS[facts["kind"]](observation_spec, facts["num_actions"], **facts["hyperparameters"])
 

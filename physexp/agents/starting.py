@@ -5,7 +5,7 @@ from typing import TypeVar
 import numpy as np
 import torch
 
-from physexp.agents import acting, core, guests, networks
+from physexp.agents import acting, core, devices, networks
 from physexp.agents import config as config_lib
 
 Network = TypeVar("Network", bound=networks.RecurrentNetwork)
@@ -13,7 +13,7 @@ Network = TypeVar("Network", bound=networks.RecurrentNetwork)
 
 def make_network(kind: type[Network], environment: core.Batch, config: config_lib.AgentConfig) -> Network:
     """Returns a network of a kind for an environment's specs, its weights drawn from the configuration's seed."""
-    with guests.own_torch():
+    with devices.own_torch():
         torch.default_generator.manual_seed(config.seed)
         return kind(
             environment.observation_spec(),

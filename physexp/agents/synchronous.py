@@ -1,13 +1,13 @@
 """Agents of one process, which play a round of whole episodes and learn from it in turns."""
 
-from collections.abc import Generator, Mapping
+from collections.abc import Generator
 
-import torch
+from physexp.agents import core, devices, rounds, starting
+from physexp.agents.belief import config as belief
+from physexp.agents.ppo import config as ppo
 
-from physexp.agents import core, guests, rounds
 
-
-class SynchronousLearner(core.Learner):
+class SynchronousAgent(core.Agent, core.Learner):
     """Plays a round at each step, with the parameters that all rounds before have led to.
 
     Attributes:
@@ -16,45 +16,28 @@ class SynchronousLearner(core.Learner):
 
     last_round: rounds.Round
 
+    def __init__(
+        self,
+        make_environment: core.EnvironmentFactory,
+        num_environments: int,
+        config: belief.BeliefConfig | ppo.PPOConfig,
+    ):
+        """Makes the environments."""
+        self._max_frames, self._num_threads = config.frames, config.num_threads
+        self._seed = starting.worker_seed(config.seed, 0)
+        self._environment = make_environment(self._seed, num_environments, config.num_threads)
+
     @property
     def next_episode(self) -> int:
         """Returns the index of the episodes that the next step plays."""
         return int(self.variables.rounds[0])
 
-
-class SynchronousAgent(core.Agent):
-    """Takes the steps of a learner."""
-
-    def __init__(self, learner: SynchronousLearner, frames: int, seed: int, num_threads: int):
-        """Takes a learner, the frames to train it for, and the seed of its environments.
-
-        Convolutions are computed in `num_threads`; without images one thread is faster.
-        """
-        self._learner, self._max_frames, self._seed = learner, frames, seed
-        self._num_threads = num_threads if learner.variables.network.sees_images else 1
-        self._is_stopping = False
-
-    @property
-    def frames(self) -> int:
-        """Returns the environment steps trained on."""
-        return int(self._learner.variables.frames)
-
     def updates(self) -> Generator[core.Update | None, None, None]:
         """Yields each update until all frames are done or `stop` was called."""
+        # Convolutions are computed in all threads; without images one thread is faster.
+        num_threads = self._num_threads if self.variables.network.sees_images else 1
         while not self._is_stopping and self.frames < self._max_frames:
-            episode = self._learner.next_episode
-            with guests.own_torch(self._num_threads):
-                metrics = self._learner.step()
-            yield core.Update(self._seed, episode, metrics, self._learner.last_round.record())
-
-    def stop(self) -> None:
-        """Asks it to end after the update under way; may be called by a signal's handler."""
-        self._is_stopping = True
-
-    def save(self) -> dict[str, torch.Tensor]:
-        """Returns copies of all variables, by name."""
-        return self._learner.save()
-
-    def restore(self, tensors: Mapping[str, torch.Tensor]) -> None:
-        """Takes up the tensors of `save`; raises ValueError if they do not fit."""
-        self._learner.restore(tensors)
+            episode = self.next_episode
+            with devices.own_torch(num_threads):
+                metrics = self.step()
+            yield core.Update(self._seed, episode, metrics, self.last_round.record())

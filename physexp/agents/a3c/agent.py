@@ -1,7 +1,7 @@
 """A3C's agent: processes that act and learn asynchronously on shared variables (Mnih et al., 2016)."""
 
 import collections
-from collections.abc import Generator, Iterator, Mapping
+from collections.abc import Generator, Iterator
 import contextlib
 from multiprocessing import connection, process
 from typing import Any
@@ -10,7 +10,7 @@ import torch
 
 from physexp.agents import core, learning, processes, starting
 from physexp.agents.a3c import config as config_lib
-from physexp.agents.a3c import worker
+from physexp.agents.a3c import learning as a3c_learning
 
 _POLL_SECONDS = 0.5  # At most until the caller looks for signals and checkpoints, without any update.
 _LOCK_SECONDS = 0.01  # Between looks at the workers while one of them holds the lock.
@@ -29,30 +29,16 @@ class A3C(core.Agent):
         environment = make_environment(config.seed, 1, 1)
         network = starting.initial_network(environment, config)
         environment.close()
-        self._variables = learning.Variables(network, config.num_workers).share_memory()
+        self.variables = learning.Variables(network, config.num_workers).share_memory()
         self._context = processes.spawning()
         self._lock = self._context.Lock()  # Held while the variables are read or written.
         self._workers: dict[connection.Connection[None, Any], process.BaseProcess] = {}  # By the pipe each writes to.
         self._received: collections.deque[core.Update] = collections.deque()
-        self._is_stopping = False
-
-    @property
-    def frames(self) -> int:
-        """Returns the environment steps trained on."""
-        return int(self._variables.frames)
 
     def save(self) -> dict[str, torch.Tensor]:
         """Returns a copy of all variables between two updates; raises WorkerError if a worker has died."""
         with self._locked():
-            return self._variables.save()
-
-    def restore(self, tensors: Mapping[str, torch.Tensor]) -> None:
-        """Takes up the tensors of `save`; raises ValueError if they do not fit."""
-        self._variables.restore(tensors)
-
-    def stop(self) -> None:
-        """Asks training to end; may be called by a signal's handler."""
-        self._is_stopping = True
+            return super().save()
 
     def updates(self) -> Generator[core.Update | None, None, None]:
         """Yields each update; when a worker dies, raises WorkerError and ends the others."""
@@ -75,8 +61,10 @@ class A3C(core.Agent):
         with processes.inherited_by_workers():
             for index in range(self._config.num_workers):
                 receiver, sender = self._context.Pipe(duplex=False)
-                arguments = (index, self._make_environment, self._config, self._variables, self._lock, sender)
-                started = self._context.Process(target=worker.run, args=arguments, name=f"worker {index}", daemon=True)
+                arguments = (index, self._make_environment, self._config, self.variables, self._lock, sender)
+                started = self._context.Process(
+                    target=a3c_learning.run, args=arguments, name=f"worker {index}", daemon=True
+                )
                 self._workers[receiver] = started
                 started.start()
                 sender.close()  # The worker has the only open end, so the pipe ends when it does.

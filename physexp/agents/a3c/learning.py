@@ -1,12 +1,15 @@
-"""A3C's learner: gradients of whole episodes, applied to variables that all workers share."""
+"""A3C's workers: gradients of whole episodes, applied to variables that all workers share."""
 
-from collections.abc import Callable, Sequence
-from multiprocessing import synchronize
+from collections.abc import Callable
+from multiprocessing import connection, synchronize
+import traceback
 
 import torch
 
-from physexp.agents import acting, core, devices, learning, losses, networks, rounds, starting
+from physexp.agents import acting, core, devices, learning, networks, processes, starting
 from physexp.agents.a3c import config as config_lib
+
+Variables = learning.Variables[networks.RecurrentActorCritic]
 
 
 class A3CLearner(core.Learner):
@@ -21,7 +24,7 @@ class A3CLearner(core.Learner):
         worker: int,
         make_environment: core.EnvironmentFactory,
         config: config_lib.A3CConfig,
-        variables: learning.Variables[networks.RecurrentActorCritic],
+        variables: Variables,
         lock: synchronize.Lock,
         send: Callable[[core.Update], None],
     ):
@@ -34,45 +37,40 @@ class A3CLearner(core.Learner):
 
     def step(self) -> dict[str, float]:
         """Makes one update; returns its metrics."""
-        config, variables = self._config, self.variables
+        config, variables, worker = self._config, self.variables, self._worker
         with self._lock:
             self._network.load_state_dict(variables.network.state_dict())
-            frames, updates = int(variables.frames), int(variables.updates)
-            episode = int(variables.rounds[self._worker])
+            frames, updates, episode = int(variables.frames), int(variables.updates), int(variables.rounds[worker])
         learning_rate, entropy_cost = config.at(frames)
-        choose = acting.drawn(starting.round_generator(config.seed, self._worker, episode))
+        choose = acting.drawn(starting.round_generator(config.seed, worker, episode))
         episodes = acting.play_round(self._network, self._environment, episode, choose, keep_inputs=True)
-        parts = round_losses(self._network, episodes, config.discount, config.gae_lambda, config.entropy_prior)
-        gradients, metrics = learning.actor_critic_gradients(self._network, parts, entropy_cost, config, episodes)
+        gradients, metrics = learning.actor_critic_gradients(self._network, episodes.select(), config, entropy_cost)
         with self._lock:
             staleness = int(variables.updates) - updates
-            variables.rounds[self._worker] += 1
             variables.apply(gradients, learning_rate)
-            variables.count(episodes.num_frames)
-            metrics |= {
-                "learning_rate": learning_rate,
-                "entropy_cost": entropy_cost,
-                "updates": int(variables.updates),
-                "frames": int(variables.frames),
-                "staleness": staleness,
-            }
+            metrics |= {"learning_rate": learning_rate, "entropy_cost": entropy_cost, "staleness": staleness}
+            metrics |= variables.count(episodes.num_frames, worker)
             self._send(core.Update(self._seed, episode, metrics, episodes.record()))
         return metrics
 
 
-def round_losses(
-    network: networks.RecurrentActorCritic,
-    episodes: rounds.Round,
-    discount: float,
-    trace: float = 1.0,
-    prior: Sequence[float] = (),
-) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
-    """Computes the losses of a round (see `losses.actor_critic_losses`), the network unrolled over whole episodes."""
-    episodes = episodes.select()
-    assert isinstance(episodes.inputs, torch.Tensor)
-    logits, values = network.unroll(episodes.inputs, episodes.batch_sizes)
-    returns, advantages = learning.targets(episodes, values.detach().cpu(), discount, trace)
-    actions, returns, advantages = (
-        array.to(logits.device) for array in (episodes.packed(episodes.actions), returns, advantages)
-    )
-    return losses.actor_critic_losses(logits, values, actions, returns, advantages, prior)
+def run(
+    index: int,
+    make_environment: core.EnvironmentFactory,
+    config: config_lib.A3CConfig,
+    variables: Variables,
+    lock: synchronize.Lock,
+    sender: "connection.Connection[core.Update | core.WorkerError, None]",
+) -> None:
+    """Trains in a process of its own until all frames are done; sends each update, and the error that ends it."""
+    processes.begin()
+    torch.set_num_threads(1)
+    try:
+        learner = A3CLearner(index, make_environment, config, variables, lock, sender.send)
+        while int(variables.frames) < config.frames:
+            learner.step()
+    except core.DivergedError as error:
+        sender.send(core.WorkerError(f"worker {index}: {error}", error.batch))
+    except Exception as error:
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        sender.send(core.WorkerError(f"worker {index}: {error!r} at {place.filename}:{place.lineno}"))

@@ -1,29 +1,170 @@
-"""The belief learner's agent: plays a round of whole episodes, learns from all that it has kept, and so on."""
+"""The belief learner: plays a round of whole episodes, learns from all that it has kept, and so on, in one process."""
+
+from collections.abc import Mapping
+import math
 
 import numpy as np
+import torch
 
-from physexp.agents import acting, core, devices, rounds, starting, synchronous
+from physexp.agents import acting as acting_lib
+from physexp.agents import core, devices, rounds, starting, synchronous
+from physexp.agents import learning as learning_lib
+from physexp.agents.belief import acting, learning, losses, networks, replay
 from physexp.agents.belief import config as config_lib
-from physexp.agents.belief import learning, networks, replay
+
+# One value for all tasks.
+_LEARNING_RATE = 4e-3  # Adam's at the start; it decays linearly to zero over training.
+_BATCH_SIZE = 32  # Episodes in a step of Adam.
+_DROPOUT = 0.1  # Share of a memory's outputs that is dropped, so that beliefs are less sure of rare experience.
+_EMA_DECAY = 0.99  # Of the network that acts, a moving average of the one that learns.
+_LAMBDA = 0.9  # Weight of the return of greedy actions against the network's own values.
+_NO_METRICS = dict.fromkeys(("belief_loss", "value_loss", "gradient_norm"), math.nan)  # Of a round without a step.
 
 
 class Belief(synchronous.SynchronousAgent):
-    """Keeps a belief about the answer, and estimates the value of each interaction; one process."""
+    """Keeps a belief about the answer, and estimates the value of each interaction; one process.
+
+    It plays rounds of episodes, keeps them, and learns from all that it keeps.
+    """
+
+    variables: learning.Variables
 
     def __init__(self, make_environment: core.EnvironmentFactory, config: config_lib.BeliefConfig):
         """Makes the environments, the network, and the replay; raises ValueError if that is larger than memory."""
-        seed, num_environments = starting.worker_seed(config.seed, 0), config_lib.NUM_ENVIRONMENTS
-        environment = make_environment(seed, num_environments, config.num_threads)
-        network = starting.make_network(networks.BeliefNetwork, environment, config)
-        network.calibrate(acting.as_tensors(environment.reset().observation))
+        num_environments = config_lib.NUM_ENVIRONMENTS
+        super().__init__(make_environment, num_environments, config)
+        network = starting.make_network(networks.BeliefNetwork, self._environment, config)
+        network.calibrate(acting_lib.as_tensors(self._environment.reset().observation))
         network.to(devices.choose(config.device, network.sees_images))
         num_rounds = config.replay_episodes // num_environments
         dtype = np.float16 if network.sees_images else np.float32
         episodes = replay.Replay(num_rounds, config.max_interactions + 1, num_environments, network.num_inputs, dtype)
-        variables = learning.Variables(network, episodes)
+        self.variables, self._config = learning.Variables(network, episodes), config
 
-        def play(number: int, choose: acting.Choose) -> rounds.Round:
-            return acting.play_round(variables.averaged, environment, number, choose, keep_inputs=True)
+    def _play(self, number: int, choose: acting_lib.Choose) -> rounds.Round:
+        """Plays the round of a number with the averaged network, and keeps the encoded observations."""
+        return acting_lib.play_round(self.variables.averaged, self._environment, number, choose, keep_inputs=True)
 
-        learner = learning.BeliefLearner(variables, play, config)
-        super().__init__(learner, config.frames, seed, config.num_threads)
+    def step(self) -> dict[str, float]:
+        """Plays a round, and makes as many steps of Adam as its frames ask for."""
+        config, variables, number = self._config, self.variables, self.next_episode
+        policy = acting.BehaviourPolicy(variables.network.num_interactions, config, number)
+        self.last_round = played = self._play(number, policy.choose)
+        variables.episodes.add(played, number)
+        self._measure_changes(played)
+        answered = np.stack([policy.beliefs, played.rewards.sum(axis=0) > 0], axis=1)
+        variables.add_outcomes(torch.from_numpy(answered[policy.are_greedy & ~np.isnan(policy.beliefs)]))
+        returns = played.rewards.sum(axis=0) * config.discount ** (played.lengths - 1.0)
+        greedy_returns = torch.from_numpy(returns[policy.are_greedy])
+        variables.compare(greedy_returns)
+        steps_before = int(variables.frames) // config.frames_per_update
+        counts = variables.count(played.num_frames)
+        learning_rate = _LEARNING_RATE * (1 - config.progress(int(variables.frames)))
+        generator = np.random.default_rng([config.seed, number])
+        metrics = []
+        torch.default_generator.manual_seed(int(generator.integers(2**63)))  # Dropout draws from it.
+        for _ in range(int(variables.frames) // config.frames_per_update - steps_before):
+            episodes, held_out = variables.episodes.sample(generator, _BATCH_SIZE, networks.ENSEMBLE_SIZE, number + 1)
+            metrics.append(self._learn(episodes, held_out, learning_rate))
+        variables.update_agent()
+        return {
+            **{name: float(np.mean([each[name] for each in metrics or [_NO_METRICS]])) for name in _NO_METRICS},
+            "greedy_success_rate": float((greedy_returns > 0).double().mean()),
+            "greedy_return": float(greedy_returns.mean()),
+            **self._calibration(),
+            "learning_rate": learning_rate,
+            **counts,
+        }
+
+    def _learn(self, episodes: rounds.Round, held_out: torch.Tensor, learning_rate: float) -> dict[str, float]:
+        """Makes one step of Adam on B episodes with held-out members, int64 [B], ascending; returns its metrics."""
+        config, network, averaged = self._config, self.variables.network, self.variables.averaged
+        assert episodes.inputs is not None
+        actions, played = torch.from_numpy(episodes.actions), torch.from_numpy(episodes.played)
+        inputs = _padded(episodes.inputs.to(network.device).float(), played)
+        logits, shares = (part.cpu() for part in network.unroll(inputs, actions.to(network.device), _DROPOUT))
+        with torch.no_grad():
+            outputs_of_held_out = averaged.held_out(inputs, actions.to(network.device))
+        held_out_logits, held_out_shares = (part.cpu() for part in outputs_of_held_out)
+        learns = torch.arange(networks.ENSEMBLE_SIZE)[:, None, None] != held_out
+        labels, are_counted = _label_targets(episodes, held_out_logits, network.num_interactions, config)
+        belief_loss = losses.belief_loss(logits, labels, are_counted & learns)
+        beliefs = held_out_logits.softmax(-1)
+        best = (shares.detach() * learns[..., None]).sum(0).argmax(-1)  # By the members that learn from the episode.
+        interacting = network.values(beliefs, held_out_shares).gather(-1, best[..., None])[..., 0]
+        answering, rewards = losses.answer_values(beliefs.amax(-1)), torch.from_numpy(episodes.rewards.sum(axis=0))
+        targets = losses.interaction_targets(
+            answering, interacting, best == actions, _are_last(episodes), rewards, config.discount, _LAMBDA
+        )
+        taken = actions.clamp(max=network.num_interactions - 1).expand(len(logits), *actions.shape)
+        values = network.values(beliefs, shares).gather(-1, taken[..., None])[..., 0]
+        value_loss = losses.value_loss(values, targets, played & (actions < network.num_interactions) & learns)
+        gradients, norm = learning_lib.clipped_gradients(network, (belief_loss + value_loss).sum(), episodes)
+        self.variables.apply(gradients, learning_rate)
+        with torch.no_grad():
+            torch._foreach_lerp_(list(averaged.parameters()), list(network.parameters()), 1 - _EMA_DECAY)
+        return {
+            "belief_loss": belief_loss.mean().item(),
+            "value_loss": value_loss.mean().item(),
+            "gradient_norm": norm,
+        }
+
+    def _measure_changes(self, played: rounds.Round) -> None:
+        """Updates the unit of inputs: their root mean square change since the start of the episode."""
+        variables = self.variables
+        assert played.inputs is not None
+        were_played = torch.from_numpy(played.played)
+        seen = _padded(played.inputs.cpu(), were_played)
+        changes = (seen - seen[:1])[were_played].double()
+        variables.moments += torch.stack([changes.square().sum(), (changes != 0).sum()])
+        squares, count = variables.moments.tolist()
+        if count:
+            for network in (variables.network, variables.averaged):
+                network.log_scale.fill_(0.5 * math.log(squares / count))
+
+    def _calibration(self) -> dict[str, float]:
+        beliefs, outcomes = self.variables.outcomes[self.variables.outcomes[:, 0] >= 0].T
+        if not len(beliefs):
+            return {"brier_score": math.nan, "calibration_error": math.nan}
+        return {
+            "brier_score": float((beliefs - outcomes).square().mean()),
+            "calibration_error": losses.calibration_error(beliefs, outcomes),
+        }
+
+    def restore(self, tensors: Mapping[str, torch.Tensor]) -> None:
+        """Takes up what `save` returned, and plays the kept episodes again to have their observations."""
+        super().restore(tensors)
+        self.variables.episodes.restore(self._play, self.next_episode)
+
+
+def _label_targets(
+    episodes: rounds.Round, held_out_logits: torch.Tensor, num_interactions: int, config: config_lib.BeliefConfig
+) -> tuple[torch.Tensor, torch.Tensor]:
+    """Returns the targets of beliefs, probabilities [B, L], and the steps that are learned from, bool [T, B].
+
+    The logits are those of the held-out members' beliefs, [T, B, L].
+    """
+    lengths, each = torch.from_numpy(episodes.lengths), torch.arange(len(episodes.lengths))
+    last_actions = torch.from_numpy(episodes.actions)[lengths - 1, each]
+    are_counted = torch.from_numpy(episodes.played)
+    if config.answers_revealed:
+        answers = torch.from_numpy(episodes.answers)
+        labels = torch.nn.functional.one_hot(answers, held_out_logits.shape[-1]).float()
+    else:
+        answered = (last_actions - num_interactions).clamp(min=0)
+        are_right = torch.from_numpy(episodes.rewards.sum(axis=0)) > 0
+        labels = losses.label_posterior(held_out_logits[lengths - 1, each], answered, are_right)
+        are_counted = are_counted & (last_actions >= num_interactions)
+    return labels, are_counted if config.every_step else are_counted & _are_last(episodes)
+
+
+def _are_last(episodes: rounds.Round) -> torch.Tensor:
+    """Returns the last step of each episode, bool [T, B]."""
+    return torch.arange(len(episodes.actions))[:, None] == torch.from_numpy(episodes.lengths) - 1
+
+
+def _padded(packed: torch.Tensor, played: torch.Tensor) -> torch.Tensor:
+    """Returns packed steps, [N, ...], as [T, B, ...], 0 after an episode's end."""
+    padded = packed.new_zeros((*played.shape, *packed.shape[1:]))
+    padded[played.to(packed.device)] = packed
+    return padded

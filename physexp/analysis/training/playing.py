@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from physexp.agents import acting, devices, guests, networks
+from physexp.agents import acting, devices, networks
 from physexp.analysis import domains
 from physexp.analysis.data.episodes import Episodes
 from physexp.analysis.training import config as config_lib
@@ -22,7 +22,7 @@ def evaluate(run: run_lib.Run, num_episodes: int, interaction: str = "learned", 
     return play(network, run.config, num_episodes, interaction, seed=seed)
 
 
-@guests.own_torch()
+@devices.own_torch()
 def play(
     network: networks.RecurrentNetwork,
     config: config_lib.TrainConfig,

@@ -5,7 +5,7 @@ import functools
 import shutil
 
 from physexp import suite
-from physexp.agents import core, devices, guests, networks, processes, registry, starting
+from physexp.agents import core, devices, networks, processes, registry, starting
 from physexp.analysis.training import callbacks, stopping
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import recorder as recorder_lib
@@ -30,7 +30,7 @@ def make_network(config: config_lib.TrainConfig) -> networks.RecurrentNetwork:
     return network
 
 
-@guests.own_torch()
+@devices.own_torch()
 def make_agent(config: config_lib.TrainConfig) -> core.Agent:
     """Returns the agent of a run, as it is before training."""
     return registry.AGENTS[config.agent.algorithm](functools.partial(make_environment, config), config.agent)
@@ -43,7 +43,7 @@ def check(config: config_lib.TrainConfig) -> None:
       ValueError: for an unknown task, for a GPU or an OpenGL library that is needed and missing, or for more workers
         than this machine can bear.
     """
-    needs_gl = config.load_task().sense.needs_gl
+    needs_gl = config.load_task().pixels
     try:
         if needs_gl:
             gl.check()
@@ -58,7 +58,7 @@ def check(config: config_lib.TrainConfig) -> None:
         )
 
 
-@guests.own_torch()
+@devices.own_torch()
 def train(
     run: run_lib.Run,
     report: callbacks.Report = callbacks.ignore,
