@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from physexp.suite.engine import contract, declarations, options, seeding, senses
+from physexp.suite.engine import contract, declarations, options, seeding
 from physexp.suite.parts import arena, things
 
 NUM_BLOCKS = 3
@@ -76,9 +76,9 @@ class WhichIsBolted(contract.Task):
 
 def features(random=None, **options):
     """The task with features: `heights`, float32 (3,), m."""
-    return WhichIsBolted(Options(random=random, **options), senses.Features())
+    return WhichIsBolted(Options(random=random, **options))
 
 
 def pixels(random=None, **options):
     """The task with images: `pixels`, uint8 (84, 84, 3)."""
-    return WhichIsBolted(Options(random=random, **options), senses.Pixels())
+    return WhichIsBolted(Options(random=random, **options), pixels=True)

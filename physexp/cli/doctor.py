@@ -77,7 +77,7 @@ def _core() -> Iterator[dict[str, str]]:
         from physexp import suite
 
         for names in suite.ALL_TASKS:
-            if not suite.load_task(*names).sense.needs_gl:
+            if not suite.load_task(*names).pixels:
                 environment = suite.load(*names, task_kwargs={"random": 0})
                 environment.reset()
                 environment.step(0)

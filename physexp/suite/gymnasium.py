@@ -42,6 +42,8 @@ def observation_space(spec: Mapping[str, dm_env.specs.Array], is_flat: bool = Fa
     """Returns the space of observations, of flattened ones if `is_flat`; features have the bounds of their specs."""
     boxes: dict[str, spaces.Space[Any]] = {}
     for name, array in spec.items():
+        low: Any
+        high: Any
         low, high = (0, 255) if array.dtype == np.uint8 else (-np.inf, np.inf)
         if isinstance(array, dm_env.specs.BoundedArray):
             low, high = (np.broadcast_to(side, array.shape) for side in (array.minimum, array.maximum))

@@ -79,7 +79,7 @@ def test_a_poked_block_moves_the_same_whatever_the_others_weigh(seed):
 
 @functools.cache
 def _kits(task_name):
-    return suite.load_task("towers", task_name).build_apparatuses(EVERY_PATTERN.tolist())
+    return list(map(suite.load_task("towers", task_name).build_apparatus, EVERY_PATTERN.tolist()))
 
 
 def _plain(task_name):

@@ -99,7 +99,7 @@ def bare_batch(task_name: Task) -> Callable[[], int]:
     task = suite.load_task(*task_name, {"random": 0})
     seeds = np.array([suite.environment_seed(0, i) for i in range(BATCH)])
     structures, counts = np.unique(task.structures(task.draw(seeds, np.zeros_like(seeds))), return_counts=True)
-    models = [apparatus.model for apparatus in task.build_apparatuses(structures.tolist())]
+    models = [apparatus.model for apparatus in map(task.build_apparatus, structures.tolist())]
     batches = [mujoco_batch.Batch(model, int(count), THREADS) for model, count in zip(models, counts, strict=True)]
     controls = [batch.bind("ctrl") for batch in batches]
     generator, steps = np.random.default_rng(0), 0

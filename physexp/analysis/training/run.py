@@ -140,7 +140,7 @@ class Run:
                 "train": config.to_json(),
                 "versions": provenance.versions(),
                 "commit": provenance.commit(),
-                "renderer": gl.renderer_name() if config.load_task().sense.needs_gl else "none is needed",
+                "renderer": gl.renderer_name() if config.load_task().pixels else "none is needed",
             }
             files.write_atomically(self.path / "config.json", (json.dumps(content, indent=1) + "\n").encode())
         return moved

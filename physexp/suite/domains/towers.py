@@ -1,22 +1,18 @@
 """Towers: a column of five cubes, and the question how many rigid bodies it is made of (paper, Section 6)."""
 
-from collections.abc import Sequence
 import dataclasses
 import functools
 import math
 from typing import Any
 
-from dm_control.utils import containers
 import numpy as np
 
 from physexp import checks
 from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import contract, declarations, seeding, senses
+from physexp.suite.engine import contract, declarations, seeding
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import actuators, arena, fist, material, things, tower
-
-SUITE = containers.TaggedTasks()
 
 PHYSICS_TIMESTEP = 0.005  # s
 WALL_DISTANCE = 0.56  # m, from the tower: a tower that falls as one piece fits inside
@@ -80,7 +76,7 @@ PRIOR = 1 / tower.NUM_BLOCKS / _PATTERNS_OF_COUNT[NUM_BODIES - 1]
 
 
 @functools.lru_cache(maxsize=32)
-def _composed(scene: str) -> dict[int, str]:
+def _texts(scene: str) -> dict[int, str]:
     """Returns the MJCF by structure, as far as this process has composed it in a scene, and can be added to."""
     return {}
 
@@ -93,9 +89,9 @@ class Towers(contract.Task):
     discount = 0.98
     largest_hidden = len(NUM_BODIES) - 1
 
-    def __init__(self, options: Options, actuator: actuators.Actuator, sense: senses.Sense):
+    def __init__(self, options: Options, actuator: actuators.Actuator, pixels: bool):
         self._actuator = actuator
-        super().__init__(options, sense)
+        super().__init__(options, pixels)
 
     def build(self) -> contract.Scene:
         friction = self.options.friction
@@ -159,17 +155,17 @@ class Towers(contract.Task):
             self._room.attach(chosen)
             self.scene = self._scene()
 
-    def compose(self, structures: Sequence[int]) -> list[str]:
-        """Composes towers that this process has not composed in the same scene before; it takes most of a reset."""
-        known, found = _composed(self.root_entity.mjcf_model.to_xml_string()), []
-        for structure in structures:
-            if structure in self._towers:  # It may have been changed since it was built.
-                found += super().compose([structure])
-                continue
-            if structure not in known:
-                (known[structure],) = super().compose([structure])
-            found.append(known[structure])
-        return found
+    @functools.cached_property
+    def _composed(self) -> dict[int, str]:
+        return _texts(self.root_entity.mjcf_model.to_xml_string())
+
+    def compose(self, structure: int) -> str:
+        """Composes a tower unless this process has composed it in the same scene: that takes most of a reset."""
+        if structure in self._towers:  # It may have been changed since it was built.
+            return super().compose(structure)
+        if structure not in self._composed:
+            self._composed[structure] = super().compose(structure)
+        return self._composed[structure]
 
     def circumstances(self, apparatus: apparatus_lib.Apparatus, nuisances: np.ndarray) -> declarations.Circumstances:
         """Varies where tower, fist and camera are, how strong pushes or how fast the fist is, friction, and mass."""
@@ -216,37 +212,16 @@ def _frictions(model: Any, nuisances: np.ndarray) -> declarations.Fields:
     return {"geom_friction": (geoms, values)}
 
 
-def _direct(options: Options, sense: senses.Sense) -> Towers:
+def _direct(options: Options, pixels: bool) -> Towers:
     if options.fist_distance != actuators.FIST_DISTANCE:
         raise ValueError(
             f"fist_distance is {options.fist_distance:g}; give {actuators.FIST_DISTANCE:g} where there is no fist"
         )
-    return Towers(options, actuators.DirectActuator(), sense)
+    return Towers(options, actuators.DirectActuator(), pixels)
 
 
-def _fist(options: Options, sense: senses.Sense) -> Towers:
-    return Towers(options, actuators.FistActuator(options.friction, options.fist_distance), sense)
+def _fist(options: Options, pixels: bool) -> Towers:
+    return Towers(options, actuators.FistActuator(options.friction, options.fist_distance), pixels)
 
 
-@SUITE.add("features", "direct")  # type: ignore[untyped-decorator]
-def direct_features(options: Options) -> contract.Task:
-    """Observes `positions`, float32 (5, 3): the blocks' centres, m."""
-    return _direct(options, senses.Features())
-
-
-@SUITE.add("features", "fist")  # type: ignore[untyped-decorator]
-def fist_features(options: Options) -> contract.Task:
-    """Observes `positions`, float32 (5, 3), and `fist_position`, float32 (3,), m."""
-    return _fist(options, senses.Features())
-
-
-@SUITE.add("pixels", "direct")  # type: ignore[untyped-decorator]
-def direct_pixels(options: Options) -> contract.Task:
-    """Observes `pixels`, uint8 (84, 84, 3): the room from above its front wall."""
-    return _direct(options, senses.Pixels())
-
-
-@SUITE.add("pixels", "fist")  # type: ignore[untyped-decorator]
-def fist_pixels(options: Options) -> contract.Task:
-    """Observes `pixels`, uint8 (84, 84, 3): the room from above its front wall."""
-    return _fist(options, senses.Pixels())
+SUITE = contract.features_and_pixels(direct=_direct, fist=_fist)

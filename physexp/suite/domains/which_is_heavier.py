@@ -112,7 +112,7 @@ class WhichIsHeavier(contract.Task):
     def circumstances(self, apparatus: apparatus_lib.Apparatus, nuisances: np.ndarray) -> declarations.Circumstances:
         """Varies the force of pokes, and for images the space between the blocks and where the camera is."""
         strength = 1 + FORCE_VARIATION * nuisances[:, :1]
-        if not self.sense.needs_gl:
+        if not self.pixels:
             return declarations.Circumstances(strength=strength)
         _, bodies = apparatus.dofs(self._rails)
         places = np.repeat(apparatus.model.body_pos[None, bodies], len(nuisances), axis=0)

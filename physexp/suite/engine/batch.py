@@ -2,16 +2,21 @@
 
 from collections.abc import Iterator
 import contextlib
+import logging
 from typing import Any, NoReturn
 
 import dm_env
 import numpy as np
 
 from physexp import checks
-from physexp.suite.engine import contract, episodes, guard, rendering, seeding
-from physexp.suite.engine import simulations as simulations_lib
+from physexp.suite.engine import contract, episodes, guard, rendering, seeding, simulations
+
+_LOG = logging.getLogger(__name__)
 
 MOST_ENVIRONMENTS = 65_536
+
+Rows = np.ndarray | slice
+"""Positions among some environments."""
 
 _FIRST, _MID, _LAST = (int(kind) for kind in dm_env.StepType)
 
@@ -25,16 +30,21 @@ class BatchEnvironment:
     Attributes:
       num_environments: number of environments.
       task: the task that all environments play, with its rules and options.
-      simulations: the simulations, for the engine's own use.
+      num_divergences: episodes that ended because the simulation diverged.
+      ledger: the bookkeeping of the episodes, for the engine's own use.
+      observations: the last observations, arrays [B, ...] by name, for the engine's own use.
     """
 
     def __init__(self, task: contract.Task, num_environments: int, num_threads: int = 1):
         """Builds the environments of a task, whose seed is the batch's; numbers as for `suite.load_batch`."""
         self.num_environments = checks.integer("num_environments", num_environments, 1, MOST_ENVIRONMENTS)
-        num_threads = checks.integer("num_threads", num_threads, 1, 1_024)
+        self._num_threads = checks.integer("num_threads", num_threads, 1, 1_024)
         self._guard = guard.Guard("batch", num_threads)
         self.task = task
-        self.simulations = simulations_lib.Simulations(task, self.num_environments, num_threads)
+        self.num_divergences = 0
+        self.ledger = episodes.Ledger(task, self.num_environments)
+        self.observations = task.observer.blank(self.num_environments)
+        self._groups: dict[int, simulations.Group] = {}  # By structure.
         self._closed = False
         self._all = np.arange(self.num_environments)
         self.reseed(task.options.random)
@@ -44,7 +54,7 @@ class BatchEnvironment:
         """Takes another seed: every environment starts its first episode next; `random` as in `task_kwargs`."""
         with self._guard:
             self.task.reseed(random)
-            self._ledger.reseed(seeding.environment_seeds(self.task.options.random, self._all))
+            self.ledger.reseed(seeding.environment_seeds(self.task.options.random, self._all))
 
     # Specs are those of the single environment.
 
@@ -61,15 +71,6 @@ class BatchEnvironment:
         return dm_env.specs.BoundedArray((), float, 0.0, 1.0, "discount")
 
     @property
-    def _ledger(self) -> episodes.Ledger:
-        return self.simulations.ledger
-
-    @property
-    def num_divergences(self) -> int:
-        """Episodes that ended because the simulation diverged."""
-        return self.simulations.num_divergences
-
-    @property
     def num_interactions(self) -> int:
         return self.task.num_interactions
 
@@ -81,22 +82,22 @@ class BatchEnvironment:
     @property
     def hidden(self) -> np.ndarray:
         """Returns the hidden properties of the current episodes, [B, ...], which are never part of an observation."""
-        return self._ledger.hidden.copy()
+        return self.ledger.hidden.copy()
 
     @property
     def seeds(self) -> np.ndarray:
         """Returns the seeds of the environments, int64 [B]; `load` with one of them makes that environment alone."""
-        return self._ledger.seeds.copy()
+        return self.ledger.seeds.copy()
 
     @property
     def episodes(self) -> np.ndarray:
         """Indices of the current episodes, int64 [B]; -1 before the first."""
-        return self._ledger.next_episodes - 1
+        return self.ledger.next_episodes - 1
 
     @property
     def steps(self) -> np.ndarray:
         """Control steps taken in the current episodes, int64 [B]."""
-        return self._ledger.steps.copy()
+        return self.ledger.steps.copy()
 
     def reset(
         self,
@@ -120,7 +121,7 @@ class BatchEnvironment:
         with self.in_use(environments) as chosen:
             if episode is not None:
                 episode = checks.integer("episode", episode, 0, seeding.LAST_EPISODE)
-            self.simulations.reset(chosen, hidden, nuisances, episode)
+            self._start(chosen, hidden, nuisances, episode)
             return self._time_step(chosen, np.full(len(chosen), _FIRST), np.zeros(len(chosen)), np.ones(len(chosen)))
 
     def step(self, actions: np.ndarray, environments: np.ndarray | None = None) -> dm_env.TimeStep:
@@ -141,32 +142,74 @@ class BatchEnvironment:
 
     def _step(self, chosen: np.ndarray, actions: Any) -> dm_env.TimeStep:
         actions = self.task.rules.check_type(actions, (len(chosen),))
-        starting = self._ledger.over[chosen]
+        starting = self.ledger.over[chosen]
         playing, taken = chosen[~starting], actions[~starting]
         self.task.rules.check_range(taken)
-        self.simulations.reset(chosen[starting])
-        self._ledger.steps[playing] += 1
+        self._start(chosen[starting])
+        self.ledger.steps[playing] += 1
         interacting = taken < self.task.num_interactions
-        diverged = self.simulations.interact(playing[interacting], taken[interacting])
-        rewards, last = self._ledger.judge(playing, taken)
+        diverged = self._interact(playing[interacting], taken[interacting])
+        rewards, last = self.ledger.judge(playing, taken)
         if len(diverged):
             lost = np.isin(playing, diverged)
             rewards, last = np.where(lost, 0.0, rewards), last | lost
-            self._ledger.over[diverged] = True
+            self.ledger.over[diverged] = True
         step_types = np.full(len(chosen), _FIRST)
         step_types[~starting] = np.where(last, _LAST, _MID)
         all_rewards = np.zeros(len(chosen))
         all_rewards[~starting] = rewards
         return self._time_step(chosen, step_types, all_rewards, np.where(step_types == _LAST, 0.0, 1.0))
 
+    def _start(self, chosen: np.ndarray, hidden: Any = None, nuisances: Any = None, episode: int | None = None) -> None:
+        """Starts episodes of some environments, int [K]; arguments as for `Ledger.begin`."""
+        if not len(chosen):
+            return
+        self.ledger.begin(chosen, hidden, nuisances, episode)
+        for group, members in self.by_structure(chosen):
+            rows = chosen[members]
+            group.reset(rows, self.ledger.hidden[rows], self.ledger.nuisances[rows])
+            group.look_first(rows, self.observations)
+        self.task.observer.complete(self.ledger, chosen, self.observations)
+
+    def _interact(self, chosen: np.ndarray, actions: np.ndarray) -> np.ndarray:
+        """Simulates one control step; returns the environments that diverged, int [K]."""
+        diverged = [np.zeros(0, np.int64)]
+        for group, members in self.by_structure(chosen):
+            rows = chosen[members]
+            lost = group.step(rows, actions[members], self.ledger.substeps[rows])
+            if len(lost):  # Their last observation stays the one before, as in composer.
+                diverged.append(lost)
+                rows = np.setdiff1d(rows, lost)
+            self.ledger.touched[rows] |= group.moved(rows)
+            group.look(self.ledger.touched[rows], rows, self.observations)
+            self.task.observer.complete(self.ledger, rows, self.observations)
+        lost = np.concatenate(diverged)
+        if len(lost):
+            self.num_divergences += len(lost)
+            _LOG.warning("the simulation diverged in environments %s; their episodes end without reward", lost)
+        return lost
+
+    def by_structure(self, chosen: np.ndarray) -> list[tuple[simulations.Group, Rows]]:
+        """Splits environments by structure: pairs of a group and the positions in `chosen` that belong to it."""
+        if self.task.scene.num_structures == 1:
+            return [(self._group(0), slice(None))] if len(chosen) else []
+        structures = self.ledger.structures[chosen]
+        return [(self._group(each), np.flatnonzero(structures == each)) for each in np.unique(structures).tolist()]
+
+    def _group(self, structure: int) -> simulations.Group:
+        """Returns the simulations of a structure, which is compiled when it is first needed."""
+        if structure not in self._groups:
+            apparatus = self.task.build_apparatus(structure)
+            self._groups[structure] = simulations.Group(self.task, apparatus, self.num_environments, self._num_threads)
+        return self._groups[structure]
+
     def render(self, size: int = rendering.SIZE_FOR_PEOPLE) -> np.ndarray:
         """Returns images for people of all environments, uint8 [B, size, size, 3]; RuntimeError if no GL works."""
         checks.integer("size", size, 1, rendering.LARGEST)
         with self.in_use() as chosen:
-            if not self._ledger.has_begun:
-                raise RuntimeError("no episode has been started; call reset() first")
+            _ = self.ledger.hidden  # Before the first episode it raises the error.
             images = np.zeros((len(chosen), size, size, 3), np.uint8)
-            for group, members in self.simulations.by_structure(chosen):
+            for group, members in self.by_structure(chosen):
                 rows = chosen[members]
                 if self._renderer is None or self._renderer.size != size:
                     self._close_renderer()
@@ -178,7 +221,7 @@ class BatchEnvironment:
     def close(self) -> None:
         """Frees the simulations. Closing twice does nothing."""
         with self._guard:
-            self.simulations.close()
+            self._groups = {}
             self._close_renderer()
             self.task.close()
             self._closed = True
@@ -216,5 +259,5 @@ class BatchEnvironment:
     def _time_step(
         self, chosen: np.ndarray, step_types: np.ndarray, rewards: np.ndarray, discounts: np.ndarray
     ) -> dm_env.TimeStep:
-        observation = {name: value[chosen] for name, value in self.simulations.observations.items()}
+        observation = {name: value[chosen] for name, value in self.observations.items()}
         return dm_env.TimeStep(step_types, rewards, discounts, observation)

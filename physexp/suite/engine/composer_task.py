@@ -121,7 +121,7 @@ class ComposerTask(composer.Task):
         self.measured = state["sensordata"].copy()
         observer = self._declared.observer
         observer.look(self.apparatus, state, self._ledger.touched, self._starts, _ROW, self._seen)
-        observer.add_noise(self._ledger, _ROW, self._seen)
+        observer.complete(self._ledger, _ROW, self._seen)
 
     def _recall(self, name: str, physics: Any) -> np.ndarray:
         """Returns the last observation: composer may ask many times, and it is made once for each control step."""
@@ -153,8 +153,7 @@ class ComposerTask(composer.Task):
             getattr(physics.model, field)[addresses] = values[0]
         physics.data.qpos[:] = self._starts.qpos[0]
         self._action = 0
-        self._look({field: self._starts.shown[field] for field in task.sense.fields})
-        task.observer.reveal(self._ledger, _ROW, self._seen)
+        self._look({field: self._starts.shown[field] for field in task.observer.fields})
         if task.options.visualize_reward:
             self._colour_floor(physics, self.root_entity.floor.rgba)
 
@@ -176,7 +175,7 @@ class ComposerTask(composer.Task):
         data, task = physics.data, self._declared
         if not (self.answered or self._diverged):
             self._ledger.touched |= self.apparatus.moved(data.qpos[None], self._starts.qpos)
-            self._look({field: getattr(data, field)[None] for field in task.sense.fields})
+            self._look({field: getattr(data, field)[None] for field in task.observer.fields})
             self.apparatus.indicate(data.geom_xpos[None], data.sensordata[None])  # For `physics.render`.
         rewards, last = self._ledger.judge(_ROW, np.array([self._action]))
         self._reward, self._last = float(rewards[0]), bool(last[0])

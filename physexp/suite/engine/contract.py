@@ -15,7 +15,6 @@ import numpy as np
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import declarations, observing, rules
 from physexp.suite.engine import options as options_lib
-from physexp.suite.engine import senses as senses_lib
 
 CAMERA_VARIATION = 0.02  # m, in each direction
 
@@ -54,7 +53,7 @@ class Task(abc.ABC):
 
     Attributes:
       options: the options that the user chose.
-      sense: the observations, features or pixels.
+      pixels: whether images are observed in place of features.
       scene: the parts of the task.
       rules: how actions are read and judged.
       controls: control signals of each interaction action, float64 [num_interactions, nu].
@@ -73,14 +72,14 @@ class Task(abc.ABC):
     options: Any
     """The options, of the domain's own class."""
 
-    def __init__(self, options: options_lib.Options, sense: senses_lib.Sense):
+    def __init__(self, options: options_lib.Options, pixels: bool = False):
         self.options = options
-        self.sense = sense
+        self.pixels = pixels
         self.scene = self.build()
         self.root_entity.mjcf_model.option.timestep = options.physics_timestep
         self.rules = rules.Rules(len(self.interactions), len(self.label_names), options.step_limit)
         self.controls = np.array([interaction.control for interaction in self.interactions], float)
-        self.observer = observing.Observer(self.readings, self.num_labels, options, sense)
+        self.observer = observing.Observer(self)
         if options.variation and not self.num_nuisances:
             raise ValueError(f"variation is {options.variation:g}; give 0 where episodes differ in nothing else")
 
@@ -88,7 +87,7 @@ class Task(abc.ABC):
 
     @abc.abstractmethod
     def build(self) -> Scene:
-        """Returns the scene; called once, when `options` and `sense` are set."""
+        """Returns the scene; called once, when `options` and `pixels` are set."""
 
     @abc.abstractmethod
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
@@ -159,7 +158,7 @@ class Task(abc.ABC):
     def num_nuisances(self) -> int:
         """Number of values that describe the variation of an episode."""
         given = self.scene.num_nuisances
-        return given if given is not None else 3 * self.sense.needs_gl
+        return given if given is not None else 3 * self.pixels
 
     @property
     def num_interactions(self) -> int:
@@ -179,7 +178,7 @@ class Task(abc.ABC):
     @functools.cached_property
     def observation_meanings(self) -> dict[str, str]:
         """The meaning of each observation, in words, with the unit of its values."""
-        return self.observer.meanings
+        return self.observer.meanings()
 
     def reseed(self, random: Any) -> None:
         """Takes another seed; `random` as in `Options`."""
@@ -194,20 +193,12 @@ class Task(abc.ABC):
 
     def build_apparatus(self, structure: int) -> apparatus_lib.Apparatus:
         """Compiles the MJCF of a structure."""
-        return self.build_apparatuses([structure])[0]
+        return apparatus_lib.build(self.compose(structure), self.readings, self.scene.held, self.scene.indicators)
 
-    def build_apparatuses(self, structures: Sequence[int]) -> list[apparatus_lib.Apparatus]:
-        """Compiles the MJCF of structures."""
-        models, scene = self.compose(structures), self.scene
-        return [apparatus_lib.build(xml, scene.readings, scene.held, scene.indicators) for xml in models]
-
-    def compose(self, structures: Sequence[int]) -> list[str]:
-        """Returns the MJCF of structures as text."""
-        found = []
-        for structure in structures:
-            self.arrange(structure)
-            found.append(self.root_entity.mjcf_model.to_xml_string())
-        return found
+    def compose(self, structure: int) -> str:
+        """Returns the MJCF of a structure as text."""
+        self.arrange(structure)
+        return self.root_entity.mjcf_model.to_xml_string()
 
     def begin(
         self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray, nuisances: np.ndarray
@@ -223,22 +214,23 @@ class Task(abc.ABC):
         return fields + _listed(circumstances.fields), apparatus.starts(circumstances, len(nuisances))
 
     def close(self) -> None:
-        """Frees the resources of the sense. A closed task can be played again."""
-        self.sense.close()
+        """Frees the renderer. A closed task can be played again."""
+        self.observer.close()
 
 
-def features_and_pixels(kind: Callable[[Any, senses_lib.Sense], Task]) -> containers.TaggedTasks:
-    """Returns the suite of a domain with two tasks, `features` and `pixels`, from its class of task."""
+def features_and_pixels(
+    kind: Callable[..., Task] | None = None, **kinds: Callable[..., Task]
+) -> containers.TaggedTasks:
+    """Returns the suite of a domain: two tasks, `features` and `pixels`, from its class of task.
+
+    Several kinds have two tasks each, as `fist_features` and `fist_pixels`, with their names as tags.
+    """
     suite = containers.TaggedTasks()
-
-    @suite.add("features")  # type: ignore[untyped-decorator]
-    def features(options: Any) -> Task:
-        return kind(options, senses_lib.Features())
-
-    @suite.add("pixels")  # type: ignore[untyped-decorator]
-    def pixels(options: Any) -> Task:
-        return kind(options, senses_lib.Pixels())
-
+    for observed in ("features", "pixels"):
+        for name, make in ({"": kind} if kind else kinds).items():
+            factory = functools.partial(make, pixels=observed == "pixels")
+            factory.__name__ = f"{name}_{observed}".removeprefix("_")  # type: ignore[attr-defined]
+            suite.add(observed, *filter(None, [name]))(factory)
     return suite
 
 

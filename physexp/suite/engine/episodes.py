@@ -38,11 +38,6 @@ class Ledger:
         self.over = np.ones(len(seeds), bool)
 
     @property
-    def has_begun(self) -> bool:
-        """Whether any episode has been started."""
-        return self._hidden is not None
-
-    @property
     def hidden(self) -> np.ndarray:
         """The hidden properties of the current episodes, [N, ...]; raises RuntimeError before the first."""
         if self._hidden is None:

@@ -2,14 +2,13 @@
 
 from collections.abc import Mapping
 import math
+from typing import Any
 
 from dm_env import specs
 import numpy as np
 
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import declarations, episodes, seeding
-from physexp.suite.engine import options as options_lib
-from physexp.suite.engine import senses as senses_lib
+from physexp.suite.engine import declarations, episodes, rendering, seeding
 
 ANSWER = "answer"
 """Name of the observation that reveals the right label."""
@@ -18,34 +17,34 @@ _IMAGE = "an image from the task's camera: rows, columns, and red, green and blu
 
 
 class Observer:
-    """Writes the observations of a task.
+    """Writes the observations of a task: its readings as float32 arrays, or one image, `pixels`.
 
     Attributes:
       readings: the features, by name, and the right answer where it is revealed.
+      fields: the fields of `MjData` that are looked at.
     """
 
-    def __init__(
-        self,
-        readings: Mapping[str, declarations.Reading],
-        num_labels: int,
-        options: options_lib.Options,
-        sense: senses_lib.Sense,
-    ):
-        self._sense, self._options, self._num_labels = sense, options, num_labels
-        self.readings = dict(readings)
-        if options.reveal:
-            if sense.needs_gl:
+    def __init__(self, task: Any):
+        """Keeps what a task, of `contract.Task`, declares. A GL context is made when the first image is drawn."""
+        self._options, self._num_labels, self._pixels = task.options, task.num_labels, task.pixels
+        self._renderer: rendering.Renderer | None = None
+        self.fields = apparatus_lib.LOOKED_AT if task.pixels else ("sensordata",)
+        self.readings = dict(task.readings)
+        if self._options.reveal:
+            if task.pixels:
                 raise ValueError("reveal is True; give False where images are observed, or choose a task with features")
             meaning = "1 for the right answer, 0 for the others"
-            self.readings[ANSWER] = declarations.Reading((), (num_labels,), meaning, bounds=(0, 1))
-        noisy = {} if sense.needs_gl else readings
+            self.readings[ANSWER] = declarations.Reading((), (task.num_labels,), meaning, bounds=(0, 1))
+        noisy = {} if task.pixels else task.readings
         self._noisy = {name: reading.shape for name, reading in noisy.items() if reading.noisy}
-        if options.noise and not self._noisy:
-            raise ValueError(f"noise is {options.noise:g}; give 0 where no reading in metres is observed")
+        if self._options.noise and not self._noisy:
+            raise ValueError(f"noise is {self._options.noise:g}; give 0 where no reading in metres is observed")
 
     def blank(self, size: int) -> dict[str, np.ndarray]:
         """Returns arrays for the observations of `size` environments."""
-        return self._sense.blank({name: reading.shape for name, reading in self.readings.items()}, size)
+        if self._pixels:
+            return {"pixels": np.zeros((size, rendering.SIZE, rendering.SIZE, 3), np.uint8)}
+        return {name: np.zeros((size, *reading.shape), np.float32) for name, reading in self.readings.items()}
 
     def specs(self) -> dict[str, specs.Array]:
         """Returns the specs of the observations of one environment, by name."""
@@ -58,10 +57,9 @@ class Observer:
             described[name] = array
         return described
 
-    @property
     def meanings(self) -> dict[str, str]:
-        """The meaning of each observation, in words, with the unit of its values."""
-        return {name: self.readings[name].title if name in self.readings else _IMAGE for name in self.specs()}
+        """Returns the meaning of each observation, in words, with the unit of its values."""
+        return {name: self.readings[name].title if name in self.readings else _IMAGE for name in self.blank(1)}
 
     def look(
         self,
@@ -78,22 +76,32 @@ class Observer:
         at the starts, which `rows` index.
         """
         shown = {field: apparatus.shown(field, values, touched, starts, rows) for field, values in state.items()}
-        self._sense.look(apparatus, shown, starts.camera[rows], rows, observations)
-
-    def add_noise(self, ledger: episodes.Ledger, rows: np.ndarray, observations: Mapping[str, np.ndarray]) -> None:
-        """Adds the noise of the current control step to the observations of some environments, int [N].
-
-        It follows from seed, episode, step and reading alone: it is the same whatever is hidden.
-        """
-        if not self._options.noise:
+        if not self._pixels:
+            for name in apparatus.readings:
+                observations[name][rows] = apparatus.read(name, shown["sensordata"])
             return
-        sizes = [math.prod(shape) for shape in self._noisy.values()]
-        draws = seeding.normals(ledger.seeds[rows], ledger.next_episodes[rows] - 1, ledger.steps[rows], sum(sizes))
-        parts = np.split(self._options.noise * draws, np.cumsum(sizes)[:-1], axis=1)
-        for (name, shape), part in zip(self._noisy.items(), parts, strict=True):
-            observations[name][rows] += part.reshape(len(part), *shape).astype(np.float32)
+        if self._renderer is None:  # All structures of a task have the same geoms: one renderer draws them all.
+            self._renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms)
+        apparatus.indicate(shown["geom_xpos"], shown["sensordata"])
+        poses = shown["geom_xpos"], shown["geom_xmat"]
+        self._renderer.render(*poses, rows, observations["pixels"], starts.camera[rows])
 
-    def reveal(self, ledger: episodes.Ledger, rows: np.ndarray, observations: Mapping[str, np.ndarray]) -> None:
-        """Writes the right answers of some environments, int [N], if they are observed."""
+    def complete(self, ledger: episodes.Ledger, rows: np.ndarray, observations: Mapping[str, np.ndarray]) -> None:
+        """Adds noise, and the right answers if they are observed, to the observations of some environments, int [N].
+
+        The noise follows from seed, episode, step and reading alone: it is the same whatever is hidden.
+        """
+        if self._options.noise:
+            sizes = [math.prod(shape) for shape in self._noisy.values()]
+            draws = seeding.normals(ledger.seeds[rows], ledger.next_episodes[rows] - 1, ledger.steps[rows], sum(sizes))
+            parts = np.split(self._options.noise * draws, np.cumsum(sizes)[:-1], axis=1)
+            for (name, shape), part in zip(self._noisy.items(), parts, strict=True):
+                observations[name][rows] += part.reshape(len(part), *shape).astype(np.float32)
         if self._options.reveal:
             observations[ANSWER][rows] = ledger.answers[rows, None] == np.arange(self._num_labels)
+
+    def close(self) -> None:
+        """Frees the renderer; the next image makes another."""
+        if self._renderer is not None:
+            self._renderer.close()
+            self._renderer = None

@@ -1,89 +1,14 @@
-"""The simulations of a batch: one MuJoCo batch for each compiled model, and the ledger of the episodes."""
+"""The simulations of a batch that have one compiled model."""
 
 from collections.abc import Mapping
 import functools
-import logging
-from typing import Any
 
 import mujoco
 from mujoco.batch import Batch
 import numpy as np
 
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import contract, episodes
-
-_LOG = logging.getLogger(__name__)
-
-Rows = np.ndarray | slice
-"""Positions among some environments."""
-
-
-class Simulations:
-    """The simulations of N environments that play a task, by compiled model.
-
-    Attributes:
-      task: the task.
-      ledger: the bookkeeping of the episodes.
-      observations: the last observations, arrays [N, ...] by name.
-      num_divergences: episodes that ended because the simulation diverged.
-    """
-
-    def __init__(self, task: contract.Task, size: int, num_threads: int):
-        self.task, self._size, self._num_threads = task, size, num_threads
-        self.ledger = episodes.Ledger(task, size)
-        self.observations = task.observer.blank(size)
-        self.num_divergences = 0
-        self._groups: dict[int, Group] = {}
-
-    def by_structure(self, chosen: np.ndarray) -> "list[tuple[Group, Rows]]":
-        """Splits environments by structure: pairs of a group and the positions in `chosen` that belong to it."""
-        if self.task.scene.num_structures == 1:
-            return [(self._grouped([0])[0], slice(None))] if len(chosen) else []
-        structures = self.ledger.structures[chosen]
-        needed = np.unique(structures).tolist()
-        positions = [np.flatnonzero(structures == structure) for structure in needed]
-        return list(zip(self._grouped(needed), positions, strict=True))
-
-    def _grouped(self, structures: list[int]) -> "list[Group]":
-        """Returns the groups of structures; new ones are compiled."""
-        new = [structure for structure in structures if structure not in self._groups]
-        if new:
-            for structure, apparatus in zip(new, self.task.build_apparatuses(new), strict=True):
-                self._groups[structure] = Group(self.task, apparatus, self._size, self._num_threads)
-        return [self._groups[structure] for structure in structures]
-
-    def close(self) -> None:
-        self._groups = {}
-
-    def reset(self, chosen: np.ndarray, hidden: Any = None, nuisances: Any = None, episode: int | None = None) -> None:
-        """Starts episodes of some environments, int [K]; arguments as for `Ledger.begin`."""
-        if not len(chosen):
-            return
-        self.ledger.begin(chosen, hidden, nuisances, episode)
-        for group, members in self.by_structure(chosen):
-            rows = chosen[members]
-            group.reset(rows, self.ledger.hidden[rows], self.ledger.nuisances[rows])
-            group.look_first(rows, self.observations)
-        self.task.observer.add_noise(self.ledger, chosen, self.observations)
-        self.task.observer.reveal(self.ledger, chosen, self.observations)
-
-    def interact(self, chosen: np.ndarray, actions: np.ndarray) -> np.ndarray:
-        """Simulates one control step; returns the environments that diverged, int [K]."""
-        diverged = [np.zeros(0, np.int64)]
-        for group, members in self.by_structure(chosen):
-            rows = chosen[members]
-            lost = group.step(rows, actions[members], self.ledger.substeps[rows])
-            if len(lost):  # Their last observation stays the one before, as in composer.
-                diverged.append(lost)
-                rows = np.setdiff1d(rows, lost)
-            self.ledger.touched[rows] |= group.moved(rows)
-            group.look(self.ledger.touched[rows], rows, self.observations)
-            self.task.observer.add_noise(self.ledger, rows, self.observations)
-        lost = np.concatenate(diverged)
-        if len(lost):
-            self.num_divergences += len(lost)
-            _LOG.warning("the simulation diverged in environments %s; their episodes end without reward", lost)
-        return lost
+from physexp.suite.engine import contract
 
 
 class Group:
@@ -99,7 +24,7 @@ class Group:
         nowhere = np.zeros(size, np.intp)
         self._starts = apparatus.start.repeated(size) if self._are_alike else apparatus.start.of(nowhere)
         self._qpos, self._control = (self._batch.bind(name) for name in ("qpos", "ctrl"))
-        self._looked_at = {field: self._batch.bind(field) for field in task.sense.fields}
+        self._looked_at = {field: self._batch.bind(field) for field in task.observer.fields}
         self._measured = np.zeros((size, apparatus.model.nsensordata))  # The sensors' values at the last observation.
 
     @functools.cached_property
@@ -119,7 +44,7 @@ class Group:
             self._look_at_start(rows, observations)
 
     def _look_at_start(self, rows: np.ndarray, observations: Mapping[str, np.ndarray]) -> None:
-        state = {field: self._starts.shown[field][rows] for field in self._task.sense.fields}
+        state = {field: self._starts.shown[field][rows] for field in self._task.observer.fields}
         untouched = np.zeros((len(rows), len(self.apparatus.held)), bool)
         self._task.observer.look(self.apparatus, state, untouched, self._starts, rows, observations)
 

@@ -60,10 +60,10 @@ class Snapshot:
 def take(batch: batch_lib.BatchEnvironment, environments: np.ndarray | None = None) -> Snapshot:
     """Returns a snapshot of episodes that are under way, of some environments, sorted indices int [N], or of all."""
     with batch.in_use(environments) as chosen:
-        simulations, ledger = batch.simulations, batch.simulations.ledger
+        ledger = batch.ledger
         if ledger.over[chosen].any():
             raise RuntimeError("an episode is over; take a snapshot where episodes are under way")
-        by_structure = [(group, chosen[members]) for group, members in simulations.by_structure(chosen)]
+        by_structure = [(group, chosen[members]) for group, members in batch.by_structure(chosen)]
         return Snapshot(
             environments=chosen.copy(),
             episodes=batch.episodes[chosen],
@@ -72,7 +72,7 @@ def take(batch: batch_lib.BatchEnvironment, environments: np.ndarray | None = No
             substeps=ledger.substeps[chosen],
             steps=ledger.steps[chosen],
             touched=ledger.touched[chosen],
-            observed={name: values[chosen] for name, values in simulations.observations.items()},
+            observed={name: values[chosen] for name, values in batch.observations.items()},
             states=tuple(group.save(rows) for group, rows in by_structure),
             coordinates=tuple(group.coordinates(rows) for group, rows in by_structure),
         )
@@ -81,15 +81,15 @@ def take(batch: batch_lib.BatchEnvironment, environments: np.ndarray | None = No
 def restore(batch: batch_lib.BatchEnvironment, snapshot: Snapshot) -> None:
     """Takes episodes back to a snapshot; the next step goes on from there."""
     with batch.in_use(snapshot.environments) as chosen:
-        simulations, ledger = batch.simulations, batch.simulations.ledger
+        ledger = batch.ledger
         now = batch.episodes, ledger.hidden, ledger.nuisances, ledger.substeps
         saved = snapshot.episodes, snapshot.hidden, snapshot.nuisances, snapshot.substeps
         if not all(np.array_equal(values[chosen], then) for values, then in zip(now, saved, strict=True)):
             raise ValueError("environments have begun other episodes since the snapshot; restore it before that")
         ledger.steps[chosen], ledger.touched[chosen], ledger.over[chosen] = snapshot.steps, snapshot.touched, False
         for name, values in snapshot.observed.items():
-            simulations.observations[name][chosen] = values
-        for (group, members), states in zip(simulations.by_structure(chosen), snapshot.states, strict=True):
+            batch.observations[name][chosen] = values
+        for (group, members), states in zip(batch.by_structure(chosen), snapshot.states, strict=True):
             group.restore(chosen[members], states)
 
 
@@ -100,5 +100,5 @@ def view(batch: batch_lib.BatchEnvironment, field: str, environment: int) -> np.
     """
     index = checks.integer("environment", environment, 0, batch.num_environments - 1)
     with batch.in_use(np.array([index])) as chosen:
-        ((group, _),) = batch.simulations.by_structure(chosen)
+        ((group, _),) = batch.by_structure(chosen)
         return group.view(field)[index]
