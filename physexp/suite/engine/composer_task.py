@@ -1,10 +1,8 @@
 """The composer task: plays a task's episodes in one environment of dm_control."""
 
-import functools
 from typing import Any
 
 from dm_control import composer
-from dm_control.composer.observation import observable
 from dm_env import specs
 import numpy as np
 
@@ -14,19 +12,6 @@ from physexp.suite.engine import contract, episodes, seeding
 
 _OK_RGBA, _WRONG_RGBA = (0.45, 0.75, 0.45, 1.0), (0.80, 0.45, 0.40, 1.0)
 _ROW = np.zeros(1, np.intp)  # The only row of a single environment.
-
-
-class _Observable(observable.Generic):
-    """An observable whose spec is known before it is first evaluated."""
-
-    def __init__(self, raw_observation_callable: Any, spec: specs.Array):
-        super().__init__(raw_observation_callable)
-        self._spec = spec
-        self.enabled = True
-
-    @property
-    def array_spec(self) -> specs.Array:
-        return self._spec
 
 
 class ComposerTask(composer.Task):
@@ -52,10 +37,6 @@ class ComposerTask(composer.Task):
         self._action = 0
         self._diverged = False
         self._seen = task.observer.blank(1)
-        self._observables = {
-            name: _Observable(functools.partial(self._recall, name), spec)
-            for name, spec in task.observation_spec().items()
-        }
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
@@ -123,19 +104,15 @@ class ComposerTask(composer.Task):
         observer.look(self.apparatus, state, self._ledger.touched, self._starts, _ROW, self._seen)
         observer.complete(self._ledger, _ROW, self._seen)
 
-    def _recall(self, name: str, physics: Any) -> np.ndarray:
-        """Returns the last observation: composer may ask many times, and it is made once for each control step."""
-        return self._seen[name][0].copy()
+    def last_observation(self) -> dict[str, np.ndarray]:
+        """Returns a copy of the last observation."""
+        return {name: values[0].copy() for name, values in self._seen.items()}
 
     # Methods that composer calls.
 
     @property
     def root_entity(self) -> composer.Arena:
         return self._declared.root_entity
-
-    @property
-    def task_observables(self) -> dict[str, observable.Observable]:
-        return self._observables
 
     def action_spec(self, physics: Any = None) -> specs.DiscreteArray:
         return self._declared.action_spec()

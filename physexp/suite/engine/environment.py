@@ -31,12 +31,7 @@ class Environment(composer.Environment):
         self._renderer: rendering.Renderer | None = None  # Of images for people.
         self._compiled: dict[int, tuple[apparatus_lib.Apparatus, mjcf.Physics]] = {}  # By structure.
         self._current: tuple[int, int] | None = None  # The structure in use, and the physics steps in a control step.
-        super().__init__(
-            composer_task.ComposerTask(task),
-            random_state=0,
-            strip_singleton_obs_buffer_dim=True,
-            raise_exception_on_physics_error=raises,
-        )
+        super().__init__(composer_task.ComposerTask(task), random_state=0, raise_exception_on_physics_error=raises)
 
     def reset(self, hidden: Any = None) -> dm_env.TimeStep:
         """Starts the next episode, for analysis with a hidden property of the shape, type and range of a drawn one."""
@@ -44,23 +39,21 @@ class Environment(composer.Environment):
             self._check_open()
             if hidden is not None:
                 self._task.give_hidden(hidden)
-            return self._flattened(super().reset())
+            return self._observing(super().reset())
 
     def step(self, action: Any) -> dm_env.TimeStep:
         """Takes one action, an integer; for one that is not the action spec's, the episode stays as it was."""
         with self._guard:
             self._check_open()
-            return self._flattened(super().step(action))
+            return self._observing(super().step(action))
 
-    def observation_spec(self) -> Any:
+    def observation_spec(self) -> dict[str, specs.Array]:
         """Returns the specs of the observations by name, with bounds if the task knows them."""
-        described = super().observation_spec()
+        described = self._task.observation_spec()
         if not self._flat:
             return described
-        blank = control.flatten_observation(
-            type(described)((name, np.zeros(spec.shape, spec.dtype)) for name, spec in described.items())
-        )
-        return type(described)((name, specs.Array(value.shape, value.dtype, name)) for name, value in blank.items())
+        blank = control.flatten_observation({name: np.zeros(one.shape, one.dtype) for name, one in described.items()})
+        return {name: specs.Array(value.shape, value.dtype, name) for name, value in blank.items()}
 
     def render(self) -> np.ndarray:
         """Returns an image of the scene for people, uint8 [480, 480, 3]; raises RuntimeError if no GL backend works."""
@@ -90,10 +83,10 @@ class Environment(composer.Environment):
     def __reduce__(self) -> NoReturn:  # Of copies and of pickles.
         self._guard.__reduce__()
 
-    def _flattened(self, timestep: dm_env.TimeStep) -> dm_env.TimeStep:
-        if not self._flat:
-            return timestep
-        return timestep._replace(observation=control.flatten_observation(timestep.observation))
+    def _observing(self, timestep: dm_env.TimeStep) -> dm_env.TimeStep:
+        """Returns a time step with the last observation, which composer knows nothing of."""
+        seen = self._task.last_observation()
+        return timestep._replace(observation=control.flatten_observation(seen) if self._flat else seen)
 
     def _check_open(self) -> None:
         if self._physics is None:
