@@ -145,26 +145,6 @@ def test_draws_follow_the_softmax_of_the_logits():
     assert stats.chisquare(counts, expected * counts.sum() / expected.sum()).pvalue > P_VALUE
 
 
-def test_a_round_depends_on_its_number_but_not_on_earlier_rounds():
-    seed = fresh_seed()
-
-    def played(earlier):
-        batch = suite.load_batch("towers", "fist_features", 8, {"random": seed})
-        network = make_network(batch, seed)
-        for number in earlier:
-            acting.play_round(network, batch, number, acting.drawn(np.random.default_rng(number)))
-        episodes = acting.play_round(
-            network, batch, 2, acting.drawn(np.random.default_rng([seed, 2])), keep_inputs=True
-        )
-        batch.close()
-        return episodes
-
-    first, second = played([]), played([0, 1, 5])
-    for name in ("actions", "rewards", "lengths", "answers"):
-        np.testing.assert_array_equal(getattr(first, name), getattr(second, name), err_msg=name)
-    assert torch.equal(first.inputs, second.inputs)
-
-
 def test_the_lstm_starts_every_episode_from_zero():
     seed = fresh_seed()
     environment = suite.load("which_is_heavier", "features", {"random": seed})
@@ -180,15 +160,6 @@ def test_the_lstm_starts_every_episode_from_zero():
     logits = torch.cat([seen[0] for seen in network.seen])
     torch.testing.assert_close(logits[:4], logits[4:], atol=0, rtol=0)
     assert not torch.equal(logits[0], logits[1]), "the state has to move on within an episode"
-
-
-@pytest.mark.parametrize("number", [0, -1])
-def test_a_loop_of_no_episodes_is_refused(number):
-    environment = suite.load(*suite.ALL_TASKS[0])
-    loop = environment_loop.EnvironmentLoop(environment, acting.RecurrentActor(make_network(environment, 0)))
-    with pytest.raises(ValueError, match=f"num_episodes is {number}; give a number >= 1"):
-        loop.run(number)
-    environment.close()
 
 
 def test_a_greedy_actor_takes_the_likeliest_action_with_any_seed():
@@ -211,33 +182,22 @@ def test_a_greedy_actor_takes_the_likeliest_action_with_any_seed():
     assert taken[0] == taken[1] == [int(logits.argmax()) for logits, _ in network.seen[: len(taken[0])]]
 
 
-@pytest.mark.parametrize("first", [True, False])
-def test_a_loop_without_observe_first_is_refused(first):
+def test_a_loop_without_observe_first_or_observe_is_refused():
     environment = suite.load("threshold", "features", {"random": 0})
     actor = acting.RecurrentActor(make_network(environment, 0))
     timestep = environment.reset()
-    if first:
+    for _ in range(2):  # At the start, and after an episode.
+        for act, *words in ((actor.select_action, timestep.observation), (actor.observe, 0, timestep)):
+            with pytest.raises(RuntimeError, match=r"call observe_first\(timestep\) after each reset"):
+                act(*words)
         actor.observe_first(timestep)
         while not timestep.last():
             action = actor.select_action(timestep.observation)
+            with pytest.raises(RuntimeError, match=r"call observe\(action, timestep\) after each step"):
+                actor.select_action(timestep.observation)
             timestep = environment.step(action)
             actor.observe(action, timestep)
         timestep = environment.reset()
-    for act in (lambda: actor.select_action(timestep.observation), lambda: actor.observe(0, timestep)):
-        with pytest.raises(RuntimeError, match=r"call observe_first\(timestep\) after each reset"):
-            act()
-    environment.close()
-
-
-def test_a_loop_without_observe_is_refused():
-    environment = suite.load("threshold", "features", {"random": 0})
-    actor = acting.RecurrentActor(make_network(environment, 0))
-    timestep = environment.reset()
-    for _ in range(2):
-        actor.observe_first(timestep)
-        actor.select_action(timestep.observation)
-        with pytest.raises(RuntimeError, match=r"call observe\(action, timestep\) after each step"):
-            actor.select_action(timestep.observation)
     environment.close()
 
 
@@ -249,7 +209,10 @@ def test_an_actor_refuses_observations_of_another_task():
             ValueError, match=r"^observed is .*positions \(5, 3\).*; give one that was trained in this "
         ):
             environment_loop.EnvironmentLoop(played, actor).run(1)
-        assert len(environment_loop.EnvironmentLoop(trained, actor).run(1)) == 1
+        loop = environment_loop.EnvironmentLoop(trained, actor)
+        assert len(loop.run(1)) == 1
+        with pytest.raises(ValueError, match="num_episodes is 0; give a number >= 1"):
+            loop.run(0)
     flat = suite.load("towers", "fist_features", {"random": 0}, environment_kwargs={"flat_observation": True})
     with pytest.raises(ValueError, match=r"^observed is observations \(18,\), and the agent was trained with fist_pos"):
         environment_loop.EnvironmentLoop(flat, acting.RecurrentActor(make_network(fist, 0))).run(1)

@@ -51,8 +51,6 @@ def test_flags_words_and_lists_are_checked():
         a3c.A3CConfig(initial_logits="ab")
     with pytest.raises(ValueError, match="num_minibatches is 9; give at most num_environments, 8"):
         ppo.PPOConfig(num_environments=8, num_minibatches=9)
-    with pytest.raises(ValueError, match="num_workers is -2"):
-        a3c.A3CConfig().replace(num_workers=-2)
 
 
 def test_numbers_of_numpy_become_pythons_own():
@@ -66,11 +64,6 @@ def test_variants_of_a_learner_have_titles_of_their_own():
     assert belief.BeliefConfig(answers_revealed=True, memory="lstm").title == "belief_revealed_lstm"
     assert belief.BeliefConfig(every_step=False).title == "belief_last_step"
     assert belief.BeliefConfig(replay_episodes=belief.NUM_ENVIRONMENTS).title == "belief_no_replay"
-
-
-def test_entropy_is_relative_to_the_initial_logits_on_request():
-    assert a3c.A3CConfig(initial_logits=(1.0, 0.0)).entropy_prior == ()
-    assert a3c.A3CConfig(initial_logits=(1.0, 0.0), kl_to_prior=True).entropy_prior == (1.0, 0.0)
 
 
 def test_costs_and_rates_decay_over_training():

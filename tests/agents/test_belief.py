@@ -11,7 +11,6 @@ from physexp.agents import networks as networks_lib
 from physexp.agents.belief import acting as belief_acting
 from physexp.agents.belief import agent as belief
 from physexp.agents.belief import config as config_lib
-from physexp.agents.belief import learning as learning_lib
 from physexp.agents.belief import losses, networks, replay
 
 torch.set_num_threads(1)
@@ -43,10 +42,6 @@ def room(network, environment, num_rounds):
     return replay.Replay(
         num_rounds, SMALL.max_interactions + 1, environment.num_environments, network.num_inputs, np.float32
     )
-
-
-def padded(episodes):
-    return learning_lib._padded(episodes.inputs.float(), torch.from_numpy(episodes.played))
 
 
 # Targets and losses.
@@ -84,13 +79,15 @@ def test_no_step_depends_on_later_ones(memory):
 
 @pytest.mark.parametrize("every_step", [True, False])
 def test_the_belief_is_learned_at_every_step_or_at_the_last_one(every_step, monkeypatch):
-    monkeypatch.setattr(learning_lib, "_DROPOUT", 0.0)
+    monkeypatch.setattr(belief, "_DROPOUT", 0.0)
     config = SMALL.replace(seed=fresh_seed(), every_step=every_step, answers_revealed=True)
-    learner = make_agent(config)._learner
+    learner = make_agent(config)
     learner.step()
     episodes, held_out = learner.variables.episodes.sample(np.random.default_rng(config.seed), 16, ENSEMBLE, 1)
     with torch.no_grad():
-        logits, _ = learner.variables.network.unroll(padded(episodes), torch.from_numpy(episodes.actions))
+        logits, _ = learner.variables.network.unroll(
+            episodes.padded(episodes.inputs.float()), torch.from_numpy(episodes.actions)
+        )
     means = []
     for member in range(ENSEMBLE):
         costs = [
@@ -104,36 +101,27 @@ def test_the_belief_is_learned_at_every_step_or_at_the_last_one(every_step, monk
     assert found == pytest.approx(float(sum(means) / len(means)), rel=1e-4)
 
 
-def targets(answering, interacting, are_greedy, length, reward=0.0, lambda_=0.5):
-    columns = [torch.tensor(column)[:, None] for column in (answering, interacting, are_greedy)]
-    are_last = (torch.arange(len(answering)) == length - 1)[:, None]
-    return losses.interaction_targets(*columns, are_last, torch.tensor([reward]), 0.9, lambda_)[:, 0]
-
-
-def test_the_target_is_the_discounted_better_of_answering_and_going_on():
-    # Two interactions and an answer; nothing greedy, so each target is 0.9 * V of the step that follows.
-    found = targets([-0.5, 0.2, 0.8], [0.1, 0.6, 0.0], [False, False, False], 3)
-    torch.testing.assert_close(found[:2], torch.tensor([0.9 * 0.6, 0.9 * 0.8]))
-
-
-def test_the_return_of_greedy_interactions_counts_by_lambda():
+TARGETS = {
+    # Answering, interacting and greedy interactions at each step, the lambda, and the target of the first interaction.
+    # Nothing greedy: 0.9 * V of the step that follows, the better of answering and going on.
+    "going on is better": ([-0.5, 0.2, 0.8], [0.1, 0.6, 0.0], [False, False, False], 0.5, 0.9 * 0.6),
     # The second interaction is greedy: its own target, 0.9 * 0.8, counts half, V = 0.6 the other half.
-    found = targets([-0.5, 0.2, 0.8], [0.1, 0.6, 0.0], [False, True, False], 3)
-    torch.testing.assert_close(found[0], torch.tensor(0.9 * (0.5 * 0.6 + 0.5 * 0.9 * 0.8)))
+    "a greedy one": ([-0.5, 0.2, 0.8], [0.1, 0.6, 0.0], [False, True, False], 0.5, 0.9 * (0.5 * 0.6 + 0.5 * 0.9 * 0.8)),
+    # An interaction in place of a better answer counts as the answer.
+    "answering is better": ([-0.5, 0.7, 0.8], [0.1, 0.6, 0.0], [False, True, False], 1.0, 0.9 * 0.7),
+    # At the last step only the answer counts, however much an interaction seems to be worth.
+    "the last step": ([-0.5, 0.8], [0.1, 100.0], [False, True], 1.0, 0.9 * 0.8),
+    "the end of an episode": ([0.1], [0.3], [True], 0.5, -1.0),  # Its reward.
+}
 
 
-def test_an_interaction_in_place_of_a_better_answer_counts_as_the_answer():
-    found = targets([-0.5, 0.7, 0.8], [0.1, 0.6, 0.0], [False, True, False], 3, lambda_=1.0)
-    torch.testing.assert_close(found[0], torch.tensor(0.9 * 0.7))
-
-
-def test_at_the_last_step_only_the_answer_counts():
-    low, high = (targets([-0.5, 0.8], [0.1, seeming], [False, True], 2, lambda_=1.0) for seeming in (0.0, 100.0))
-    assert low[0] == high[0] == pytest.approx(0.9 * 0.8)
-
-
-def test_the_target_of_an_interaction_that_ends_an_episode_is_its_reward():
-    assert targets([0.1, 0.2], [0.3, 0.4], [True, True], 2, reward=-1.0)[1] == -1.0
+@pytest.mark.parametrize("case", TARGETS)
+def test_targets_of_interactions_follow_from_the_step_after_them(case):
+    *columns, lambda_, expected = TARGETS[case]
+    answering, interacting, are_greedy = (torch.tensor(column)[:, None] for column in columns)
+    are_last = (torch.arange(len(answering)) == len(answering) - 1)[:, None]
+    found = losses.interaction_targets(answering, interacting, are_greedy, are_last, torch.tensor([-1.0]), 0.9, lambda_)
+    assert found[0].item() == pytest.approx(expected)
 
 
 def test_calibration_is_the_mean_distance_of_belief_and_success():
@@ -162,7 +150,11 @@ def test_acting_and_training_compute_the_same(domain, task, memory):
     kept = room(network, environment, 1)
     kept.add(play(network, environment, 0), 0)
     episodes, held_out = kept.sample(np.random.default_rng(seed), 32, ENSEMBLE, 1)
-    inputs, actions, played = padded(episodes), torch.from_numpy(episodes.actions), torch.from_numpy(episodes.played)
+    inputs, actions, played = (
+        episodes.padded(episodes.inputs.float()),
+        torch.from_numpy(episodes.actions),
+        torch.from_numpy(episodes.played),
+    )
     with torch.no_grad():
         logits, shares = network.unroll(inputs, actions)
         for found, every in zip(network.held_out(inputs, actions), (logits, shares), strict=True):
@@ -182,18 +174,9 @@ def test_acting_and_training_compute_the_same(domain, task, memory):
     environment.close()
 
 
-def test_values_lie_between_answering_and_knowing_a_step_later():
-    network = make_network(load("which_is_heavier", "features", 0), 0)
-    beliefs = torch.tensor([[0.7, 0.1, 0.1, 0.1]])
-    found = network.values(beliefs, torch.tensor([[0.0, 0.5, 1.0]]))
-    answering = 2 * 0.7 - 1
-    expected = network.discount * torch.tensor([[answering, (answering + 1) / 2, 1.0]])
-    torch.testing.assert_close(found, expected)
-
-
 def test_no_member_learns_from_its_held_out_episodes(monkeypatch):
-    monkeypatch.setattr(learning_lib, "_DROPOUT", 0.0)
-    learner = make_agent(SMALL.replace(seed=fresh_seed()))._learner
+    monkeypatch.setattr(belief, "_DROPOUT", 0.0)
+    learner = make_agent(SMALL.replace(seed=fresh_seed()))
     learner.step()
     episodes, held_out = learner.variables.episodes.sample(np.random.default_rng(0), 32, ENSEMBLE, 1)
     sizes = []
@@ -318,7 +301,7 @@ def test_episodes_are_played_again_from_their_actions_to_the_last_bit(domain, ta
 
 def test_convolutions_stay_random_and_outputs_are_kept_in_half():
     agent = make_agent(SMALL.replace(seed=fresh_seed()), "strike", "pixels")
-    before, learner = agent.save(), agent._learner
+    before, learner = agent.save(), agent
     while not int(learner.variables.optimizer.state[learner.variables.network.projection.weight]["step"]):
         learner.step()
     after = agent.save()
@@ -362,35 +345,24 @@ def test_right_labels_are_learned_from_only_if_they_are_revealed(answers_reveale
     assert bool(differing) == answers_revealed
 
 
-def windows(*returns):
-    """Returns the comparison after windows of greedy episodes with these returns, and which of them were the best."""
-    best = learning_lib.BestSoFar()
-    return best, [best.add(torch.tensor([value] * 512, dtype=torch.float64)) for value in returns]
-
-
-def test_the_best_window_is_kept_and_a_clearly_worse_one_is_noticed():
-    best, were_best = windows(0.2, 0.5, 0.4)
-    assert were_best == [True, True, False] and best.is_worse
-    best, were_best = windows(0.2, 0.5, 0.6)
-    assert were_best == [True, True, True] and not best.is_worse
-    noisy = learning_lib.BestSoFar(mean=0.5, variance=0.01)  # A standard error of 0.1.
-    noisy.add(torch.full((512,), 0.4, dtype=torch.float64))
-    assert not noisy.is_worse
-    assert learning_lib.BestSoFar.of(best.tensor()) == best
-
-
-def test_the_agent_is_the_best_network_once_the_last_one_is_worse():
+def test_the_best_window_is_kept_and_the_agent_falls_back_to_it_after_a_clearly_worse_one():
     agent = make_agent()
-    variables = agent._learner.variables
-    agent._learner.step()
-    saved = agent.save()
-    assert torch.equal(saved["network/members.belief.bias"], saved["averaged/members.belief.bias"])
-    variables.best.members.belief.bias.data.fill_(7.0)
-    variables.best_so_far.is_worse = True
-    variables.update_agent()
-    saved = agent.save()
-    assert (saved["network/members.belief.bias"] == 7.0).all()
-    assert not (saved["averaged/members.belief.bias"] == 7.0).any()
+    variables = agent.variables
+
+    def play_window(mark, *returns):
+        """Plays windows of 512 greedy episodes; returns which network is the agent, by the mark of its last weights."""
+        for value in returns:
+            variables.averaged.members.belief.bias.data.fill_(mark)
+            variables.compare(torch.full((512,), value, dtype=torch.float64))
+            variables.update_agent()
+        return agent.save()["network/members.belief.bias"].flatten()[0]
+
+    assert play_window(1.0, 0.2) == 1.0
+    assert play_window(2.0, 0.5) == 2.0
+    assert play_window(3.0, 0.4) == 2.0, "the best window's network"
     other = make_agent()
-    other.restore(saved)
-    assert other._learner.variables.best_so_far == variables.best_so_far
+    other.restore(agent.save())
+    assert torch.equal(other.variables.scores, variables.scores)
+    assert play_window(4.0, 0.6) == 4.0
+    variables.scores[:2] = torch.tensor([0.7, 0.01])  # A standard error of 0.1.
+    assert play_window(5.0, 0.6) == 5.0, "within two standard errors"

@@ -109,22 +109,6 @@ def test_other_content_is_refused_in_one_line(content, tmp_path):
             read(tmp_path / "file")
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "message"),
-    [
-        ("turned", torch.full((3, 2), math.nan), "not finite in turned"),
-        ("turned", torch.zeros(2, 3), r"turned is floating \[2, 3\], not floating \[3, 2\]"),
-        ("turned", torch.zeros(3, 2).long(), r"turned is integer \[3, 2\], not floating"),
-        ("more\nlines", torch.zeros(1), r"only one of them has 'more\\nlines'"),
-    ],
-)
-def test_tensors_that_do_not_fit_are_refused(name, value, message):
-    with pytest.raises(ValueError, match=message):
-        tensors.check({**TENSORS, name: value}, TENSORS)
-    with pytest.raises(ValueError, match="only one of them has image"):
-        tensors.check({key: TENSORS[key] for key in ("frames", "turned")}, TENSORS)
-
-
 @pytest.mark.parametrize("worst", [math.nan, math.inf, 65_520.0])  # Half precision ends at 65,504.
 def test_weights_beyond_half_precision_are_refused(worst):
     assert tensors.halved(TENSORS)["turned"].dtype == torch.half

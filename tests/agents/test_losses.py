@@ -1,16 +1,15 @@
 """Returns and losses agree with values derived by hand."""
 
-import functools
 import math
 
+from dm_env import specs
 import numpy as np
 import pytest
 from seeds import fresh_seed
 import torch
 
-from physexp import suite
-from physexp.agents import losses, networks, rounds
-from physexp.agents.a3c import learning
+from physexp.agents import learning, losses, networks, rounds
+from physexp.agents.a3c import config as a3c
 
 
 def test_returns_are_discounted_sums_of_the_rewards_that_follow():
@@ -64,16 +63,17 @@ def test_entropy_relative_to_a_prior_pulls_the_policy_towards_it():
     # Policy gradients vanish where advantages are 0, so the step is the bonus's alone.
     logits, prior = torch.tensor([[math.log(3), 0.0]], requires_grad=True), (2.0, 0.0)
     nothing, action = torch.zeros(1), torch.tensor([0])
-    clipped = functools.partial(losses.clipped_losses, logits, nothing, action, nothing, nothing, nothing, 0.2)
-    plain = functools.partial(losses.actor_critic_losses, logits, nothing, action, nothing, nothing)
-    for find_losses in (plain, clipped):
-        entropy = find_losses(prior=prior)[2]
-        assert entropy.item() == pytest.approx(math.log(4) - 0.75 * math.log(3) + 1.5, abs=1e-6)
-        towards, towards_uniform = (torch.autograd.grad(find_losses(prior=each)[2], logits)[0] for each in (prior, ()))
-        # ln 3 is less than the prior's 2 and more than the uniform policy's 0.
-        assert towards[0, 0] > 0 > towards[0, 1] and towards_uniform[0, 0] < 0 < towards_uniform[0, 1]
-        at_prior = losses.actor_critic_losses(torch.tensor([prior]), nothing, action, nothing, nothing, prior)[2]
-        assert at_prior.item() == pytest.approx(math.log(math.exp(2) + 1), abs=1e-6) and at_prior > entropy
+
+    def entropy_of(logits, prior):
+        return losses.actor_critic_losses(logits, nothing, action, nothing, nothing, prior)[2]
+
+    entropy = entropy_of(logits, prior)
+    assert entropy.item() == pytest.approx(math.log(4) - 0.75 * math.log(3) + 1.5, abs=1e-6)
+    towards, towards_uniform = (torch.autograd.grad(entropy_of(logits, each), logits)[0] for each in (prior, ()))
+    # ln 3 is less than the prior's 2 and more than the uniform policy's 0.
+    assert towards[0, 0] > 0 > towards[0, 1] and towards_uniform[0, 0] < 0 < towards_uniform[0, 1]
+    at_prior = entropy_of(torch.tensor([prior]), prior)
+    assert at_prior.item() == pytest.approx(math.log(math.exp(2) + 1), abs=1e-6) and at_prior > entropy
 
 
 def test_gradients_of_each_loss_reach_their_own_inputs_alone():
@@ -96,8 +96,8 @@ def test_losses_of_a_round_are_means_over_the_steps_played():
     # entropy = ln 8, and with gamma = 0.5 the returns are: a: 1; b: -0.25, -0.5, -1 (rewards 0, 0, -1).
     # Policy loss: ln 8 * mean(1, -0.25, -0.5, -1) = ln 8 * -0.75 / 4.
     # Baseline loss: 0.5 * (1 + 0.0625 + 0.25 + 1) / 4.
-    batch = suite.load_batch("which_is_heavier", "features", 2)
-    network = networks.RecurrentActorCritic(batch.observation_spec(), 8, observation_scale=10.0)
+    spec = {"heights": specs.Array((4,), np.float32)}
+    network = networks.RecurrentActorCritic(spec, 8, observation_scale=10.0)
     with torch.no_grad():
         for head in (network.policy, network.value):
             head.weight.zero_()
@@ -105,30 +105,19 @@ def test_losses_of_a_round_are_means_over_the_steps_played():
     inputs = network.encode({"heights": torch.zeros(4, 4)}).detach()
     rewards = np.array([[1, 0], [0, 0], [0, -1]], np.float32)
     episodes = rounds.Round(np.zeros((3, 2), np.int64), rewards, np.array([1, 3]), np.zeros(2, np.int64), inputs)
-    batch.close()
-    policy_loss, baseline_loss, entropy = learning.round_losses(network, episodes, 0.5)
-    assert policy_loss.item() == pytest.approx(math.log(8) * -0.75 / 4, abs=1e-6)
-    assert baseline_loss.item() == pytest.approx(0.5 * 2.3125 / 4, abs=1e-6)
-    assert entropy.item() == pytest.approx(math.log(8), abs=1e-6)
+    config = a3c.A3CConfig(discount=0.5)
+    _, metrics = learning.actor_critic_gradients(network, episodes.select(), config, 0.0)
+    assert metrics["policy_loss"] == pytest.approx(math.log(8) * -0.75 / 4, abs=1e-6)
+    assert metrics["baseline_loss"] == pytest.approx(0.5 * 2.3125 / 4, abs=1e-6)
+    assert metrics["entropy"] == pytest.approx(math.log(8), abs=1e-6)
 
 
-def test_clipped_losses_of_two_actions_are_those_computed_by_hand():
-    # Logits 0, 0: both actions have probability 1/2, entropy ln 2. Action 0 was taken with probability 1/4, twice.
-    # The ratio is 2; clip 0.2 leaves 1.2. An advantage of 1 gains min(2, 1.2) = 1.2; one of -1
-    # gains min(-2, -1.2) = -2: a bad action that became likelier costs in full. Policy loss: -(1.2 - 2) / 2 = 0.4.
-    # Values 0.5 and 0 with returns 1 and -1: 0.5 * (0.25 + 1) / 2 = 0.3125.
-    policy_loss, baseline_loss, entropy = losses.clipped_losses(
-        torch.zeros(2, 2),
-        torch.tensor([0.5, 0.0]),
-        torch.tensor([0, 0]),
-        torch.full((2,), math.log(0.25)),
-        torch.tensor([1.0, -1.0]),
-        torch.tensor([1.0, -1.0]),
-        clip=0.2,
-    )
-    assert policy_loss.item() == pytest.approx(0.4, abs=1e-6)
-    assert baseline_loss.item() == pytest.approx(0.3125, abs=1e-6)
-    assert entropy.item() == pytest.approx(math.log(2), abs=1e-6)
+def test_a_likelier_action_gains_up_to_the_clip_and_costs_in_full():
+    # Action 0 has probability 1/2 now and was taken with 1/4, twice: the ratio is 2; clip 0.2 leaves 1.2. An advantage
+    # of 1 gains min(2, 1.2) = 1.2; one of -1 gains min(-2, -1.2) = -2. Policy loss: -(1.2 - 2) / 2 = 0.4.
+    chosen, behaviour = torch.full((2,), math.log(0.5)), torch.full((2,), math.log(0.25))
+    policy_loss = losses.clipped_policy_loss(behaviour, clip=0.2)
+    assert policy_loss(chosen, torch.tensor([1.0, -1.0])).item() == pytest.approx(0.4, abs=1e-6)
 
 
 def test_an_action_that_has_gained_its_clip_is_pushed_no_further():
@@ -136,7 +125,8 @@ def test_an_action_that_has_gained_its_clip_is_pushed_no_further():
     # gradient, that of the plain policy gradient: pi - onehot, over the mean of two.
     logits = torch.zeros(2, 2, requires_grad=True)
     behaviour = torch.tensor([math.log(0.5), math.log(0.25)])
-    ones = torch.ones(2)
-    loss, _, _ = losses.clipped_losses(logits, ones, torch.tensor([0, 0]), behaviour, ones, ones, clip=0.2)
+    ones, policy_loss = torch.ones(2), losses.clipped_policy_loss(behaviour, clip=0.2)
+    actions = torch.tensor([0, 0])
+    loss, _, _ = losses.actor_critic_losses(logits, ones, actions, ones, ones, policy_loss=policy_loss)
     (gradient,) = torch.autograd.grad(loss, logits)
     torch.testing.assert_close(gradient, torch.tensor([[-0.25, 0.25], [0.0, 0.0]]))

@@ -19,24 +19,16 @@ def fresh_images(number):
     return torch.randint(256, (number, 84, 84, 3), dtype=torch.uint8)
 
 
-def make_torso():
-    batch = suite.load_batch("towers", "fist_pixels", 1)
-    torso = networks.PixelTorso(batch.observation_spec(), SCALE)
-    batch.close()
-    return torso
+SPEC = {"pixels": specs.Array((84, 84, 3), np.uint8)}
 
 
 def make_network():
-    batch = suite.load_batch("towers", "fist_pixels", 1)
-    network = networks.RecurrentActorCritic(batch.observation_spec(), 9, observation_scale=SCALE)
-    batch.close()
-    return network
+    return networks.RecurrentActorCritic(SPEC, 9, observation_scale=SCALE)
 
 
 def test_the_layers_are_the_papers():
-    images = fresh_images(2)
-    torso = make_torso()
-    sizes, x = [], images.permute(0, 3, 1, 2).float()
+    torso = networks.PixelTorso(SPEC, SCALE)
+    sizes, x = [], fresh_images(2).permute(0, 3, 1, 2).float()
     for layer in torso.convolutions:
         x = layer(x)
         sizes.append(tuple(x.shape[1:]))
@@ -46,30 +38,30 @@ def test_the_layers_are_the_papers():
 
 
 def test_pixels_are_relative_to_the_first_image_and_scaled():
-    images = fresh_images(3)
-    torso = make_torso()
+    images, network = fresh_images(3), make_network()
+    torso = network.torso
     for reference in (torch.zeros(84, 84, 3), images[1]):  # Without a reference they are those of the paper.
         expected = torso.convolutions(SCALE / 255 * (images.float() - reference.float()).permute(0, 3, 1, 2)).flatten(1)
         torch.testing.assert_close(torso({"pixels": images}), expected, rtol=1e-4, atol=1e-5)
-        torso.calibrate({"pixels": images[1:]})
+        network.calibrate({"pixels": images[1:]})
 
 
-def test_equal_images_pass_the_convolutions_once_and_count_each_time():
-    images = fresh_images(3)
-    torso = make_torso()
+def test_equal_images_pass_the_convolutions_once_and_count_each_time(monkeypatch):
+    monkeypatch.setattr(devices, "_has_fast_bfloat16", lambda device_type: False)
+    images, network = fresh_images(3), make_network()
     repeated = images[[0, 1, 0, 2, 2, 0]]
     passed = []
-    torso.convolutions.register_forward_hook(lambda module, inputs, outputs: passed.append(len(inputs[0])))
-    outputs = torso({"pixels": repeated})
+    network.torso.convolutions.register_forward_hook(lambda module, inputs, outputs: passed.append(len(inputs[0])))
+    outputs = network.encode({"pixels": repeated})
     assert passed == [3]
+    weights, parameters = torch.randn_like(outputs), [*network.torso.parameters(), network.lstm.weight_ih_l0]
+    once = torch.autograd.grad((outputs * weights).sum(), parameters)
+    one_by_one = torch.cat([network.encode({"pixels": image[None]}) for image in repeated])
+    torch.testing.assert_close(outputs, one_by_one, rtol=1e-4, atol=1e-4)
+    each = torch.autograd.grad((one_by_one * weights).sum(), parameters)
     # Sums are rounded differently beside other images, so that a unit at zero may be on or off.
-    weights = torch.randn_like(outputs) * (outputs > 1e-5)
-    once = torch.autograd.grad((outputs * weights).sum(), list(torso.parameters()))
-    one_by_one = torch.cat([torso({"pixels": image[None]}) for image in repeated])
-    torch.testing.assert_close(outputs, one_by_one, rtol=1e-4, atol=1e-5)
-    each = torch.autograd.grad((one_by_one * weights).sum(), list(torso.parameters()))
     for ours, theirs in zip(once, each, strict=True):
-        torch.testing.assert_close(ours, theirs, rtol=1e-3, atol=1e-3)
+        assert difference(ours, theirs) < 1e-2
 
 
 def test_the_policy_starts_from_its_initial_logits():
