@@ -54,14 +54,14 @@ class Frame:
     duration: int
 
 
-def recorded(name: str) -> recording.Episode:
+def recorded(name: str) -> recording.Film:
     """Returns the episode that a picture shows."""
     target, seed, index = EPISODES[name]
     agent = finding.find_agent(target)
     return recording.reenact(agent.network, agent.config, seed, index, None)
 
 
-def frames(episode: recording.Episode) -> list[Frame]:
+def frames(episode: recording.Film) -> list[Frame]:
     """Returns the frames of an episode: each decision, its effect, and the verdict."""
     task = episode.declared
     belief, substeps, found = beliefs.of_agent(episode), task.options.substeps, []
@@ -79,7 +79,7 @@ def frames(episode: recording.Episode) -> list[Frame]:
     return found
 
 
-def scenes(episode: recording.Episode, shown: Sequence[Frame]) -> Iterator[np.ndarray]:
+def scenes(episode: recording.Film, shown: Sequence[Frame]) -> Iterator[np.ndarray]:
     """Yields the scenes of some frames, uint8 [SCENE, SCENE, 3]."""
     apparatus, geoms = episode.declared.apparatus, episode.shapes.geoms
     renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms, size=2 * SCENE)
@@ -96,7 +96,7 @@ def scenes(episode: recording.Episode, shown: Sequence[Frame]) -> Iterator[np.nd
     renderer.close()
 
 
-def drawn(episode: recording.Episode, frame: Frame, scene: np.ndarray) -> Image.Image:
+def drawn(episode: recording.Film, frame: Frame, scene: np.ndarray) -> Image.Image:
     """Returns a frame: the scene, the action in words, the belief as named bars, and the verdict."""
     labels = episode.declared.label_names
     names = palette.short(labels, episode.shapes)

@@ -17,6 +17,3 @@ class Watcher(environment_loop.Observer):
     def observe(self, environment, timestep, action):
         self.seen.append(timestep.observation)
         self.actions.append(action)
-
-    def get_metrics(self):
-        return {}

@@ -1,14 +1,14 @@
 """Plays episodes of any dm_env environment with any actor."""
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import dm_env
 
 from physexp.agents import core
 
 
-class Observer(Protocol):
+class Observer:
     """Watches episodes without taking part."""
 
     def observe_first(self, environment: dm_env.Environment, timestep: dm_env.TimeStep) -> None:
@@ -19,6 +19,7 @@ class Observer(Protocol):
 
     def get_metrics(self) -> dict[str, Any]:
         """Returns the metrics of the episode that has just ended."""
+        return {}
 
 
 class EnvironmentLoop:
@@ -53,3 +54,26 @@ class EnvironmentLoop:
         if num_episodes < 1:
             raise ValueError(f"num_episodes is {num_episodes}; give a number >= 1")
         return [self.run_episode() for _ in range(num_episodes)]
+
+
+class Repeat(core.Actor):
+    """Repeats the actions of an episode."""
+
+    def __init__(self, actions: Sequence[int]):
+        self._actions, self._step = actions, 0
+
+    def observe_first(self, timestep: dm_env.TimeStep) -> None:
+        """Goes back to the first action."""
+        self._step = 0
+
+    def select_action(self, observation: Any) -> int:
+        """Returns the next action; raises ValueError if there is none."""
+        if self._step == len(self._actions):
+            raise ValueError(f"the episode goes on after its {self._step} actions; some are missing")
+        return int(self._actions[self._step])
+
+    def observe(self, action: int, next_timestep: dm_env.TimeStep) -> None:
+        """Goes on to the next action; raises ValueError if the episode is over before it."""
+        self._step += 1
+        if next_timestep.last() and self._step < len(self._actions):
+            raise ValueError(f"the episode ends after {self._step} of its {len(self._actions)} actions")

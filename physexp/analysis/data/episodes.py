@@ -1,4 +1,7 @@
-"""The table of episodes, one row each: stored files are selections of its columns."""
+"""Played episodes: one of a single environment, and a table of many with one row each.
+
+Stored files are selections of the table's columns.
+"""
 
 from collections.abc import Sequence
 import dataclasses
@@ -7,10 +10,70 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pyarrow
 
+from physexp import suite
+from physexp.agents import core, environment_loop
 from physexp.analysis.data import estimates
 
 if TYPE_CHECKING:
     from physexp.agents import rounds  # Imports torch, without which tables are read in no time.
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Episode:
+    """A played episode of T actions.
+
+    Attributes:
+      seed, index: seed of the environment and index of the episode: they rebuild its instance.
+      hidden: the hidden property, which no actor observes, [...].
+      answer: the right label.
+      observations: arrays by name, before each action and at the end, [T + 1, ...].
+      actions: int64 [T].
+      rewards: float64 [T].
+    """
+
+    seed: int
+    index: int
+    hidden: np.ndarray
+    answer: int
+    observations: dict[str, np.ndarray]
+    actions: np.ndarray
+    rewards: np.ndarray
+
+
+class Recorder(environment_loop.Observer):
+    """Records an episode of a single environment of the suite."""
+
+    def observe_first(self, environment, timestep) -> None:
+        self._task = environment.task
+        self._seen = [timestep.observation]
+        self._actions: list[int] = []
+        self._rewards: list[float] = []
+
+    def observe(self, environment, timestep, action) -> None:
+        self._seen.append(timestep.observation)
+        self._actions.append(int(action))
+        self._rewards.append(float(timestep.reward))
+
+    @property
+    def episode(self) -> Episode:
+        """The episode so far, until the environment begins another one."""
+        return Episode(
+            seed=self._task.options.random,
+            index=self._task.episode,
+            hidden=self._task.hidden,
+            answer=self._task.correct_answer,
+            observations={name: np.stack([seen[name] for seen in self._seen]) for name in self._seen[0]},
+            actions=np.array(self._actions, np.int64),
+            rewards=np.array(self._rewards),
+        )
+
+
+def play(environment: suite.Environment, actor: core.Actor, index: int) -> Episode:
+    """Returns the episode of an index, played by an actor."""
+    environment.task.next_episode = index
+    recorder = Recorder()
+    environment_loop.EnvironmentLoop(environment, actor, [recorder]).run_episode()
+    return recorder.episode
 
 
 @dataclasses.dataclass(frozen=True)

@@ -7,12 +7,12 @@ from typing import Any
 
 from physexp import suite
 from physexp.analysis.replay import recording, selection, words, writing
-from physexp.analysis.replay.recording import Episode, EpisodeRecorder
+from physexp.analysis.replay.recording import EpisodeRecorder, Film
 from physexp.analysis.replay.viewing import check_display, view
 from physexp.analysis.training import callbacks, finding, playing
 from physexp.analysis.training import config as config_lib
 
-__all__ = ["Episode", "EpisodeRecorder", "check_display", "replay", "view"]
+__all__ = ["EpisodeRecorder", "Film", "check_display", "replay", "view"]
 
 
 def replay(
@@ -65,7 +65,7 @@ def _played(config: config_lib.TrainConfig) -> tuple[str, str, suite.Options]:
 
 def _episodes(
     targets: Sequence[str], agents: Sequence[finding.Agent], instance: selection.Instance, interaction: str
-) -> list[Episode]:
+) -> list[Film]:
     """Returns the episodes of all agents on one instance; the first agent's is repeated, the others play it."""
     seed, episode, actions = instance
     titles = [targets[0] if interaction == "learned" else f"{targets[0]}, {interaction} interaction", *targets[1:]]

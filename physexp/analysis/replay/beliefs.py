@@ -8,7 +8,7 @@ from physexp.analysis import domains
 from physexp.analysis.replay import recording
 
 
-def of_agent(episode: recording.Episode) -> np.ndarray:
+def of_agent(episode: recording.Film) -> np.ndarray:
     """Returns the agent's belief before each of T actions, float64 [T, L].
 
     For an agent with a policy alone this is the policy restricted to the labels and renormalized.
@@ -19,7 +19,7 @@ def of_agent(episode: recording.Episode) -> np.ndarray:
     return answers / answers.sum(axis=1, keepdims=True)
 
 
-def of_ideal(episode: recording.Episode) -> np.ndarray | None:
+def of_ideal(episode: recording.Film) -> np.ndarray | None:
     """Returns the ideal experimenter's belief in an episode of T actions, [T + 1, L]; None where it is unknown."""
     solution = _ideal(episode.domain, episode.task, tuple(sorted(episode.task_kwargs.items())))
     return None if solution is None else solution.beliefs(episode)

@@ -22,7 +22,7 @@ _INVISIBLE = rrb.EntityBehavior(visible=False)
 _NEARER = 0.7  # Of the distance that shows the camera's image, since a window is wider.
 
 
-def blueprint(episodes: Sequence[recording.Episode], roots: Sequence[str]) -> rrb.Blueprint:
+def blueprint(episodes: Sequence[recording.Film], roots: Sequence[str]) -> rrb.Blueprint:
     """Returns the layout of episodes side by side, each below its root entity."""
     columns = [_column(episode, root) for episode, root in zip(episodes, roots, strict=True)]
     body = columns[0] if len(columns) == 1 else rrb.Horizontal(*columns)
@@ -39,7 +39,7 @@ def titled(root: str, title: str) -> str:
     return f"{root}: {title}" if root else title
 
 
-def _column(episode: recording.Episode, root: str) -> rrb.Container:
+def _column(episode: recording.Film, root: str) -> rrb.Container:
     scene, about, seen = _scene(episode, root), _about(root), _readings(episode, root)
     now, curves = _thoughts(episode, root)
     if root:
@@ -56,7 +56,7 @@ def _column(episode: recording.Episode, root: str) -> rrb.Container:
     return rrb.Horizontal(left, rrb.Vertical(*right, row_shares=[5, 4, 4, 4][: len(right)]), column_shares=[3, 2])
 
 
-def _scene(episode: recording.Episode, root: str) -> rrb.Tabs:
+def _scene(episode: recording.Film, root: str) -> rrb.Tabs:
     """Returns tabs of the observed scene and of the true one, in which covers are transparent."""
     edges = rr.Boxes3D.from_fields(fill_mode="majorwireframe")
     hidden = {f"{root}/world/{entity}": edges for entity in _covers(episode)}
@@ -67,7 +67,7 @@ def _scene(episode: recording.Episode, root: str) -> rrb.Tabs:
     )
 
 
-def _observed(episode: recording.Episode, root: str) -> rrb.View:
+def _observed(episode: recording.Film, root: str) -> rrb.View:
     """Returns the scene as readings place it, or the image."""
     title, images = episode.agent or "scene", _images(episode)
     if images:
@@ -75,18 +75,18 @@ def _observed(episode: recording.Episode, root: str) -> rrb.View:
     return _world(episode, root, title, {f"{root}/world/hidden": _INVISIBLE})
 
 
-def _world(episode: recording.Episode, root: str, title: str, overrides: Any) -> rrb.View:
+def _world(episode: recording.Film, root: str, title: str, overrides: Any) -> rrb.View:
     return rrb.Spatial3DView(
         origin=f"{root}/world", name=titled(root, title), eye_controls=_eye(episode), overrides=overrides
     )
 
 
-def _images(episode: recording.Episode) -> list[str]:
+def _images(episode: recording.Film) -> list[str]:
     """Returns the names of the observations that are images."""
     return [name for name in episode.observations if name not in episode.declared.observer.readings]
 
 
-def _covers(episode: recording.Episode) -> list[str]:
+def _covers(episode: recording.Film) -> list[str]:
     """Returns the entities of boxes that hold an unplaced thing at the start."""
     shapes, positions = episode.shapes, episode.positions[0]
     covers = []
@@ -98,7 +98,7 @@ def _covers(episode: recording.Episode) -> list[str]:
     return covers
 
 
-def _eye(episode: recording.Episode) -> rrb.EyeControls3D:
+def _eye(episode: recording.Film) -> rrb.EyeControls3D:
     """Returns an eye in the direction of the agent's camera."""
     camera = episode.declared.root_entity.camera
     right, up = np.reshape(camera.xyaxes, (2, 3))
@@ -115,7 +115,7 @@ def _about(root: str) -> rrb.Container:
     return rrb.Horizontal(text, log, column_shares=[2, 1])
 
 
-def _readings(episode: recording.Episode, root: str) -> list[rrb.View | rrb.Container]:
+def _readings(episode: recording.Film, root: str) -> list[rrb.View | rrb.Container]:
     """Returns plots of the readings, in tabs if there are several."""
     curves, seen = functools.partial(_curves, episode, root), readings.shown(episode.declared.observer.readings)
     seen = [reading for reading in seen if reading.name in episode.observations]
@@ -154,7 +154,7 @@ def entity(reading: readings.Shown, component: str) -> str:
     return f"seen/{reading.name}/{component}" if component else f"seen/{reading.name}"
 
 
-def _thoughts(episode: recording.Episode, root: str) -> tuple[list[rrb.View], list[list[rrb.View]]]:
+def _thoughts(episode: recording.Film, root: str) -> tuple[list[rrb.View], list[list[rrb.View]]]:
     """Returns the view of the current belief, and groups of plots over time."""
     curves, chances = functools.partial(_curves, episode, root), (-0.05, 1.05)
     is_known = domains.find(episode.domain).ideal_with(episode.task_kwargs) is not None
@@ -168,7 +168,7 @@ def _thoughts(episode: recording.Episode, root: str) -> tuple[list[rrb.View], li
 
 
 def _curves(
-    episode: recording.Episode,
+    episode: recording.Film,
     root: str,
     title: str,
     entities: Sequence[str],

@@ -16,7 +16,7 @@ class Live(environment_loop.Observer):
     def observe_first(self, environment, timestep):
         episode = self._recorder.episode
         self._stream = rr.RecordingStream(
-            f"physexp-{episode.domain}-{episode.task}", recording_id=f"{episode.seed}-{episode.episode}-live"
+            f"physexp-{episode.domain}-{episode.task}", recording_id=f"{episode.seed}-{episode.index}-live"
         )
         self._screen.show(self._stream, layout.blueprint([episode], [""]))
         self._stream.send_recording_name(words.name(episode))
@@ -24,10 +24,6 @@ class Live(environment_loop.Observer):
 
     def observe(self, environment, timestep, action):
         self._show(timestep.last())
-
-    def get_metrics(self):
-        """Returns no metrics."""
-        return {}
 
     def _show(self, is_over: bool) -> None:
         episode = self._recorder.episode

@@ -1,7 +1,8 @@
-"""Recording of episodes: an observer of the environment loop, and re-enactment by seed and index."""
+"""Films of episodes: an observer of the environment loop, and re-enactment by seed and index."""
 
 from collections.abc import Callable, Mapping, Sequence
 import dataclasses
+import functools
 import re
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 
 from physexp import suite
 from physexp.agents import acting, core, environment_loop, networks
-from physexp.analysis.data import readings
+from physexp.analysis.data import episodes, readings
 from physexp.analysis.replay import observed
 from physexp.analysis.training import config as config_lib
 from physexp.suite.engine import contract, rendering
@@ -46,24 +47,18 @@ class Shapes:
     geoms: np.ndarray
 
 
-@dataclasses.dataclass(frozen=True)
-class Episode:
-    """A recorded episode of T actions and F physics steps with K shapes.
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Film(episodes.Episode):
+    """A played episode of T actions with the poses of K shapes at F physics steps.
 
     Attributes:
       domain, task: names of the environment.
       task_kwargs: options that differ from the defaults, without the seed.
-      declared: the task, for its declarations.
-      seed, episode: seed of the environment and index of the episode.
       agent: name of the player.
-      hidden: hidden property.
-      answer: right label.
-      observations: arrays by name, before each action and at the end, [T + 1, ...].
-      actions: int64 [T].
-      rewards: float64 [T].
       policies: probabilities of all actions before each action, float64 [T, A]; empty for an actor without a policy.
       values: expected return before each action, float64 [T], or empty.
       beliefs: probabilities of the labels before each action, float64 [T, L], or empty.
+      declared: the task, for its declarations.
       shapes: shapes in the scene.
       control_timestep: the task's control step, s, also if `step_variation` hides the episode's own.
       times: times of the physics steps, those that play out the answer included, s, float64 [F]; stretched with
@@ -78,18 +73,11 @@ class Episode:
     domain: str
     task: str
     task_kwargs: dict[str, Any]
-    declared: contract.Task
-    seed: int
-    episode: int
     agent: str
-    hidden: np.ndarray
-    answer: int
-    observations: dict[str, np.ndarray]
-    actions: np.ndarray
-    rewards: np.ndarray
     policies: np.ndarray
     values: np.ndarray
     beliefs: np.ndarray
+    declared: contract.Task
     shapes: Shapes
     control_timestep: float
     times: np.ndarray
@@ -101,8 +89,8 @@ class Episode:
     controls: np.ndarray
 
 
-class EpisodeRecorder(environment_loop.Observer):
-    """Records each episode of an environment.
+class EpisodeRecorder(episodes.Recorder):
+    """Records each episode of an environment, for a replay.
 
     The recorder keeps timesteps and actions. Poses are computed on demand by playing the episode again from its seed,
     index and actions.
@@ -127,21 +115,19 @@ class EpisodeRecorder(environment_loop.Observer):
           agent: name of the player.
           make_task: makes the task again, if `suite.load` does not know it.
         """
-        self._environment, self._actor, self._make_task = environment, actor, make_task
+        self._actor, self._make_task = actor, make_task or functools.partial(_load_task, domain, task)
         chosen = {name: value for name, value in (task_kwargs or {}).items() if name != "random"}
         self._facts: dict[str, Any] = {"domain": domain, "task": task, "agent": agent, "task_kwargs": chosen}
         self._rebuilder: _Rebuilder | None = None
 
     def observe_first(self, environment, timestep) -> None:
-        self._identity = environment.task.options.random, environment.task.episode
-        self._seen = [timestep.observation]
-        self._actions: list[int] = []
-        self._rewards: list[float] = []
+        super().observe_first(environment, timestep)
         self._policies: list[np.ndarray] = []
         self._values: list[float] = []
         self._beliefs: list[np.ndarray] = []
 
     def observe(self, environment, timestep, action) -> None:
+        super().observe(environment, timestep, action)
         policy = getattr(self._actor, "policy", None)
         if policy is not None:
             self._policies.append(policy)
@@ -149,13 +135,6 @@ class EpisodeRecorder(environment_loop.Observer):
         belief = getattr(self._actor, "belief", None)
         if belief is not None:
             self._beliefs.append(belief)
-        self._seen.append(timestep.observation)
-        self._actions.append(int(action))
-        self._rewards.append(float(timestep.reward))
-
-    def get_metrics(self) -> dict[str, Any]:
-        """Returns no metrics."""
-        return {}
 
     def close(self) -> None:
         """Frees the simulation that computes poses."""
@@ -164,38 +143,23 @@ class EpisodeRecorder(environment_loop.Observer):
             self._rebuilder = None
 
     @property
-    def episode(self) -> Episode:
-        """Returns the episode so far; raises RuntimeError if playing it again leads to other observations."""
+    def episode(self) -> Film:
+        """The episode so far, with its poses; raises RuntimeError if playing it again leads to other observations."""
         if self._rebuilder is None:
-            self._rebuilder = _Rebuilder(self._remade_task())
-        observations = {name: np.stack([seen[name] for seen in self._seen]) for name in self._seen[0]}
-        seen_again, rebuilt = self._rebuilder.rebuild(*self._identity, self._actions)
-        for name, values in observations.items():
-            if not (name in seen_again and np.array_equal(values, seen_again[name])):
-                seed, index = self._identity
-                raise RuntimeError(
-                    f"episode {index} of seed {seed} is not what was seen: {name} differs; record the "
-                    "environment with the task_kwargs that it was loaded with"
-                )
-        seed, index = self._identity
-        return Episode(
+            self._rebuilder = _Rebuilder(self._make_task(**self._facts["task_kwargs"]))
+        played = super().episode
+        return Film(
+            **vars(played),
             **self._facts,
-            seed=seed,
-            episode=index,
-            observations=observations,
-            actions=np.array(self._actions, np.int64),
-            rewards=np.array(self._rewards),
             policies=np.array(self._policies),
             values=np.array(self._values),
             beliefs=np.array(self._beliefs),
-            **rebuilt,
+            **self._rebuilder.rebuild(played),
         )
 
-    def _remade_task(self) -> contract.Task:
-        domain, task, task_kwargs = (self._facts[name] for name in ("domain", "task", "task_kwargs"))
-        if self._make_task is None:
-            return suite.load_task(domain, task, task_kwargs)
-        return self._make_task(**task_kwargs)
+
+def _load_task(domain: str, task: str, **task_kwargs: Any) -> contract.Task:
+    return suite.load_task(domain, task, task_kwargs)
 
 
 class _Rebuilder:
@@ -205,44 +169,38 @@ class _Rebuilder:
         self.environment = suite.Environment(task)
         self.environment.add_extra_hook("after_substep", lambda physics, random_state: self._note_poses(physics))
 
-    def rebuild(self, seed: int, episode: int, actions: Sequence[int]) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-        """Returns the observations by name, and the fields of `Episode` that need the simulation."""
-        task = self.environment.task
-        task.reseed(seed)
-        task.next_episode = episode
-        timestep = self.environment.reset()
+    def rebuild(self, episode: episodes.Episode) -> dict[str, Any]:
+        """Returns the fields of `Film` that need the simulation."""
+        task, actions = self.environment.task, episode.actions.tolist()
+        task.reseed(episode.seed)
+        task.next_episode = episode.index
+        seen = [self.environment.reset().observation]
         self._poses: list[tuple] = []
         self._note_poses(self.environment.physics)
-        seen, ends = [timestep.observation], [0]
+        ends = [0]
         for action in actions:
             seen.append(self.environment.step(action).observation)
             ends.append(len(self._poses) - 1)
+        for name, values in episode.observations.items():
+            if not (name in seen[0] and np.array_equal(values, [each[name] for each in seen])):
+                raise RuntimeError(
+                    f"episode {episode.index} of seed {episode.seed} is not what was seen: {name} differs; record the "
+                    "environment with the task_kwargs that it was loaded with"
+                )
         if task.answered:
             for _ in task.play_out(self.environment.physics, actions[-1] - task.num_interactions):
                 self._note_poses(self.environment.physics)
-        observations = {name: np.stack([each[name] for each in seen]) for name in seen[0]}
-        return observations, {
-            "declared": task,
-            "hidden": np.array(task.hidden),
-            "answer": task.correct_answer,
-            "control_timestep": task.options.control_timestep,
-            "num_played": ends[-1],
-            **self._films(observations, ends),
-        }
-
-    def _films(self, observations: Mapping[str, np.ndarray], ends: Sequence[int]) -> dict[str, Any]:
-        """Returns the shapes, times, poses and controls of an `Episode`."""
-        task = self.environment.task
         model, room = task.apparatus.model, task.root_entity
-        floor = [model.geom(geom.full_identifier).id for geom in (room.floor, room.mat)]
-        geoms = _geoms(model, floor)
+        geoms = _geoms(model, [model.geom(geom.full_identifier).id for geom in (room.floor, room.mat)])
         times, positions, rotations, controls = (np.array(values) for values in zip(*self._poses, strict=True))
-        times *= task.options.control_timestep / task.control_timestep
         positions, rotations = positions[:, geoms], rotations[:, geoms]
-        seen_positions, seen_rotations, are_placed = observed.film(task, geoms, observations, ends)
+        seen_positions, seen_rotations, are_placed = observed.film(task, geoms, episode.observations, ends)
         return {
+            "declared": task,
             "shapes": _shapes(model, geoms, np.isin(geoms, task.apparatus.moving_geoms), are_placed),
-            "times": times,
+            "control_timestep": task.options.control_timestep,
+            "times": times * (task.options.control_timestep / task.control_timestep),
+            "num_played": ends[-1],
             "positions": np.concatenate([seen_positions, positions[ends[-1] + 1 :]]),
             "rotations": np.concatenate([seen_rotations, rotations[ends[-1] + 1 :]]),
             "true_positions": positions,
@@ -299,46 +257,41 @@ def _half_sizes(kind: str, size: np.ndarray) -> np.ndarray:
     return size.copy()
 
 
-class Reenactor(core.Actor):
-    """Repeats recorded actions beside the policy, value and belief of another actor."""
+class _Beside(environment_loop.Repeat):
+    """Repeats actions, and lets another actor choose and observe beside them."""
 
     def __init__(self, actor: core.Actor, actions: Sequence[int]):
-        """Prepares to take `actions` in its first episode."""
-        self._actor, self._left = actor, [int(action) for action in actions]
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._actor, name)
+        super().__init__(actions)
+        self._actor = actor
 
     def observe_first(self, timestep):
+        super().observe_first(timestep)
         self._actor.observe_first(timestep)
 
-    def select_action(self, observation) -> int:
+    def select_action(self, observation):
         self._actor.select_action(observation)
-        return self._left.pop(0)
+        return super().select_action(observation)
 
     def observe(self, action, next_timestep):
+        super().observe(action, next_timestep)
         self._actor.observe(action, next_timestep)
-
-    def update(self):
-        self._actor.update()
 
 
 def reenact(
     network: networks.RecurrentNetwork,
     config: config_lib.TrainConfig,
     seed: int,
-    episode: int,
+    index: int,
     actions: Sequence[int] | None,
     agent: str = "",
-) -> Episode:
+) -> Film:
     """Plays an episode in the composer environment and records it; `actions` are None for the agent's own."""
-    environment = suite.load(config.domain, config.task, task_kwargs={**config.task_kwargs, "random": int(seed)})
-    environment.task.next_episode = int(episode)
-    actor: core.Actor = acting.RecurrentActor(network)
-    if actions is not None:
-        actor = Reenactor(actor, actions)
+    environment = suite.load(config.domain, config.task, task_kwargs={**config.task_kwargs, "random": seed})
+    environment.task.next_episode = index
+    actor = acting.RecurrentActor(network)
     recorder = EpisodeRecorder(environment, config.domain, config.task, config.task_kwargs, actor, agent)
-    environment_loop.EnvironmentLoop(environment, actor, [recorder]).run_episode()
+    player = actor if actions is None else _Beside(actor, actions)
+    environment_loop.EnvironmentLoop(environment, player, [recorder]).run_episode()
     recorded = recorder.episode
     recorder.close()
     environment.close()

@@ -32,18 +32,18 @@ scene.
 """
 
 
-def name(episode: recording.Episode) -> str:
+def name(episode: recording.Film) -> str:
     """Returns the name of an episode."""
-    return f"{task_name(episode)}, seed {episode.seed}, episode {episode.episode}"
+    return f"{task_name(episode)}, seed {episode.seed}, episode {episode.index}"
 
 
-def task_name(played: recording.Episode | config_lib.TrainConfig) -> str:
+def task_name(played: recording.Film | config_lib.TrainConfig) -> str:
     """Returns the name of a task with its options."""
     options = "".join(f", {key} {agent_config.shown(value)}" for key, value in played.task_kwargs.items())
     return f"{played.domain}/{played.task}{options}"
 
 
-def about(episode: recording.Episode, ending: str) -> str:
+def about(episode: recording.Film, ending: str) -> str:
     """Returns question, ending, the episode's name and player, and a legend of the views, as Markdown."""
     belief = _OWN_BELIEF if len(episode.beliefs) else _BELIEF_OF_POLICY
     reading = _READING.format(belief=belief) if len(episode.policies) else _READING_LIVE
@@ -51,7 +51,7 @@ def about(episode: recording.Episode, ending: str) -> str:
     return f"### {episode.declared.question}\n**{ending}**\n\n{name(episode)}{player}\n{reading}"
 
 
-def outcome(episode: recording.Episode) -> str:
+def outcome(episode: recording.Film) -> str:
     """Returns the outcome of an episode as a sentence."""
     label = int(episode.actions[-1]) - episode.declared.num_interactions
     label_names = episode.declared.label_names

@@ -43,7 +43,7 @@ _OFF = ("off", "false", "0")  # Values of RERUN that make rerun drop all data.
 
 def write(
     path: Path,
-    groups: Sequence[Callable[[], Sequence[recording.Episode]]],
+    groups: Sequence[Callable[[], Sequence[recording.Film]]],
     tell: callbacks.Tell = callbacks.ignore,
 ) -> Path:
     """Writes recordings into one file, which is complete after each of them.
@@ -116,11 +116,11 @@ def _merge(recordings: bytes) -> bytes:
     return done.stdout
 
 
-def _recording(episodes: Sequence[recording.Episode]) -> bytes:
+def _recording(episodes: Sequence[recording.Film]) -> bytes:
     """Returns a recording, made in memory because rerun silently drops data that it cannot write to a file."""
     first, players = episodes[0], "-".join(episode.agent for episode in episodes)
     stream = rr.RecordingStream(
-        f"physexp-{first.domain}-{first.task}", recording_id=f"{first.seed}-{first.episode}-{players}"
+        f"physexp-{first.domain}-{first.task}", recording_id=f"{first.seed}-{first.index}-{players}"
     )
     roots = [""] if len(episodes) == 1 else [f"{chr(ord('A') + index)}" for index in range(len(episodes))]
     memory = stream.memory_recording()
@@ -134,7 +134,7 @@ def _recording(episodes: Sequence[recording.Episode]) -> bytes:
 class EpisodeWriter:
     """Writes one episode below a root entity."""
 
-    def __init__(self, stream: rr.RecordingStream, episode: recording.Episode, root: str):
+    def __init__(self, stream: rr.RecordingStream, episode: recording.Film, root: str):
         self._stream, self._episode, self._root = stream, episode, root
         self._task = episode.declared
         # Observations come before each action and at the end; a label takes no time.

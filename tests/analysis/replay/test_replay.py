@@ -112,7 +112,7 @@ def written(request, tmp_path_factory):
 
 def test_a_recorder_keeps_what_happened(written):
     episode, watcher, environment, _ = written
-    assert (episode.seed, episode.episode) == (environment.task.options.random, 0)
+    assert (episode.seed, episode.index) == (environment.task.options.random, 0)
     np.testing.assert_array_equal(episode.hidden, environment.task.hidden)
     assert episode.answer == environment.task.correct_answer
     np.testing.assert_array_equal(episode.actions, watcher.actions)
