@@ -10,6 +10,7 @@ from physexp.suite.parts import arena, things
 NUM_BLOCKS = 3
 SPACING = 0.16  # m
 PULL_FORCE = 5.0  # N
+ROOM = dict(mat_size=[0.3, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.2], fovy=14.5)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -29,15 +30,13 @@ class WhichIsBolted(contract.Task):
 
     def build(self):
         """Returns the scene, with what actions do and what is seen."""
-        room = arena.Laboratory(mat_size=[0.3, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.2], fovy=14.5)
-        room.mjcf_model.option.gravity = [0, 0, 0]
-        room.mjcf_model.option.flag.contact = "disable"
+        room = arena.Laboratory(**ROOM, contact=False, gravity=False)
         self._rails, heights = [], []
         for k in range(NUM_BLOCKS):
-            frame = room.attach(things.Block(rgba=things.COLORS[k], mass=1.0, name=f"block_{k}"))
-            frame.pos = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, things.HALF_SIZE]
-            rail = frame.add("joint", name="rail", type="slide", axis=[0, 0, 1], stiffness=20, damping=10)
-            room.mjcf_model.actuator.add("motor", name=f"pull_{k}", joint=rail)
+            cube = things.Block(rgba=things.COLORS[k], mass=1.0, name=f"block_{k}")
+            place = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, things.HALF_SIZE]
+            rail = room.put_on_rail(cube, place, [0, 0, 1], stiffness=20, damping=10)
+            room.add_actuator(f"pull_{k}", rail)
             heights.append(room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=rail))
             self._rails.append(rail)
         return contract.Scene(

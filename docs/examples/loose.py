@@ -14,6 +14,7 @@ SPACING = 0.16  # m
 PULL = 8.0  # N: takes the loose block several centimetres from home, and friction holds the others
 FRICTION = 20.0  # N
 AWAY = 0.005  # m, the distance from home that is read
+ROOM = dict(mat_size=[0.4, 0.2], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.1], fovy=17)
 PRIOR = np.full(NUM_BLOCKS, 1 / NUM_BLOCKS)
 
 
@@ -40,33 +41,19 @@ class WhichIsLoose(contract.Task):
 
     def build(self):
         """Returns the scene."""
-        room = arena.Laboratory(mat_size=[0.4, 0.2], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.1], fovy=17)
-        room.mjcf_model.option.flag.contact = "disable"
+        room = arena.Laboratory(**ROOM, contact=False)
         room.add_cover((0.36, 0.1, 0.06))
-        rails, flags = [], []
+        spring = dict(stiffness=self.options.rail_stiffness, damping=2.0, **material.dry_friction(PHYSICS_TIMESTEP))
+        rails, positions, flags = [], [], []
         for k in range(NUM_BLOCKS):
             x = (k - (NUM_BLOCKS - 1) / 2) * SPACING
             cube = things.Block(things.COLORS[k], mass=0.02, name=f"block_{k}")
             cube.geom.group = rendering.UNDRAWN_GROUP
-            frame = room.attach(cube)
-            frame.pos = [x, 0, things.HALF_SIZE]
-            rails.append(
-                frame.add(
-                    "joint",
-                    name="rail",
-                    type="slide",
-                    axis=[0, 1, 0],
-                    stiffness=self.options.rail_stiffness,
-                    damping=2.0,
-                    **material.dry_friction(PHYSICS_TIMESTEP),
-                )
-            )
-            room.mjcf_model.actuator.add("motor", name=f"pull_{k}", joint=rails[-1])
-            flags.append(things.stand_flag(room, f"flag_{k}", things.COLORS[k], x, 0.15))
+            rails.append(room.put_on_rail(cube, [x, 0, things.HALF_SIZE], [0, 1, 0], **spring))
+            room.add_actuator(f"pull_{k}", rails[-1])
+            positions.append(room.mjcf_model.sensor.add("jointpos", name=f"position_{k}", joint=rails[-1]))
+            flags.append(things.stand_flag(room, f"flag_{k}", things.COLORS[k], (x, 0.15), "away", (0, 0, 0.2), k))
         self._rails = tuple(rail.full_identifier for rail in rails)
-        positions = [
-            room.mjcf_model.sensor.add("jointpos", name=f"position_{k}", joint=rail) for k, rail in enumerate(rails)
-        ]
         meaning = "1 for each block that is away from home, 0 for the others"
         return contract.Scene(
             arena=room,
@@ -76,7 +63,7 @@ class WhichIsLoose(contract.Task):
             ],
             label_names=[f"block {k} is loose" for k in range(NUM_BLOCKS)],
             readings={"away": measures.coarse(positions, meaning, _is_away, size=NUM_BLOCKS)},
-            indicators=[declarations.Indicator(board, "away", k, (0, 0, 0.2)) for k, board in enumerate(flags)],
+            indicators=flags,
         )
 
     def draw(self, seeds, episodes):

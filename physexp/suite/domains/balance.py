@@ -42,7 +42,7 @@ _SPACING = 0.15  # m, between blocks
 _REACH = 0.34  # m, from where a block lies aside to where it lies on a pan
 _POINTER_Y, _POINTER_TRAVEL = -0.58, 0.34  # m
 _PAN_HALF_SIZE = (0.08, 0.47, 0.004)  # m
-_PAN_RGBA = (0.55, 0.55, 0.60, 1.0)
+_PAN_RGBA, _POINTER_RGBA = (0.55, 0.55, 0.60, 1.0), (0.15, 0.15, 0.18, 1.0)
 _ROOM = dict(mat_size=[0.5, 0.68], camera_pos=[0, -1.9, 3.2], camera_target=[0, -0.07, 0], fovy=19.0)
 
 
@@ -78,17 +78,8 @@ def _add_beam(room: arena.Laboratory) -> mjcf.Element:
     """Adds the beam of the balance and returns its hinge."""
     beam = room.mjcf_model.worldbody.add("body", name="beam", pos=[0, 0, 0.2])
     beam.add("geom", name="beam", type="box", size=[ARM, 0.005, 0.005], mass=_BEAM_MASS, group=rendering.UNDRAWN_GROUP)
-    return beam.add(
-        "joint",
-        name="hinge",
-        type="hinge",
-        axis=[0, 1, 0],
-        limited=True,
-        range=[-STOP, STOP],
-        stiffness=_STIFFNESS,
-        damping=_DAMPING,
-        **_STOPPING,
-    )
+    spring = dict(stiffness=_STIFFNESS, damping=_DAMPING, limited=True, range=[-STOP, STOP], **_STOPPING)
+    return beam.add("joint", name="hinge", type="hinge", axis=[0, 1, 0], **spring)
 
 
 class Balance(contract.Task):
@@ -98,26 +89,22 @@ class Balance(contract.Task):
     question = "Which block has another weight than the others, and is it heavier or lighter?"
 
     def build(self) -> contract.Scene:
-        room = arena.Laboratory(**_ROOM)
-        room.mjcf_model.option.flag.contact = "disable"
+        room = arena.Laboratory(**_ROOM, contact=False)
         hinge = _add_beam(room)
         for side, sign in SIDES.items():
             room.add_scenery(f"{side}_pan", _PAN_HALF_SIZE, [sign * _REACH, 0, _PAN_HALF_SIZE[2]], _PAN_RGBA)
-        blocks, loads = [], []
+        blocks, torques = [], []
         for k in range(NUM_BLOCKS):
             is_suspect = k < num_suspects(self.options.difficulty)
             cube = things.Block(things.COLORS[k] if is_suspect else _PAN_RGBA, mass=WEIGHT, name=f"block_{k}")
             room.attach(cube).pos = [0, ((NUM_BLOCKS - 1) / 2 - k) * _SPACING, things.HALF_SIZE]
             blocks.append(cube)
-            loads.append(room.mjcf_model.actuator.add("motor", name=cube.mjcf_model.model, joint=hinge))
-        self._loads = tuple(load.full_identifier for load in loads)
-        pointer = things.stand_flag(room, "pointer", (0.15, 0.15, 0.18, 1.0), 0, _POINTER_Y)
-        sensors = room.mjcf_model.sensor
-        torques = [
-            sensors.add("actuatorfrc", name=cube.mjcf_model.model, actuator=load)
-            for cube, load in zip(blocks, loads, strict=True)
-        ]
-        angle = sensors.add("jointpos", name="angle", joint=hinge)
+            torques.append(room.add_actuator(f"block_{k}", hinge))
+        self._loads = tuple(torque.actuator.full_identifier for torque in torques)
+        pointer = things.stand_flag(room, "pointer", _POINTER_RGBA, (0, _POINTER_Y), "tilt", (_POINTER_TRAVEL, 0, 0))
+        angle = room.mjcf_model.sensor.add("jointpos", name="angle", joint=hinge)
+        places_meaning = "where each block lies: -1 on the left pan, 1 on the right pan, 0 aside"
+        tilt_meaning = "which pan is heavier: -1 the left one, 1 the right one, 0 neither"
         return contract.Scene(
             arena=room,
             interactions=[
@@ -129,20 +116,12 @@ class Balance(contract.Task):
             ],
             label_names=[f"block {k} is {kind}" for k in range(NUM_BLOCKS) for kind in ("heavier", "lighter")],
             readings={
-                "places": measures.coarse(
-                    torques,
-                    "where each block lies: -1 on the left pan, 1 on the right pan, 0 aside",
-                    np.sign,
-                    (-1, 1),
-                    NUM_BLOCKS,
-                ),
-                "tilt": measures.coarse(
-                    [angle], "which pan is heavier: -1 the left one, 1 the right one, 0 neither", _tilt, (-1, 1)
-                ),
+                "places": measures.coarse(torques, places_meaning, np.sign, (-1, 1), NUM_BLOCKS),
+                "tilt": measures.coarse([angle], tilt_meaning, _tilt, (-1, 1)),
             },
             indicators=[
                 *(declarations.Indicator(cube.geom, "places", k, (_REACH, 0, 0)) for k, cube in enumerate(blocks)),
-                declarations.Indicator(pointer, "tilt", 0, (_POINTER_TRAVEL, 0, 0)),
+                pointer,
             ],
         )
 

@@ -107,25 +107,22 @@ class SealedBox(contract.Task):
 
     def build(self) -> contract.Scene:
         self._mark = MARKS[int(self.options.difficulty)]
-        room = arena.Laboratory(**_ROOM)
-        root = room.mjcf_model
-        root.option.gravity = [0, 0, 0]
-        root.option.flag.contact = "disable"
+        room = arena.Laboratory(**_ROOM, contact=False, gravity=False)
         box = things.Block(_BOX_RGBA, mass=1.0, half_size=BOX_HALF_SIZE, name="box")
-        frame = room.attach(box)
-        frame.pos = [0, 0, BOX_HALF_SIZE]
-        rail = frame.add("joint", name="rail", type="slide", axis=[1, 0, 0], stiffness=_STIFFNESS, damping=_DAMPING)
+        rail = room.put_on_rail(box, [0, 0, BOX_HALF_SIZE], [1, 0, 0], stiffness=_STIFFNESS, damping=_DAMPING)
         weight = things.puck(_POINTER_RGBA, mass=1.0, name="weight")
         weight.geom.group = rendering.UNDRAWN_GROUP
         inner = box.attach(weight).add("joint", name="inner", type="slide", axis=[1, 0, 0], limited=True, range=[-1, 1])
         self._joints = (rail.full_identifier, inner.full_identifier)
-        push = root.actuator.add("motor", name="push", joint=rail)
-        position = root.sensor.add("jointpos", name="position", joint=rail)
-        force = root.sensor.add("actuatorfrc", name="force", actuator=push)
+        position = room.mjcf_model.sensor.add("jointpos", name="position", joint=rail)
+        force = room.add_actuator("push", rail)
         place = [0, _CURTAIN_Y, _CURTAIN_HALF_SIZE[2] - _CURTAIN_RISE]
         curtain = room.add_scenery("curtain", _CURTAIN_HALF_SIZE, place, _CURTAIN_RGBA)
-        pointer = things.stand_flag(room, "pointer", _POINTER_RGBA, 0, _POINTER_Y)
+        pointer = things.stand_flag(room, "pointer", _POINTER_RGBA, (0, _POINTER_Y), "push", (_POINTER_TRAVEL, 0, 0))
         farthest = np.ceil(_REACH / self._mark)
+        push_meaning = "the last push, as a share of a hard one, positive to the right; 0 for none"
+        covered_meaning = "1 if the box is hidden, as it is by a push, otherwise 0"
+        place_meaning = "how many marks the box is from home, positive to the right; 0 if it is hidden"
         return contract.Scene(
             arena=room,
             interactions=[
@@ -137,24 +134,12 @@ class SealedBox(contract.Task):
             ],
             label_names=list(CONTENTS),
             readings={
-                "push": measures.coarse(
-                    [force],
-                    "the last push, as a share of a hard one, positive to the right; 0 for none",
-                    _share,
-                    (-1, 1),
-                ),
-                "covered": measures.coarse(
-                    [force], "1 if the box is hidden, as it is by a push, otherwise 0", measures.is_on
-                ),
-                "place": measures.coarse(
-                    [position, force],
-                    "how many marks the box is from home, positive to the right; 0 if it is hidden",
-                    self._place,
-                    (-farthest, farthest),
-                ),
+                "push": measures.coarse([force], push_meaning, _share, (-1, 1)),
+                "covered": measures.coarse([force], covered_meaning, measures.is_on),
+                "place": measures.coarse([position, force], place_meaning, self._place, (-farthest, farthest)),
             },
             indicators=[
-                declarations.Indicator(pointer, "push", 0, (_POINTER_TRAVEL, 0, 0)),
+                pointer,
                 declarations.Indicator(curtain, "covered", 0, (0, 0, _CURTAIN_RISE)),
                 declarations.Indicator(box.geom, "place", 0, (self._mark, 0, 0)),
             ],

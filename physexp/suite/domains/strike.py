@@ -40,7 +40,7 @@ _ROOM = dict(mat_size=[0.72, 0.32], camera_pos=[0, -2.8, 1.7], camera_target=[0,
 # m. Those that are poked hardest pass the barrier by 0.054 m before it stops them.
 _COVER_X, _COVER_HALF_SIZE = _START + 0.175, (0.225, 0.06, 0.04)
 _GOAL_RGBA = (0.60, 0.78, 0.62, 1.0)
-_POKE_Y, _POKE_TRAVEL = -0.22, 0.8  # m, of the board that shows how strong the last poke was
+_POKE_Y, _POKE_TRAVEL = -0.22, (0.8, 0, 0)  # m, of the board that shows how strong the last poke was
 _GATE_Y, _GATE_TRAVEL = 0.3, 1.0  # m, of the board that shows the last gate
 _PLAYED_OUT = 2.5  # s, in which every strike comes to its end
 
@@ -83,25 +83,18 @@ class Strike(contract.Task):
 
     def build(self) -> contract.Scene:
         self._num_gates = GATES[int(self.options.difficulty)]
-        room = arena.Laboratory(**_ROOM)
-        root = room.mjcf_model
-        root.option.gravity = [0, 0, 0]
-        root.option.flag.contact = "disable"
+        room = arena.Laboratory(**_ROOM, contact=False, gravity=False)
         near, far = self.options.goal_distance / RATIO, self.options.goal_distance * RATIO
         room.add_cover(_COVER_HALF_SIZE, _COVER_X)
         room.add_scenery("goal", [(far - near) / 2, 0.1, 0.001], [_START + (near + far) / 2, 0, 0.002], _GOAL_RGBA)
         struck = things.puck(things.COLORS[0], mass=1.0)
-        frame = room.attach(struck)
-        frame.pos = [_START, 0, 0.01 + things.PUCK_HALF_HEIGHT]
-        rail = frame.add(
-            "joint", name="rail", type="slide", axis=[1, 0, 0], limited=True, range=[0, BAY], **_FRICTION, **_BARRIER
-        )
+        limits = dict(limited=True, range=[0, BAY], **_FRICTION, **_BARRIER)
+        rail = room.put_on_rail(struck, [_START, 0, 0.01 + things.PUCK_HALF_HEIGHT], [1, 0, 0], **limits)
         self._rails = (rail.full_identifier,)
-        poke = root.actuator.add("motor", name="poke", joint=rail)
-        position = root.sensor.add("jointpos", name="position", joint=rail)
-        force = root.sensor.add("actuatorfrc", name="force", actuator=poke)
-        strength_board = things.stand_flag(room, "strength", things.COLORS[2], _START, _POKE_Y)
-        gate_board = things.stand_flag(room, "gate", things.COLORS[3], _START, _GATE_Y)
+        position = room.mjcf_model.sensor.add("jointpos", name="position", joint=rail)
+        force = room.add_actuator("poke", rail)
+        gate_travel = (_GATE_TRAVEL / self._num_gates, 0, 0)
+        gate_meaning = "the last light gate that the puck has passed, counted from 1; 0 for none"
         return contract.Scene(
             arena=room,
             interactions=[
@@ -111,16 +104,11 @@ class Strike(contract.Task):
             label_names=[f"{newtons:.1f} N" for newtons in STRIKES],
             readings={
                 "strength": measures.strength(force, "poke", max(POKES)),
-                "gate": measures.coarse(
-                    [position],
-                    "the last light gate that the puck has passed, counted from 1; 0 for none",
-                    self._gate,
-                    (0, self._num_gates),
-                ),
+                "gate": measures.coarse([position], gate_meaning, self._gate, (0, self._num_gates)),
             },
             indicators=[
-                declarations.Indicator(strength_board, "strength", 0, (_POKE_TRAVEL, 0, 0)),
-                declarations.Indicator(gate_board, "gate", 0, (_GATE_TRAVEL / self._num_gates, 0, 0)),
+                things.stand_flag(room, "strength", things.COLORS[2], (_START, _POKE_Y), "strength", _POKE_TRAVEL),
+                things.stand_flag(room, "gate", things.COLORS[3], (_START, _GATE_Y), "gate", gate_travel),
             ],
         )
 

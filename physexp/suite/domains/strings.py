@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 import dataclasses
 import itertools
-from typing import Any
 
 from dm_control import mjcf
 import numpy as np
@@ -88,25 +87,26 @@ class Strings(contract.Task):
     question = "Which pucks are joined by bands?"
 
     def build(self) -> contract.Scene:
-        room = arena.Laboratory(**_ROOM)
+        room = arena.Laboratory(**_ROOM, contact=False)
         root = room.mjcf_model
-        root.option.flag.contact = "disable"
         root.option.integrator = "implicitfast"  # With the brake, the others diverge.
         room.add_cover(_COVER_HALF_SIZE)
         rails = [_add_puck(room, k) for k in range(NUM_PUCKS)]
         self._bands = tuple(_add_band(root, rails, pair).full_identifier for pair in PAIRS)
         positions = [root.sensor.add("jointpos", name=f"position_{k}", joint=rail) for k, rail in enumerate(rails)]
         # In the order of `drive`. The force that presses a clamp on a puck does not push it along its rail.
-        pulls = _add_actuators(root, "handle", rails, "motor")
-        presses = _add_actuators(root, "clamp", rails, "motor", gear=[0.0])
-        _add_actuators(root, "brake", rails, "damper", kv=_BRAKE, ctrlrange=[0, 1])
-        boards = [
-            [things.stand_flag(room, f"{kind}_{k}", rgba or things.COLORS[k], _x(k), y) for k in range(NUM_PUCKS)]
-            for kind, rgba, y in (
-                ("handle", None, _HANDLE_Y),
-                ("clamp", _CLAMP_RGBA, _CLAMP_Y),
-                ("flag", None, _FLAG_Y),
+        pulls = [room.add_actuator(f"handle_{k}", rail) for k, rail in enumerate(rails)]
+        presses = [room.add_actuator(f"clamp_{k}", rail, gear=[0.0]) for k, rail in enumerate(rails)]
+        for k, rail in enumerate(rails):
+            room.add_actuator(f"brake_{k}", rail, "damper", kv=_BRAKE, ctrlrange=[0, 1])
+        indicators = [
+            things.stand_flag(room, f"{kind}_{k}", rgba or things.COLORS[k], (_x(k), y), reading, travel, k)
+            for kind, rgba, y, reading, travel in (
+                ("handle", None, _HANDLE_Y, "pulled", _HANDLE_TRAVEL),
+                ("clamp", _CLAMP_RGBA, _CLAMP_Y, "clamped", _CLAMP_TRAVEL),
+                ("flag", None, _FLAG_Y, "away", _FLAG_TRAVEL),
             )
+            for k in range(NUM_PUCKS)
         ]
         readings = {
             name: measures.coarse(sensors, f"1 for {meaning}, 0 for the others", measure, size=NUM_PUCKS)
@@ -116,17 +116,20 @@ class Strings(contract.Task):
                 ("away", positions, _is_away, "each puck that is away from home"),
             )
         }
-        travels = (_HANDLE_TRAVEL, _CLAMP_TRAVEL, _FLAG_TRAVEL)
+        controls = np.eye(3 * NUM_PUCKS)
         return contract.Scene(
             arena=room,
-            interactions=_interactions(),
+            interactions=[
+                declarations.Interaction(f"{verb} puck {k}", control * controls[start + k], f"puck_{k}", vector)
+                for verb, start, control, vector in (
+                    ("pull", 0, _PULL, (0.0, -_PULL, 0.0)),
+                    ("clamp or free", NUM_PUCKS, 1.0, (0.0, 0.0, -1.0)),
+                )
+                for k in range(NUM_PUCKS)
+            ],
             label_names=[_name(graph) for graph in range(NUM_GRAPHS)],
             readings=readings,
-            indicators=[
-                declarations.Indicator(board, reading, k, travel)
-                for of_kind, reading, travel in zip(boards, readings, travels, strict=True)
-                for k, board in enumerate(of_kind)
-            ],
+            indicators=indicators,
         )
 
     largest_hidden = SLACKS[1]
@@ -166,21 +169,6 @@ class Strings(contract.Task):
         return declarations.Revealed(marks={} if tied else {"puck_1": "no bands"}, tied=tied)
 
 
-def _interactions() -> list[declarations.Interaction]:
-    """Returns the pull of each puck, and then the clamp of each."""
-    controls = np.eye(3 * NUM_PUCKS)
-    return [
-        *(
-            declarations.Interaction(f"pull puck {k}", _PULL * controls[k], f"puck_{k}", (0.0, -_PULL, 0.0))
-            for k in range(NUM_PUCKS)
-        ),
-        *(
-            declarations.Interaction(f"clamp or free puck {k}", controls[NUM_PUCKS + k], f"puck_{k}", (0.0, 0.0, -1.0))
-            for k in range(NUM_PUCKS)
-        ),
-    ]
-
-
 def _x(puck: int) -> float:
     """Returns the position of a puck's rail along x, m."""
     return (puck - (NUM_PUCKS - 1) / 2) * _SPACING
@@ -190,9 +178,8 @@ def _add_puck(room: arena.Laboratory, number: int) -> mjcf.Element:
     """Adds a puck and returns its rail."""
     added = things.puck(things.COLORS[number], MASS, name=f"puck_{number}")
     added.geom.group = rendering.UNDRAWN_GROUP
-    frame = room.attach(added)
-    frame.pos = [_x(number), 0, things.PUCK_HALF_HEIGHT]
-    return frame.add("joint", name="rail", type="slide", axis=[0, -1, 0], stiffness=_SPRING, damping=_DAMPING)
+    place = [_x(number), 0, things.PUCK_HALF_HEIGHT]
+    return room.put_on_rail(added, place, [0, -1, 0], stiffness=_SPRING, damping=_DAMPING)
 
 
 def _add_band(root: mjcf.RootElement, rails: Sequence[mjcf.Element], pair: tuple[int, int]) -> mjcf.Element:
@@ -202,14 +189,6 @@ def _add_band(root: mjcf.RootElement, rails: Sequence[mjcf.Element], pair: tuple
     band.add("joint", joint=rails[i], coef=1)
     band.add("joint", joint=rails[j], coef=-1)
     return band
-
-
-def _add_actuators(
-    root: mjcf.RootElement, name: str, rails: Sequence[mjcf.Element], kind: str, **settings: Any
-) -> list[mjcf.Element]:
-    """Adds an actuator for each rail and returns the sensors of their forces."""
-    actuators = [root.actuator.add(kind, name=f"{name}_{k}", joint=rail, **settings) for k, rail in enumerate(rails)]
-    return [root.sensor.add("actuatorfrc", name=each.name, actuator=each) for each in actuators]
 
 
 def _name(graph: int) -> str:

@@ -34,7 +34,7 @@ _LONGEST_EPISODE = 10.0  # s
 _ROOM = dict(mat_size=[0.36, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.1], fovy=14.5)
 _COVER_HALF_SIZE = (0.13, 0.08, 0.07)  # m
 _FLAG_X, _POINTER_X = 0.24, -0.24  # m
-_RISE = 0.3  # m, of the flag when the block has slid, and of the pointer with the greatest force
+_RISE = (0, 0, 0.3)  # m, of the flag when the block has slid, and of the pointer with the greatest force
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -93,24 +93,16 @@ class Threshold(contract.Task):
     question = "Which is the smallest of the forces that makes the block slide?"
 
     def build(self) -> contract.Scene:
-        room = arena.Laboratory(**_ROOM)
-        room.mjcf_model.option.gravity = [0, 0, 0]
-        room.mjcf_model.option.flag.contact = "disable"
+        room = arena.Laboratory(**_ROOM, contact=False, gravity=False)
         room.add_cover(_COVER_HALF_SIZE)
         cube = things.Block(rgba=things.COLORS[0], mass=MASS, name="block")
         cube.geom.group = rendering.UNDRAWN_GROUP
-        frame = room.attach(cube)
-        frame.pos = [-TRAVEL / 2, 0, things.HALF_SIZE]
-        rail = frame.add(
-            "joint", name="rail", type="slide", axis=[1, 0, 0], limited=True, range=[0, TRAVEL], **_FRICTION, **_STOP
-        )
-        push = room.mjcf_model.actuator.add("motor", name="push", joint=rail)
+        limits = dict(limited=True, range=[0, TRAVEL], **_FRICTION, **_STOP)
+        rail = room.put_on_rail(cube, [-TRAVEL / 2, 0, things.HALF_SIZE], [1, 0, 0], **limits)
         self._rails = (rail.full_identifier,)
-        sensors = room.mjcf_model.sensor
-        position = sensors.add("jointpos", name="position", joint=rail)
-        force = sensors.add("actuatorfrc", name="force", actuator=push)
-        slid_flag = things.stand_flag(room, "flag", things.COLORS[1], _FLAG_X, 0)
-        pointer = things.stand_flag(room, "pointer", things.COLORS[2], _POINTER_X, 0)
+        position = room.mjcf_model.sensor.add("jointpos", name="position", joint=rail)
+        force = room.add_actuator("push", rail)
+        slid_meaning = "1 if the last push made the block slide, otherwise 0"
         levels = [LEVEL_SPACING * (k + 1) for k in range(NUM_LEVELS)]
         return contract.Scene(
             arena=room,
@@ -121,13 +113,11 @@ class Threshold(contract.Task):
             label_names=[f"{newtons:g} N" for newtons in levels],
             readings={
                 "strength": measures.strength(force, "push", NUM_LEVELS * LEVEL_SPACING),
-                "slid": measures.coarse(
-                    [position, force], "1 if the last push made the block slide, otherwise 0", _slid
-                ),
+                "slid": measures.coarse([position, force], slid_meaning, _slid),
             },
             indicators=[
-                declarations.Indicator(slid_flag, "slid", 0, (0, 0, _RISE)),
-                declarations.Indicator(pointer, "strength", 0, (0, 0, _RISE)),
+                things.stand_flag(room, "flag", things.COLORS[1], (_FLAG_X, 0), "slid", _RISE),
+                things.stand_flag(room, "pointer", things.COLORS[2], (_POINTER_X, 0), "strength", _RISE),
             ],
         )
 

@@ -51,32 +51,18 @@ class WhichIsHeavier(contract.Task):
     question = "Which of the four blocks is heaviest?"
 
     def build(self) -> contract.Scene:
-        room = arena.Laboratory(**_ROOM)
-        room.mjcf_model.option.gravity = [0, 0, 0]
-        room.mjcf_model.option.flag.contact = "disable"
-        rails, motors = [], room.mjcf_model.actuator
+        room = arena.Laboratory(**_ROOM, contact=False, gravity=False)
+        spring = dict(stiffness=STIFFNESS, damping=DAMPING, limited=True, range=[FLOOR, CEILING])
+        rails, heights = [], []
         for k in range(NUM_BLOCKS):
             cube = things.Block(rgba=things.COLORS[k], mass=HEAVIEST, name=f"block_{k}")
-            frame = room.attach(cube)
-            frame.pos = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, things.HALF_SIZE]
-            rails.append(
-                frame.add(
-                    "joint",
-                    name="rail",
-                    type="slide",
-                    axis=[0, 0, 1],
-                    stiffness=STIFFNESS,
-                    damping=DAMPING,
-                    limited=True,
-                    range=[FLOOR, CEILING],
-                )
-            )
-            motors.add("motor", name=f"poke_{k}", joint=rails[-1])
+            place = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, things.HALF_SIZE]
+            rails.append(room.put_on_rail(cube, place, [0, 0, 1], **spring))
+            room.mjcf_model.actuator.add("motor", name=f"poke_{k}", joint=rails[-1])
+            heights.append(room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=rails[-1]))
         self._rails = tuple(rail.full_identifier for rail in rails)
-        sensors = [
-            room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=rail) for k, rail in enumerate(rails)
-        ]
-        greatest = POKE_FORCE * (1 + FORCE_VARIATION * self.options.variation)
+        bounds = FLOOR, highest(POKE_FORCE * (1 + FORCE_VARIATION * self.options.variation))
+        meaning = "how far each block is above its rest"
         return contract.Scene(
             arena=room,
             interactions=[
@@ -85,14 +71,7 @@ class WhichIsHeavier(contract.Task):
             ],
             label_names=[f"block {k} is heaviest" for k in range(NUM_BLOCKS)],
             readings={
-                "heights": declarations.Reading(
-                    sensors,
-                    (NUM_BLOCKS,),
-                    "how far each block is above its rest",
-                    unit="m",
-                    bounds=(FLOOR, highest(greatest)),
-                    noisy=True,
-                )
+                "heights": declarations.Reading(heights, (NUM_BLOCKS,), meaning, "m", bounds=bounds, noisy=True),
             },
             num_nuisances=5,
         )

@@ -1,6 +1,7 @@
 """The room in which questions are asked: a lit floor and one fixed camera."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from dm_control import composer, mjcf
 import numpy as np
@@ -27,7 +28,8 @@ class Laboratory(composer.Arena):
         camera_target: Sequence[float],
         fovy: float,
         friction: float = material.FRICTION,
-        name: str = "laboratory",
+        contact: bool = True,
+        gravity: bool = True,
     ) -> None:
         """Builds the room.
 
@@ -37,10 +39,15 @@ class Laboratory(composer.Arena):
           camera_target: the point that it looks at, m (3,).
           fovy: vertical field of view, degrees.
           friction: coefficient of friction of the ground.
-          name: name of the MJCF model.
+          contact: whether things touch one another.
+          gravity: whether things have weight.
         """
-        super()._build(name=name)
+        super()._build(name="laboratory")
         root = self.mjcf_model
+        if not contact:
+            root.option.flag.contact = "disable"
+        if not gravity:
+            root.option.gravity = [0, 0, 0]
         # MuJoCo's own defaults instead of composer's: no slip correction and pyramidal friction cones, at half the
         # cost, and no extra mass on the massless bodies that carry attached entities.
         root.option.set_attributes(cone="pyramidal", noslip_iterations=0)
@@ -49,29 +56,27 @@ class Laboratory(composer.Arena):
         root.visual.map.set_attributes(znear=0.01, zfar=50)
         root.visual.quality.set_attributes(shadowsize=0, offsamples=0, numslices=8, numstacks=8, numquads=1)
         world = root.worldbody
-        world.add(
-            "light",
-            name="lamp",
-            directional=True,
-            castshadow=False,
-            pos=[0, 0, 3],
-            dir=[-0.3, 0.5, -0.8],
-            diffuse=[0.5] * 3,
-            specular=[0.0] * 3,
-        )
+        lamp = dict(directional=True, castshadow=False, diffuse=[0.5] * 3, specular=[0.0] * 3)
+        world.add("light", name="lamp", pos=[0, 0, 3], dir=[-0.3, 0.5, -0.8], **lamp)
         self.floor = self.add_scenery("floor", [FLOOR_HALF_SIZE, FLOOR_HALF_SIZE, 0.01], [0, 0, -0.015], FLOOR_RGBA)
         self.mat = self.add_scenery("mat", [*mat_size, 0.001], [0, 0, 0], MAT_RGBA)
-        self.ground = world.add(
-            "geom",
-            name="ground",
-            type="plane",
-            size=[1, 1, 0.1],
-            group=rendering.UNDRAWN_GROUP,
-            **material.solid(friction),
-        )
-        self.camera = world.add(
-            "camera", name="observer", pos=camera_pos, fovy=fovy, xyaxes=_looking_at(camera_pos, camera_target)
-        )
+        solid = dict(group=rendering.UNDRAWN_GROUP, **material.solid(friction))
+        self.ground = world.add("geom", name="ground", type="plane", size=[1, 1, 0.1], **solid)
+        view = _looking_at(camera_pos, camera_target)
+        self.camera = world.add("camera", name="observer", pos=camera_pos, fovy=fovy, xyaxes=view)
+
+    def put_on_rail(
+        self, thing: composer.Entity, pos: Sequence[float], axis: Sequence[float], **joint: Any
+    ) -> mjcf.Element:
+        """Attaches a thing at a place, m (3,); returns the slide joint that it moves on, with attributes as in MJCF."""
+        frame = self.attach(thing)
+        frame.pos = pos
+        return frame.add("joint", name="rail", type="slide", axis=axis, **joint)
+
+    def add_actuator(self, name: str, joint: mjcf.Element, kind: str = "motor", **settings: Any) -> mjcf.Element:
+        """Adds an actuator of a joint, with settings as in MJCF; returns the sensor of its force, of the same name."""
+        actuator = self.mjcf_model.actuator.add(kind, name=name, joint=joint, **settings)
+        return self.mjcf_model.sensor.add("actuatorfrc", name=name, actuator=actuator)
 
     def add_scenery(
         self, name: str, half_size: Sequence[float], pos: Sequence[float], rgba: Sequence[float]
@@ -97,15 +102,8 @@ class Laboratory(composer.Arena):
         ]
         boxes.append(([side, side, half], [0, 0, height + half]))
         for number, (size, pos) in enumerate(boxes):
-            self.mjcf_model.worldbody.add(
-                "geom",
-                name=f"wall_{number}",
-                type="box",
-                size=size,
-                pos=pos,
-                group=rendering.UNDRAWN_GROUP,
-                **material.solid(material.WALL_FRICTION),
-            )
+            solid = dict(group=rendering.UNDRAWN_GROUP, **material.solid(material.WALL_FRICTION))
+            self.mjcf_model.worldbody.add("geom", name=f"wall_{number}", type="box", size=size, pos=pos, **solid)
 
 
 def _looking_at(pos: Sequence[float], target: Sequence[float]) -> np.ndarray:

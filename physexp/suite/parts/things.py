@@ -5,6 +5,7 @@ from typing import Any
 
 from dm_control import composer, mjcf
 
+from physexp.suite.engine import declarations
 from physexp.suite.parts import material
 
 HALF_SIZE = 0.05  # m, half the edge of a cube
@@ -56,8 +57,16 @@ def puck(rgba: Sequence[float], mass: float, name: str = "puck") -> Thing:
     return Thing(name, type="cylinder", size=size, mass=mass, rgba=rgba, contype=0, conaffinity=0)
 
 
-def stand_flag(room: composer.Arena, name: str, rgba: Sequence[float], x: float, y: float) -> mjcf.Element:
-    """Stands a board without contacts on the floor, m, and returns its geom, which an `Indicator` moves in images."""
+def stand_flag(
+    room: composer.Arena,
+    name: str,
+    rgba: Sequence[float],
+    place: tuple[float, float],
+    reading: str,
+    travel: tuple[float, float, float],
+    component: int = 0,
+) -> declarations.Indicator:
+    """Stands a board without contacts at a place on the floor, m, that shows a reading as an `Indicator` does."""
     board = Thing(name, type="box", size=_FLAG_HALF_SIZE, rgba=rgba, contype=0, conaffinity=0)
-    room.attach(board).pos = [x, y, _FLAG_HALF_SIZE[2]]
-    return board.geom
+    room.attach(board).pos = [*place, _FLAG_HALF_SIZE[2]]
+    return declarations.Indicator(board.geom, reading, component, travel)
