@@ -12,7 +12,7 @@ from physexp.checks import checked
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import contract, declarations, seeding
 from physexp.suite.engine import options as options_lib
-from physexp.suite.parts import actuators, arena, fist, material, things, tower
+from physexp.suite.parts import actuators, arena, material, things, tower
 
 PHYSICS_TIMESTEP = 0.005  # s
 WALL_DISTANCE = 0.56  # m, from the tower: a tower that falls as one piece fits inside
@@ -55,7 +55,7 @@ class Options(options_lib.Options):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        nearest = fist.RADIUS + self.cube_size / 2 + _FIST_CLEARANCE + self.variation * _APPROACH
+        nearest = actuators.FIST_RADIUS + self.cube_size / 2 + _FIST_CLEARANCE + self.variation * _APPROACH
         name = f"fist_distance, with cube_size {self.cube_size:g} and variation {self.variation:g},"
         distance = checks.within(round(nearest, 4), actuators.FIST_DISTANCE, "m")(name, self.fist_distance)
         object.__setattr__(self, "fist_distance", distance)
@@ -112,14 +112,9 @@ class Towers(contract.Task):
 
     def _scene(self) -> contract.Scene:
         """Returns the scene with the tower that is attached; walls, which give way a little, bound the positions."""
-        positions = declarations.Reading(
-            self.tower.position_sensors,
-            (tower.NUM_BLOCKS, 3),
-            "the blocks' centres (x, y, z), from the lowest block up",
-            unit="m",
-            components=("x", "y", "z"),
-            noisy=True,
-        )
+        sensors, shape = self.tower.position_sensors, (tower.NUM_BLOCKS, 3)
+        meaning = "the blocks' centres (x, y, z), from the lowest block up"
+        positions = declarations.Reading(sensors, shape, meaning, "m", ("x", "y", "z"), noisy=True)
         corner = np.array([WALL_DISTANCE + _GIVE, WALL_DISTANCE + _GIVE, CEILING])
         bounds = (corner * [-1, -1, 0], corner)
         found = {"positions": positions, **self._actuator.readings}
@@ -169,20 +164,14 @@ class Towers(contract.Task):
 
     def circumstances(self, apparatus: apparatus_lib.Apparatus, nuisances: np.ndarray) -> declarations.Circumstances:
         """Varies where tower, fist and camera are, how strong pushes or how fast the fist is, friction, and mass."""
-        place, yaw, fist, (strength, friction, mass), camera = (
-            nuisances[:, :2],
-            YAW_VARIATION * nuisances[:, 2],
-            nuisances[:, 3:5],
-            nuisances[:, 5:8].T,
-            nuisances[:, 8:],
-        )
+        place, (yaw,), fist, (strength, friction, mass), camera = np.split(nuisances.T, [2, 3, 5, 8])
         (standing,) = apparatus.held
         turned = np.zeros((len(nuisances), 7))  # The coordinates of a rigid body: a position and a quaternion.
-        turned[:, :2] = POSITION_VARIATION * place
-        turned[:, 3], turned[:, 6] = np.cos(yaw / 2), np.sin(yaw / 2)
+        turned[:, :2] = POSITION_VARIATION * place.T
+        turned[:, 3], turned[:, 6] = np.cos(YAW_VARIATION * yaw / 2), np.sin(YAW_VARIATION * yaw / 2)
         joints = [apparatus.model.joint(joint.full_identifier) for joint in self._actuator.joints]
         addresses = np.array([joint.qposadr[0] for joint in joints], np.intp)
-        displaced = (fist * actuators.FIST_VARIATION)[:, : len(joints)]
+        displaced = (fist.T * actuators.FIST_VARIATION)[:, : len(joints)]
         return declarations.Circumstances(
             fields={
                 **apparatus_lib.scaled_masses(apparatus, standing.bodies, 1 + MASS_VARIATION * mass),
@@ -193,7 +182,7 @@ class Towers(contract.Task):
                 np.concatenate([np.tile(turned, len(standing.qpos) // 7), displaced], axis=1),
             ),
             strength=1 + actuators.STRENGTH_VARIATION * strength[:, None],
-            camera=contract.CAMERA_VARIATION * camera,
+            camera=contract.CAMERA_VARIATION * camera.T,
         )
 
     def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
@@ -217,11 +206,11 @@ def _direct(options: Options, pixels: bool) -> Towers:
         raise ValueError(
             f"fist_distance is {options.fist_distance:g}; give {actuators.FIST_DISTANCE:g} where there is no fist"
         )
-    return Towers(options, actuators.DirectActuator(), pixels)
+    return Towers(options, actuators.Pushes(), pixels)
 
 
 def _fist(options: Options, pixels: bool) -> Towers:
-    return Towers(options, actuators.FistActuator(options.friction, options.fist_distance), pixels)
+    return Towers(options, actuators.Fist(options.friction, options.fist_distance), pixels)
 
 
 SUITE = contract.features_and_pixels(direct=_direct, fist=_fist)
