@@ -161,34 +161,25 @@ class SealedBox(contract.Task):
         return KINDS[hidden]
 
     def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
-        return _fields(apparatus, self._joints, [ALL_CONTENTS[k] for k in hidden])
+        """Returns the model fields of the box and its rail, and of the weight and its own, as `mj_setConst` does."""
+        dofs, bodies = apparatus.dofs(self._joints)
+        inner = np.array([apparatus.model.joint(self._joints[1]).id])
+        _, total, share, gap, stiffness, damping = np.array([dataclasses.astuple(ALL_CONTENTS[k]) for k in hidden]).T
+        weight, box = share * total, (1 - share) * total
+        return {
+            "body_mass": (bodies, np.stack([box, weight], axis=1)),
+            "body_subtreemass": (bodies, np.stack([total, weight], axis=1)),
+            "dof_M0": (dofs, np.stack([total, weight], axis=1)),
+            "dof_invweight0": (dofs, np.stack([1 / box, total / (box * weight)], axis=1)),
+            "dof_damping": (dofs[1:], damping[:, None]),
+            "jnt_stiffness": (inner, stiffness[:, None]),
+            "jnt_range": (inner, np.stack([-gap, gap], axis=1)[:, None]),
+        }
 
     def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
         content = ALL_CONTENTS[int(hidden)]
         weight = content.share * content.mass
         return declarations.Revealed(marks={"box": f"{CONTENTS[content.kind]}, {weight:.2f} of {content.mass:.1f} kg"})
-
-
-def _fields(
-    apparatus: apparatus_lib.Apparatus, joints: tuple[str, str], contents: list[Content]
-) -> declarations.Fields:
-    """Returns the model fields that follow from contents; masses as `mj_setConst` computes them."""
-    dofs, bodies = apparatus.dofs(joints)
-    total, share, gap, stiffness, damping = (
-        np.array([getattr(content, name) for content in contents])
-        for name in ("mass", "share", "gap", "stiffness", "damping")
-    )
-    weight, box = share * total, (1 - share) * total
-    inner = np.array([apparatus.model.joint(joints[1]).id])
-    return {
-        "body_mass": (bodies, np.stack([box, weight], axis=1)),
-        "body_subtreemass": (bodies, np.stack([total, weight], axis=1)),
-        "dof_M0": (dofs, np.stack([total, weight], axis=1)),
-        "dof_invweight0": (dofs, np.stack([1 / box, total / (box * weight)], axis=1)),
-        "dof_damping": (dofs[1:], damping[:, None]),
-        "jnt_stiffness": (inner, stiffness[:, None]),
-        "jnt_range": (inner, np.stack([-gap, gap], axis=1)[:, None]),
-    }
 
 
 SUITE = contract.features_and_pixels(SealedBox)

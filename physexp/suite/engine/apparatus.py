@@ -3,7 +3,7 @@
 One environment and a batch both step apparatuses of the same task, which is why they agree bit for bit.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 import copy
 import dataclasses
 import functools
@@ -59,22 +59,21 @@ class Starts:
 
     def repeated(self, size: int) -> "Starts":
         """Returns the only initial state, repeated `size` times; not to be written to."""
-        qpos, strength, camera, *shown = (
-            np.broadcast_to(values, (size, *values.shape[1:]))
-            for values in (self.qpos, self.strength, self.camera, *self.shown.values())
-        )
-        return Starts(qpos, dict(zip(self.shown, shown, strict=True)), strength, camera)
+        return self._changed(lambda values: np.broadcast_to(values, (size, *values.shape[1:])))
+
+    def of(self, rows: np.ndarray) -> "Starts":
+        """Returns the initial states of some episodes, int [K]."""
+        return self._changed(lambda values: values[rows])
+
+    def _changed(self, change: Callable[[np.ndarray], np.ndarray]) -> "Starts":
+        shown = {field: change(values) for field, values in self.shown.items()}
+        return Starts(change(self.qpos), shown, change(self.strength), change(self.camera))
 
     def put(self, rows: np.ndarray, starts: "Starts") -> None:
         """Writes the initial states of some episodes, int [K]."""
         self.qpos[rows], self.strength[rows], self.camera[rows] = starts.qpos, starts.strength, starts.camera
         for field, values in self.shown.items():
             values[rows] = starts.shown[field]
-
-    def of(self, rows: np.ndarray) -> "Starts":
-        """Returns the initial states of some episodes, int [K]."""
-        shown = {field: values[rows] for field, values in self.shown.items()}
-        return Starts(self.qpos[rows], shown, self.strength[rows], self.camera[rows])
 
 
 @dataclasses.dataclass(frozen=True)
@@ -189,13 +188,9 @@ def scaled_masses(apparatus: Apparatus, bodies: np.ndarray, factors: np.ndarray)
     model = apparatus.model
     dofs = np.flatnonzero(np.isin(model.dof_bodyid, bodies))
     found = {}
-    for names, places, powers in (
-        (("body_mass", "body_inertia", "body_subtreemass", "body_invweight0"), bodies, (1, 1, 1, -1)),
-        (("dof_M0", "dof_invweight0"), dofs, (1, -1)),
-    ):
-        for name, power in zip(names, powers, strict=True):
-            values = getattr(model, name)[places]
-            found[name] = places, np.multiply.outer(factors**power, values)
+    for name in ("body_mass", "body_inertia", "body_subtreemass", "body_invweight0", "dof_M0", "dof_invweight0"):
+        places = bodies if name.startswith("body") else dofs
+        found[name] = places, np.multiply.outer(factors ** (-1 if "inv" in name else 1), getattr(model, name)[places])
     return found
 
 
@@ -224,9 +219,17 @@ def build(
     geoms = [model.geom(indicator.geom.full_identifier).id for indicator in indicators]
     moving = model.body_weldid[model.geom_bodyid] != 0
     moving[geoms] = True
+    addresses = {
+        name: _addresses(model.sensor(sensor.full_identifier) for sensor in reading.sensors)
+        for name, reading in readings.items()
+    }
+    measures = {name: reading.measure for name, reading in readings.items() if reading.measure is not None}
     built = Apparatus(
         model=model,
-        readings={name: _addresses_of(model, reading) for name, reading in readings.items()},
+        readings={
+            name: places if name in measures else places.reshape(readings[name].shape)
+            for name, places in addresses.items()
+        },
         start=Starts(
             qpos=model.qpos0[None].copy(),
             shown={field: getattr(data, field)[None].copy() for field in LOOKED_AT},
@@ -235,7 +238,7 @@ def build(
         ),
         held=tuple(_find_held(model, mjcf.get_attachment_frame(entity.mjcf_model)) for entity in held),
         moving_geoms=np.flatnonzero(moving),
-        _measures={name: reading.measure for name, reading in readings.items() if reading.measure is not None},
+        _measures=measures,
         _indicators=tuple(zip(geoms, data.geom_xpos[geoms], indicators, strict=True)),
     )
     built.indicate(built.start.shown["geom_xpos"], built.start.shown["sensordata"])
@@ -249,7 +252,6 @@ def _find_held(model: mujoco.MjModel, frame: mjcf.Element) -> Held:
         if model.body_parentid[body] in bodies:
             bodies.add(body)
     inside = np.array(sorted(bodies))
-    joints = np.flatnonzero(np.isin(model.jnt_bodyid, inside))
     geoms = np.flatnonzero(np.isin(model.geom_bodyid, inside))
     owner = {
         mujoco.mjtObj.mjOBJ_BODY: np.arange(model.nbody),
@@ -260,24 +262,17 @@ def _find_held(model: mujoco.MjModel, frame: mjcf.Element) -> Held:
     }
     sensors = [
         model.sensor(number)
-        for number in range(model.nsensor)
-        if owner[mujoco.mjtObj(model.sensor_objtype[number])][model.sensor_objid[number]] in bodies
+        for number, (kind, index) in enumerate(zip(model.sensor_objtype, model.sensor_objid, strict=True))
+        if owner[mujoco.mjtObj(kind)][index] in bodies
     ]
-    sizes = {mujoco.mjtJoint.mjJNT_FREE: 7, mujoco.mjtJoint.mjJNT_BALL: 4}
-    coordinates = [
-        model.jnt_qposadr[joint] + np.arange(sizes.get(mujoco.mjtJoint(model.jnt_type[joint]), 1)) for joint in joints
-    ]
+    ends = np.append(model.jnt_qposadr[1:], model.nq)
+    joints = zip(model.jnt_bodyid, model.jnt_qposadr, ends, strict=True)
+    coordinates = [np.arange(first, end) for body, first, end in joints if body in bodies]
     return Held(
         qpos=np.concatenate([np.zeros(0, np.intp), *coordinates]).astype(np.intp),
         bodies=inside,
         shows={"sensordata": _addresses(sensors), "geom_xpos": geoms, "geom_xmat": geoms},
     )
-
-
-def _addresses_of(model: mujoco.MjModel, reading: declarations.Reading) -> np.ndarray:
-    """Returns the addresses in `sensordata` of the values of a reading."""
-    addresses = _addresses(model.sensor(sensor.full_identifier) for sensor in reading.sensors)
-    return addresses if reading.measure is not None else addresses.reshape(reading.shape)
 
 
 def _addresses(sensors: Iterable[Any]) -> np.ndarray:

@@ -51,8 +51,10 @@ class Ledger:
         given ones without the shape, the type and the range of drawn values, it raises ValueError and changes nothing.
         """
         indices = self.next_episodes[rows] if episode is None else np.full(len(rows), episode)
-        drawn = self._task.draw(self.seeds[rows], indices)
-        differing = self._draw_nuisances(rows, indices)
+        options, drawn = self._task.options, self._task.draw(self.seeds[rows], indices)
+        differing = self.nuisances[rows]
+        if differing.size:
+            differing = options.variation * seeding.variations(self.seeds[rows], indices, differing.shape[1])
         if nuisances is not None:
             differing = _checked("nuisances", nuisances, differing, -1, 1)
         if hidden is not None:
@@ -63,18 +65,11 @@ class Ledger:
         self._hidden[rows] = drawn
         self.answers[rows], self.structures[rows] = answers, structures
         self.nuisances[rows] = differing
-        self.substeps[rows] = self._task.options.draw_substeps(self.seeds[rows], indices)
+        self.substeps[rows] = options.draw_substeps(self.seeds[rows], indices)
         self.next_episodes[rows] = indices + 1
         self.steps[rows] = 0
         self.touched[rows] = False
         self.over[rows] = False
-
-    def _draw_nuisances(self, rows: np.ndarray, indices: np.ndarray) -> np.ndarray:
-        count = self.nuisances.shape[1]
-        if not count:
-            return self.nuisances[rows]
-        drawn = seeding.variations(self.seeds[rows], indices, count)
-        return self._task.options.variation * drawn
 
     def judge(self, rows: np.ndarray, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Returns rewards, float64 [K], and whether episodes end, bool [K], after actions, int [K], of some rows."""

@@ -35,7 +35,8 @@ class Renderer:
         The moving geoms, int [M], whose poses differ between images, come after those that stand still.
         """
         self.size = size
-        drawn = _with_buffer(model, size)
+        drawn = copy.copy(model)
+        drawn.vis.global_.offwidth = drawn.vis.global_.offheight = size  # Software GL clears the whole buffer.
         self.context, self.buffers, drawn_by = gl.draw(functools.partial(_upload, drawn, size))
         # The drawing thread frees them, also after the renderer has been dropped.
         self._free = weakref.finalize(self, gl.later, functools.partial(_free, self.context, self.buffers))
@@ -138,13 +139,6 @@ def _free(context: Any, buffers: Any) -> None:
     with gl.current(context):
         buffers.free()
     context.free()
-
-
-def _with_buffer(model: mujoco.MjModel, size: int) -> mujoco.MjModel:
-    """Returns a copy of a model with a buffer as large as the image: software GL clears all of it."""
-    drawn = copy.copy(model)
-    drawn.vis.global_.offwidth = drawn.vis.global_.offheight = size
-    return drawn
 
 
 def _make_scene(model: mujoco.MjModel, camera: str) -> mujoco.MjvScene:
