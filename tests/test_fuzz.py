@@ -96,9 +96,7 @@ def test_a_batch_steps_with_anything_and_a_refused_action_changes_nothing(loaded
 
 
 CONFIG = config_lib.TrainConfig(
-    domain="which_is_heavier",
-    task="features",
-    agent=config_lib.preset("which_is_heavier", "features", algorithm="a3c"),
+    domain="which_is_heavier", task="features", agent=config_lib.preset("which_is_heavier", "features", algorithm="a3c")
 ).to_json()
 
 

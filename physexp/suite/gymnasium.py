@@ -60,12 +60,7 @@ class Environment(gymnasium.Env[Any, Any]):
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"]}
 
     def __init__(
-        self,
-        domain: str,
-        task: str,
-        render_mode: str | None = None,
-        flat_observation: bool = False,
-        **task_kwargs: Any,
+        self, domain: str, task: str, render_mode: str | None = None, flat_observation: bool = False, **task_kwargs: Any
     ):
         """Loads an environment.
 

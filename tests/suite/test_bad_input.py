@@ -41,12 +41,7 @@ CHECKS = {
     "without": (checks.within(0, 9, without=0), [9, 0.1], [*NO_NUMBERS, 0, -1, 10], "from 0 to 9 but not 0"),
     "among": (checks.among(1, 2, 3), [1, 2.0, np.int8(3)], [*NO_NUMBERS, 0, 1.5, 4], "give 1, 2 or 3"),
     "optional": (checks.optional(checks.at_least(1)), [None, 1], [0, "x"], ">= 1"),
-    "whole": (
-        checks.whole(0, 9),
-        [0, 9, np.int64(3)],
-        [*NO_INTEGERS, 10],
-        "give an integer >= 0 and <= 9",
-    ),
+    "whole": (checks.whole(0, 9), [0, 9, np.int64(3)], [*NO_INTEGERS, 10], "give an integer >= 0 and <= 9"),
     "large": (checks.whole(0), [0, 2**63 - 1], [*NO_INTEGERS, 2**63], "give an integer >= 0 and < 2**63"),
     "word": (checks.word("cpu", "cuda"), ["cpu"], ["gpu", None, 3, ["cpu"], ""], "choose from cpu, cuda"),
     "flag": (checks.flag, [True, np.bool_(False)], ["no", 1, None, [True]], "give True or False"),

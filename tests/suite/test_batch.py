@@ -195,8 +195,7 @@ def test_a_snapshot_of_another_episode_is_refused():
 
 
 @pytest.mark.parametrize(
-    "name, variation",
-    [("which_is_heavier/features", 1.0), ("towers/fist_features", 1.0), ("sealed_box/features", 0.0)],
+    "name, variation", [("which_is_heavier/features", 1.0), ("towers/fist_features", 1.0), ("sealed_box/features", 0.0)]
 )
 def test_a_batch_draws_for_people_the_images_of_its_environments(seed, name, variation):
     """After resets, steps, an answer, and a step back to a snapshot."""

@@ -161,12 +161,7 @@ def test_without_a_gl_driver_pixels_say_what_to_install(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "variables",
-    [
-        {"MUJOCO_GL": "nonsense"},
-        {"MUJOCO_GL": "egl", "PYOPENGL_PLATFORM": "osmesa"},
-    ],
-    ids=str,
+    "variables", [{"MUJOCO_GL": "nonsense"}, {"MUJOCO_GL": "egl", "PYOPENGL_PLATFORM": "osmesa"}], ids=str
 )
 def test_a_variable_that_keeps_pixels_from_being_drawn_is_named(variables):
     """By the error and by the doctor, which finds nothing else wrong; features play."""

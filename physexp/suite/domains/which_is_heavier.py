@@ -70,9 +70,7 @@ class WhichIsHeavier(contract.Task):
                 for k, control in enumerate(POKE_FORCE * np.eye(NUM_BLOCKS))
             ],
             label_names=[f"block {k} is heaviest" for k in range(NUM_BLOCKS)],
-            readings={
-                "heights": declarations.Reading(heights, (NUM_BLOCKS,), meaning, "m", bounds=bounds, noisy=True),
-            },
+            readings={"heights": declarations.Reading(heights, (NUM_BLOCKS,), meaning, "m", bounds=bounds, noisy=True)},
             num_nuisances=5,
         )
 

@@ -28,9 +28,7 @@ class Options:
     physics_timestep: ClassVar[float]
 
     random: Any = checked(
-        None,
-        _seed,
-        help="an integer seed, a numpy.random.RandomState, or None for a seed from the operating system",
+        None, _seed, help="an integer seed, a numpy.random.RandomState, or None for a seed from the operating system"
     )
     control_timestep: float = checked(
         0.1,

@@ -17,10 +17,7 @@ def solid(friction: float = FRICTION) -> dict[str, Any]:
     one: at rest, the blocks of a tower settle by less than ten micrometres.
     """
     return dict(
-        solref=[0.01, 1.0],
-        solimp=[0.999, 0.999, 0.001, 0.5, 2.0],
-        friction=[friction, 0.005, 0.0001],
-        margin=MARGIN,
+        solref=[0.01, 1.0], solimp=[0.999, 0.999, 0.001, 0.5, 2.0], friction=[friction, 0.005, 0.0001], margin=MARGIN
     )
 
 
