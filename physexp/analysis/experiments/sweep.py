@@ -148,26 +148,24 @@ def run(jobs: Sequence[Job], results: base.Results, pool: Pool, num_processes: i
     if not todo:
         return
     reported, failures = time.monotonic(), []
-    with stopping.Interruption(pool.stop) as interruption:
+    with stopping.deferred(pool.stop) as requests:
         pending = {pool.submit(job, results): job for job in todo}
         while pending:
             finished, _ = futures.wait(pending, timeout=_POLL_SECONDS, return_when=futures.FIRST_COMPLETED)
-            if interruption.happened:
+            if requests:
                 pool.stop()  # Also jobs that have just begun.
             for future in finished:
                 job = pending.pop(future)
                 if failure := _take(future, job, results):
-                    if not interruption.happened:
+                    if not requests:
                         failures.append(f"{job.config.name}: {failure}")
                         tell(f"FAILED {failures[-1]}")
                     continue
                 problem = verdict.of_run(results.run(job.config))
                 tell(f"done: {job.config.name}" + (f", but {problem}" if problem else ""))
-            if pending and not interruption.happened and (finished or time.monotonic() - reported > _REPORT_SECONDS):
+            if pending and not requests and (finished or time.monotonic() - reported > _REPORT_SECONDS):
                 tell(outlook(jobs, results, num_processes, len(pending)))
                 reported = time.monotonic()
-    if interruption.happened:
-        raise interruption.happened
     if failures:
         raise RuntimeError(f"{len(failures)} of {len(todo)} agents could not be trained: {'; '.join(failures)}")
 

@@ -13,17 +13,13 @@ from physexp import suite
 from physexp.analysis import domains
 from physexp.analysis.data import episodes, provenance
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import metrics
 from physexp.analysis.training import run as run_lib
 
 _RUN = [("condition", pyarrow.string()), ("training_seed", pyarrow.int32())]
 _TRIAL = [("condition", pyarrow.string()), ("trial", pyarrow.string()), ("training_seed", pyarrow.int32())]
 _COUNTS = ("frames", "updates", "episodes")
-METRICS = tuple(
-    dict.fromkeys(
-        [*metrics.METRICS, *itertools.chain.from_iterable(agent.metrics for agent in config_lib.ALGORITHMS.values())]
-    )
-)
+_OF_LEARNERS = itertools.chain(*(agent.metrics for agent in config_lib.ALGORITHMS.values()))
+METRICS = tuple(dict.fromkeys([*run_lib.METRICS, *_OF_LEARNERS]))
 """The metrics of all learners, by name."""
 
 RUNS = pyarrow.schema(
@@ -139,18 +135,14 @@ def curves(rows: pyarrow.Table) -> Any:
     """Returns rows of `CURVES` as a DataFrame of the recorded numbers, which have six digits."""
     frame = rows.to_pandas()
     for name in METRICS:
-        values = frame[name].to_numpy(np.float64)
-        frame[name] = values if name in _COUNTS else _six_digits(values)
+        values = frame[name].to_numpy()
+        frame[name] = values.astype(np.float64) if name in _COUNTS else _shortest(values)
     return frame
 
 
-def _six_digits(values: np.ndarray) -> np.ndarray:
-    """Returns the nearest decimal numbers of six digits."""
-    with np.errstate(divide="ignore"):
-        digits = 5 - np.floor(np.log10(np.abs(values)))
-    digits[~np.isfinite(digits)] = 0
-    scale = 10.0 ** np.abs(digits)
-    return np.where(digits >= 0, np.rint(values * scale) / scale, np.rint(values / scale) * scale)
+def _shortest(values: np.ndarray) -> np.ndarray:
+    """Returns the shortest decimal numbers, float64, that equal these, float32."""
+    return values.astype(str).astype(np.float64)
 
 
 def completed(
@@ -162,14 +154,9 @@ def completed(
 ) -> Any:
     """Returns episodes of one condition as a pandas DataFrame, with columns that follow from the stored ones.
 
-    Args:
-      rows: of `EPISODES`.
-      config: of the condition.
-      columns: which columns: those of `EPISODES`; `domain`, `task`, `difficulty`, `discount` and `interaction` of the
-        condition; `label` (-1 after a timeout), `reward`, `length`, `interactions` and `time` (s); and the hidden
-        properties, by the names that the domain gives them.
-      interaction: `learned` or `random`.
-      task_kwargs: options of the task that differ from those of training.
+    `columns` may be those of `EPISODES`; `domain`, `task`, `difficulty`, `discount` and `interaction` of the condition;
+    `label` (-1 after a timeout), `reward`, `length`, `interactions` and `time` (s); and the hidden properties, by the
+    names that the domain gives them. `task_kwargs` are options of the task that differ from those of training.
 
     Raises:
       ValueError: if the hidden properties that are drawn again belong to other answers than the stored ones.
@@ -183,7 +170,7 @@ def completed(
     label = np.where(last >= task.num_interactions, last - task.num_interactions, -1)
     answer = rows["answer"].to_numpy().astype(np.int32)
     interactions = length - (label >= 0)
-    seconds = rows["control_timestep"].to_pandas().map(_shortest)
+    seconds = _shortest(rows["control_timestep"].to_numpy())
     known = {
         "domain": config.domain,
         "task": config.task,
@@ -212,11 +199,6 @@ def completed(
         known["actions"] = actions.to_pandas()
     values = {name: known[name] if name in known else stored[name] for name in columns}
     return pandas.DataFrame(values, index=range(len(rows)))
-
-
-def _shortest(value: float) -> float:
-    """Returns the shortest decimal number that equals this one in single precision."""
-    return float(str(np.float32(value)))
 
 
 def discounted_return(frame: Any) -> np.ndarray:

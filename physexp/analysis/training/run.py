@@ -27,7 +27,6 @@ import pyarrow
 from physexp.agents import files
 from physexp.analysis.data import lock, provenance, tables
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import metrics
 from physexp.suite.engine import gl
 
 if TYPE_CHECKING:
@@ -36,6 +35,22 @@ if TYPE_CHECKING:
     from physexp.agents import checkpointing
 
 FORMAT = 1
+
+METRICS = {
+    "frames": "environment steps trained on",
+    "updates": "updates made",
+    "episodes": "episodes trained on",
+    "seconds": "time spent training, s",
+    "frames_per_second": "since the row before, or since training was started or resumed",
+    "success_rate": "share of episodes with the right label",
+    "episode_return": "mean discounted return",
+    "interactions": "mean interaction actions in an episode",
+    "timeouts": "share of episodes that ran out of time",
+}
+"""The first columns of `metrics.csv`, those of every run.
+
+Those of its learner follow, `AgentConfig.metrics`: means over the updates since the row before.
+"""
 
 _RECORDS = (
     "metrics.csv", "failed_batch.npz", "agent.safetensors", "checkpoints", "episodes.parquet", "replays", "tensorboard"
@@ -93,9 +108,8 @@ class Run:
     def locked(self) -> Iterator[None]:
         """Context in which no other trainer works in the folder; may be nested.
 
-        Raises:
-          OSError: if the folder cannot be made or written to.
-          ValueError: if another trainer works in it, or if it is a file.
+        Raises OSError if the folder cannot be made or written to, ValueError if another trainer works in it or it is a
+        file.
         """
         if self._has_lock is not None:
             yield
@@ -103,17 +117,11 @@ class Run:
         busy = f"another process is training in {self.path}; wait for it or choose another"
         with lock.locked(self.path, busy) as self._has_lock:
             try:
-                self._remove_litter()
+                for folder in (self.path, *map(self.path.joinpath, ("episodes.parquet", "checkpoints", "replays"))):
+                    files.remove_litter(folder)  # Of a trainer that was killed.
                 yield
             finally:
                 self._has_lock = None
-
-    def _remove_litter(self) -> None:
-        """Removes the partial files of a trainer that was killed."""
-        for folder in (self.path, self.path / "episodes.parquet", self.path / "checkpoints"):
-            files.remove_litter(folder)
-        for partial in (self.path / "replays").glob(".replay-*"):
-            shutil.rmtree(partial)
 
     def check_lock(self) -> None:
         """Raises RuntimeError if, within `locked`, the lock file was removed or the folder moved."""
@@ -126,11 +134,8 @@ class Run:
     def create(self, config: config_lib.TrainConfig) -> Path | None:
         """Makes the folder and writes the configuration.
 
-        Returns:
-          The folder into which the records of an earlier attempt without a checkpoint were moved; None without one.
-
-        Raises:
-          OSError, ValueError: as `locked`; ValueError also if there is a run with a checkpoint.
+        Returns the folder into which the records of an earlier attempt without a checkpoint were moved, or None without
+        one. Raises as `locked`, and ValueError if there is a run with a checkpoint.
         """
         with self.locked():
             self.check_new()
@@ -207,11 +212,7 @@ class Run:
     def variables(self, like: Mapping[str, "torch.Tensor"] | None = None) -> dict[str, "torch.Tensor"]:
         """Returns the network's variables by name: those kept at the end, or those of the last checkpoint.
 
-        Args:
-          like: variables with the names and shapes that the network has; their values do not matter.
-
-        Raises:
-          ValueError: if there are none yet, or they do not fit.
+        Raises ValueError if there are none yet, or names and shapes are not those of `like`.
         """
         from physexp.agents import learning
         from physexp.agents import tensors as tensors_lib
@@ -231,8 +232,7 @@ class Run:
     def keep_agent_only(self) -> None:
         """Replaces checkpoints and episodes by the network in half precision: training cannot be continued after it.
 
-        Raises:
-          ValueError: if there is no checkpoint, or its weights are not finite in half precision.
+        Raises ValueError if there is no checkpoint, or its weights are not finite in half precision.
         """
         from physexp.agents import tensors as tensors_lib
 
@@ -246,12 +246,35 @@ class Run:
     # Records.
 
     def append_metrics(self, row: Mapping[str, float]) -> None:
-        """Adds a row to `metrics.csv`."""
-        metrics.append(self._metrics_path, row)
+        """Adds a row to `metrics.csv`; the first one makes the file and its header."""
+        cells = [f"{value:.6g}" if isinstance(value, float) else str(value) for value in row.values()]
+        with self._metrics_path.open("a", encoding="utf-8") as file:
+            lines = [cells] if file.tell() else [list(row), cells]
+            file.write("".join(f"{','.join(line)}\n" for line in lines))
 
     def metrics(self) -> list[dict[str, float]]:
-        """Returns the rows of `metrics.csv`; raises ValueError if it is damaged."""
-        return metrics.read(self._metrics_path)
+        """Returns the rows of `metrics.csv`, but for a last one that a crash has torn.
+
+        Raises ValueError if the file is damaged.
+        """
+        return [row for _, row in self._metrics_lines()[1]]
+
+    def _metrics_lines(self) -> tuple[str, list[tuple[str, dict[str, float]]]]:
+        """Returns the header of `metrics.csv`, and each whole line below it with the row that it holds."""
+        path = self._metrics_path
+        content = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
+        header, *lines = content[: content.rfind("\n") + 1].splitlines() or [""]
+        names, found = header.split(","), []
+        if header and names[0] != "frames":
+            raise ValueError(f"{path} is damaged: its first line names no metrics; mend it, or move it away")
+        for number, line in enumerate(lines, 2):
+            try:
+                found.append((line, dict(zip(names, map(float, line.split(",")), strict=True))))
+            except ValueError:
+                raise ValueError(
+                    f"{path} is damaged: line {number} is no row of {len(names)} numbers; mend it, or move it away"
+                ) from None
+        return header, found
 
     def append_episodes(self, frames: int, rows: pyarrow.Table) -> None:
         """Adds rows of `EPISODES` to `episodes.parquet`, as a part with the name of the frames trained by now."""
@@ -261,7 +284,11 @@ class Run:
 
     def rewind(self, frames: int) -> None:
         """Removes the records after a checkpoint, whose training is lost; -1 for all of them."""
-        metrics.rewind(self._metrics_path, frames)
+        header, lines = self._metrics_lines()
+        kept = [line for line, row in lines if row["frames"] <= frames]
+        if self._metrics_path.exists():
+            content = "".join(f"{line}\n" for line in [header, *kept] if line)
+            files.write_atomically(self._metrics_path, content.encode())
         for part in (self.path / "episodes.parquet").glob(f"part-{'[0-9]' * 15}.parquet"):
             if int(part.stem.removeprefix("part-")) > frames:
                 part.unlink()

@@ -37,53 +37,44 @@ def raised() -> Iterator[None]:
     A library may turn the exception into an error of its own, as imports of MuJoCo do. So an error that leaves the
     context after a request is raised as Interrupted, too.
     """
-    received: list[int] = []
+    requests: list[Interrupted] = []
 
-    def receive(number: int) -> None:
-        received.append(number)
-        _raise(number)
+    def receive(request: Interrupted) -> None:
+        requests.append(request)
+        raise request
 
-    with _handled(receive):
+    with _received(receive):
         try:
             yield
         except (Exception, KeyboardInterrupt) as error:
-            if received:
-                raise Interrupted(received[0]) from error
+            if requests:
+                raise Interrupted(requests[0].number) from error
             raise
 
 
-class Interruption(contextlib.AbstractContextManager):
-    """Context in which the first request to end calls a function, and the second raises Interrupted.
+@contextlib.contextmanager
+def deferred(stop: Callable[[], None]) -> Iterator[list[Interrupted]]:
+    """Context in which the first request to end calls `stop`, and is raised at its end; a second one is raised at once.
 
-    Attributes:
-      happened: the exception to raise once everything is saved; None if there was no request.
+    Yields:
+      The requests so far.
     """
+    requests: list[Interrupted] = []
 
-    def __init__(self, stop: Callable[[], None]):
-        """Calls `stop` at the first request."""
-        self._stop, self._handling = stop, _handled(self._receive)
-        self.happened: Interrupted | None = None
+    def receive(request: Interrupted) -> None:
+        requests.append(request)
+        if len(requests) > 1:
+            raise request
+        stop()
 
-    def __enter__(self):
-        self._handling.__enter__()
-        return self
-
-    def __exit__(self, *error):
-        self._handling.__exit__(*error)
-
-    def _receive(self, number: int) -> None:
-        if self.happened is not None:
-            _raise(number)
-        self.happened = Interrupted(number)
-        self._stop()
-
-
-def _raise(number: int) -> None:
-    raise Interrupted(number)
+    with _received(receive):
+        yield requests
+    if requests:
+        raise requests[0]
 
 
 @contextlib.contextmanager
-def _handled(receive: Callable[[int], None]) -> Iterator[None]:
+def _received(receive: Callable[[Interrupted], None]) -> Iterator[None]:
     """Context in which requests call a function; signals that were ignored, as by `nohup`, stay ignored."""
     last = -math.inf
 
@@ -92,7 +83,7 @@ def _handled(receive: Callable[[int], None]) -> Iterator[None]:
         now = time.monotonic()
         if now - last >= TOGETHER_SECONDS:
             last = now
-            receive(number)
+            receive(Interrupted(number))
 
     previous = {}
     if threading.current_thread() is threading.main_thread():

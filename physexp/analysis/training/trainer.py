@@ -37,11 +37,10 @@ def make_agent(config: config_lib.TrainConfig) -> core.Agent:
 
 
 def check(config: config_lib.TrainConfig) -> None:
-    """Checks that a run can be trained on this machine, before anything is written.
+    """Raises ValueError if a run cannot be trained on this machine, before anything is written.
 
-    Raises:
-      ValueError: for an unknown task, for a GPU or an OpenGL library that is needed and missing, or for more workers
-        than this machine can bear.
+    It names an unknown task, a GPU or an OpenGL library that is needed and missing, or more workers than there is room
+    for.
     """
     needs_gl = config.load_task().pixels
     try:
@@ -99,13 +98,11 @@ def train(
             _check_room(run, agent)
             recorder = recorder_lib.Recorder(run, config, report, tell, on_checkpoint)
             recorder.resume(agent)
-            with stopping.Interruption(agent.stop) as interruption:
+            with stopping.deferred(agent.stop):
                 _run(agent, recorder, run)
         finally:
             if start is not None:
                 run.discard()
-    if interruption.happened:
-        raise interruption.happened
 
 
 def _check_room(run: run_lib.Run, agent: core.Agent) -> None:

@@ -12,8 +12,8 @@ from trainers import group
 from waiting import wait_until
 
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions, pools, sweep
-from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import records, stopping
+from physexp.analysis.training import run as run_lib
 
 TASK = "which_is_heavier/features"
 
@@ -163,7 +163,7 @@ def test_the_time_left_follows_from_the_speed_of_runs(tmp_path):
     assert sweep.outlook(jobs, results, 1, 2) == "2 agents to go, 0.00 of 0.01 million frames"
     run = results.run(jobs[0].config)
     run.create(jobs[0].config)
-    run.append_metrics({**dict.fromkeys(metrics_lib.METRICS, 0.0), "frames": 1000, "seconds": 30.0})
+    run.append_metrics({**dict.fromkeys(run_lib.METRICS, 0.0), "frames": 1000, "seconds": 30.0})
     # The 7000 frames that are left take 30 s for each thousand.
     left = "1 agent to go, 0.00 of 0.01 million frames, time left 0:03:30"
     assert sweep.outlook(jobs, results, 1, 1) == left

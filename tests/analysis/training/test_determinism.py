@@ -11,7 +11,6 @@ import torch
 import trainers
 
 from physexp import suite
-from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
 
@@ -39,7 +38,7 @@ def assert_same_weights(run, other):
 def assert_whole_records(run):
     """The records have every frame once and in order up to the last checkpoint, and episodes can be rebuilt."""
     metrics = pd.read_csv(run.path / "metrics.csv")
-    assert list(metrics.columns) == [*metrics_lib.METRICS, *run.config.agent.metrics]
+    assert list(metrics.columns) == [*run_lib.METRICS, *run.config.agent.metrics]
     frames = metrics["frames"].to_numpy()
     tensors, facts = run.checkpointer.latest()
     assert (np.diff(frames) > 0).all()

@@ -13,7 +13,7 @@ from physexp.agents import pretrained
 from physexp.analysis.data import provenance
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import finding, playing, publishing, trainer
-from physexp.analysis.training import metrics as metrics_lib
+from physexp.analysis.training import run as run_lib
 from physexp.cli import parsing
 
 
@@ -83,7 +83,7 @@ def test_every_field_of_an_agent_survives_the_command_line(algorithm):
         assert parsed(finding.command(config)) == ("towers", "fist_features", task_kwargs, changed)
 
 
-HEADER = ",".join(metrics_lib.METRICS) + "\n"
+HEADER = ",".join(run_lib.METRICS) + "\n"
 
 
 @pytest.mark.parametrize("metrics", [None, "", HEADER, HEADER + "nan" + ",nan" * 20, "frames,seconds\n-1,2\n"])

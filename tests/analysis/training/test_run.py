@@ -11,10 +11,9 @@ import torch
 
 from physexp.agents.a3c import config as a3c
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 
-COLUMNS = [*metrics_lib.METRICS, *a3c.A3CConfig.metrics]
+COLUMNS = [*run_lib.METRICS, *a3c.A3CConfig.metrics]
 
 
 def make_config(seed=0):
@@ -199,9 +198,12 @@ def test_a_trainer_whose_lock_file_is_removed_leaves_the_next_ones_alone(run):
         assert not (run.path / ".lock").exists()
 
 
-def test_partial_replays_of_a_killed_trainer_are_removed_by_the_next(run):
-    (run.path / "replays" / ".replay-abc").mkdir(parents=True)
-    (run.path / "replays" / ".replay-abc" / "000000.rrd").write_text("half")
+def test_partial_files_of_a_killed_trainer_are_removed_by_the_next(run):
+    run.append_episodes(10, run_lib.EPISODES.empty_table())
+    for folder in (run.path, run.path / "episodes.parquet", run.path / "replays"):
+        folder.mkdir(exist_ok=True)
+        (folder / ".0123456789abcdef.tmp").write_text("half")
     (run.path / "replays" / "000000000001000.rrd").write_text("whole")
     with run.locked():
-        assert os.listdir(run.path / "replays") == ["000000000001000.rrd"]
+        assert not list(run.path.rglob("*.tmp"))
+    assert os.listdir(run.path / "replays") == ["000000000001000.rrd"]

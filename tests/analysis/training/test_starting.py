@@ -15,13 +15,12 @@ from waiting import wait_until
 
 from physexp import cli
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
 from physexp.cli import demo
 
 TASK = ("which_is_heavier", "features")
-ROW = {**dict.fromkeys(metrics_lib.METRICS, 0.5), "frames": 7}
+ROW = {**dict.fromkeys(run_lib.METRICS, 0.5), "frames": 7}
 
 
 def refusal(capsys, *arguments):
@@ -177,7 +176,7 @@ def test_the_demo_moves_an_earlier_one_aside_and_judges_its_agent(tmp_path, monk
     run.append_metrics({**ROW, "frames": 100})
     checkpoint = run.checkpointer.save({"frames": torch.tensor(100)}, {})
     before = folders.contents(run.path)
-    demo.run(run.path)
+    demo.Demo(run_dir=run.path).run()
     assert folders.contents(run.path / "superseded-1") == before and run.is_finished and not checkpoint.exists()
     errors = capsys.readouterr().err
     assert "the agent" in errors and "chance is 25.0%" in errors and re.search(r"--frames \d+ or more", errors)

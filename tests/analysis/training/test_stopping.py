@@ -35,10 +35,9 @@ def assert_last_checkpoint_fits(run):
 def test_the_first_request_is_a_call_and_the_second_is_raised(number, monkeypatch):
     monkeypatch.setattr(stopping, "TOGETHER_SECONDS", 0.0)
     stopped = []
-    interruption = stopping.Interruption(lambda: stopped.append(1))
-    with pytest.raises(stopping.Interrupted) as caught, interruption:
+    with pytest.raises(stopping.Interrupted) as caught, stopping.deferred(lambda: stopped.append(1)) as requests:
         os.kill(os.getpid(), number)
-        assert stopped == [1] and interruption.happened.number == number
+        assert stopped == [1] and [request.number for request in requests] == [number]
         os.kill(os.getpid(), number)
     assert stopped == [1] and stopping.exit_status(caught.value) == 128 + number
 
@@ -46,10 +45,12 @@ def test_the_first_request_is_a_call_and_the_second_is_raised(number, monkeypatc
 def test_requests_that_come_together_are_one(monkeypatch):
     monkeypatch.setattr(stopping, "TOGETHER_SECONDS", 3600.0)
     stopped = []
-    with stopping.Interruption(lambda: stopped.append(1)):
+    ended = []
+    with pytest.raises(stopping.Interrupted) as caught, stopping.deferred(lambda: stopped.append(1)):
         for number in (signal.SIGTERM, signal.SIGTERM, signal.SIGHUP):
             os.kill(os.getpid(), number)
-    assert stopped == [1]
+        ended.append(1)
+    assert stopped == ended == [1] and caught.value.number == signal.SIGTERM
 
 
 @pytest.mark.parametrize("kind", [ImportError, stopping.Interrupted])  # As MuJoCo and dm_control do.
@@ -67,9 +68,9 @@ def test_a_request_that_a_library_turns_into_its_own_error_is_a_request(kind):
 def test_ignored_signals_stay_ignored_and_handlers_are_put_back():
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
-        with stopping.raised(), stopping.Interruption(pytest.fail) as interruption:
+        with stopping.raised(), stopping.deferred(pytest.fail):
             os.kill(os.getpid(), signal.SIGHUP)
-        assert interruption.happened is None and signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+        assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
     finally:
         signal.signal(signal.SIGHUP, before)
     assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL

@@ -8,7 +8,6 @@ import pytest
 from tensorboard.backend.event_processing import event_accumulator
 import trainers
 
-from physexp.analysis.training import metrics as metrics_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import tensorboard, trainer
 
@@ -73,7 +72,7 @@ def test_tensorboard_has_every_metric_at_its_steps(tmp_path):
     trainer.train(run, board)
     board.close()
     scalars, rows = logged(run), run.metrics()
-    assert set(scalars) == {*metrics_lib.METRICS, *run.config.agent.metrics} - {"frames"}
+    assert set(scalars) == {*run_lib.METRICS, *run.config.agent.metrics} - {"frames"}
     for name, points in scalars.items():
         assert [point.step for point in points] == [row["frames"] for row in rows]
         for point, row in zip(points, rows, strict=True):
@@ -86,7 +85,7 @@ def test_tensorboard_hides_entries_after_the_checkpoint_of_a_resumed_run(tmp_pat
     def train(*frames):
         log = tensorboard.TensorBoard(run)
         for number in frames:
-            row = {**dict.fromkeys(metrics_lib.METRICS, 0.5), "frames": number}
+            row = {**dict.fromkeys(run_lib.METRICS, 0.5), "frames": number}
             run.append_metrics(row)
             log(row)
         log.close()
