@@ -23,17 +23,9 @@ class Checkpointer:
         self._folder = Path(folder)
 
     def save(self, tensors: Mapping[str, torch.Tensor], facts: Mapping[str, Any]) -> Path:
-        """Writes a checkpoint and removes those that are too old.
+        """Writes tensors, with `frames` among them, and facts that JSON can hold; removes checkpoints that are too old.
 
-        Args:
-          tensors: tensors by name, with `frames` among them.
-          facts: anything that JSON can hold.
-
-        Returns:
-          Its path.
-
-        Raises:
-          OSError: if it cannot be written; those before it are untouched.
+        Returns the path. Raises OSError if it cannot be written; the checkpoints before it are untouched then.
         """
         self._folder.mkdir(parents=True, exist_ok=True)
         files.remove_litter(self._folder)
@@ -52,13 +44,11 @@ class Checkpointer:
     ) -> tuple[dict[str, torch.Tensor], dict[str, Any]] | None:
         """Returns the tensors and facts of the newest checkpoint that is whole, or None if there is none at all.
 
-        Args:
-          tell: called with a line for each one that is damaged, if there is one before it that is whole.
-          accept: called with the tensors and facts.
+        `tell` gets a line for each one that is damaged, if there is one before it that is whole.
 
         Raises:
           OSError: if a file cannot be read.
-          ValueError: if all are damaged, or the newest that is whole does not fit; it names the file.
+          ValueError: if all are damaged, or `accept` refuses the newest that is whole; it names the file.
         """
         damaged: list[str] = []
         for path in reversed(self.paths()):

@@ -113,11 +113,10 @@ def targets(
     `losses.generalized_advantages`.
     """
     rewards, played = torch.from_numpy(episodes.rewards), torch.from_numpy(episodes.played)
-    goes_on = np.arange(len(episodes.actions))[:, None] < episodes.lengths - 1
+    goes_on = episodes.played & ~episodes.is_last
     discounts = torch.from_numpy((discount * goes_on).astype(np.float32))
-    padded_values = torch.zeros_like(rewards).masked_scatter_(played, values)
     returns = losses.discounted_returns(rewards, discounts)
-    advantages = losses.generalized_advantages(rewards, discounts, padded_values, trace)
+    advantages = losses.generalized_advantages(rewards, discounts, episodes.padded(values), trace)
     return returns[played], advantages[played]
 
 

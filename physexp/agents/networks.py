@@ -57,22 +57,22 @@ class RecurrentNetwork(nn.Module, abc.ABC):
         """
         super().__init__()
         self._observed = {name: tuple(array.shape) for name, array in observation_spec.items()}
-        self.sees_images = _sees_images(observation_spec)
-        if self.sees_images:
-            self.torso = PixelTorso(observation_spec, pixel_scale)
-        else:
-            self.torso = FeatureTorso(observation_spec, feature_scale)
+        self.sees_images = any(spec.dtype == np.uint8 for spec in observation_spec.values())
+        if not observation_spec or (self.sees_images and len(observation_spec) > 1):
+            raise ValueError(
+                f"the network takes features (float32) or one image (uint8), and the observation has "
+                f"{', '.join(sorted(observation_spec)) or 'nothing'}; leave out all but features, or all but one image"
+            )
+        kind, scale = (PixelTorso, pixel_scale) if self.sees_images else (FeatureTorso, feature_scale)
+        self.torso = kind(observation_spec, scale)
 
     def calibrate(self, first: Observation) -> None:
-        """Makes an episode's first observation, arrays [N, ...], the torso's reference."""
-        self.torso.calibrate(first)
+        """Makes an episode's first observation, arrays [N, ...], the reference of an image's torso."""
+        if isinstance(self.torso, PixelTorso):
+            self.torso.reference.copy_(_only(first)[0])
 
     def check(self, observation: Mapping[str, np.ndarray]) -> None:
-        """Refuses an observation of another task.
-
-        Raises:
-          ValueError: if its names or shapes are not those that the network was built for.
-        """
+        """Raises ValueError for an observation whose names or shapes are not those of the network's task."""
         given = {name: np.shape(value) for name, value in observation.items()}
         if given != self._observed:
             raise ValueError(
@@ -95,10 +95,20 @@ class RecurrentNetwork(nn.Module, abc.ABC):
         """Returns the state at the start of episodes."""
 
     def encode(self, observation: Observation) -> torch.Tensor:
-        """Encodes observations, arrays [N, ...], for `step`, float32 [N, F]; equal images are encoded once."""
+        """Encodes observations, arrays [N, ...], for `step`, float32 [N, F].
+
+        Equal images, as all first ones without variation, are encoded once.
+        """
+        places = None
+        if self.sees_images:
+            ((name, images),) = observation.items()
+            numbers: dict[bytes, int] = {}
+            found = [numbers.setdefault(image.tobytes(), len(numbers)) for image in images.numpy()]
+            if len(numbers) < len(images):
+                places = torch.tensor(found, device=self.device)
+                observation = {name: images[np.unique(found, return_index=True)[1]]}
         with devices.autocast(self.device, self.sees_images):
-            inputs, places = self.torso.distinct(observation)
-            encoded = self.project(inputs.to(self.device)).float()
+            encoded = self.project(self.torso(observation).to(self.device)).float()
         return encoded if places is None else encoded[places]
 
     def project(self, inputs: torch.Tensor) -> torch.Tensor:
@@ -114,22 +124,24 @@ class RecurrentNetwork(nn.Module, abc.ABC):
         return state
 
 
+def _only(observation: Observation) -> torch.Tensor:
+    """Returns the image of an observation that has nothing else."""
+    (image,) = observation.values()
+    return image
+
+
+def _in_words(shapes: Mapping[str, tuple[int, ...]]) -> str:
+    return ", ".join(f"{name} {shape}" for name, shape in sorted(shapes.items())) or "nothing"
+
+
 class FeatureTorso(nn.Module):
     """Concatenates and scales features, as in the paper."""
 
     def __init__(self, observation_spec: Mapping[str, specs.Array], scale: float):
         """Builds the torso for arrays of features; `scale` is a factor on them."""
         super().__init__()
-        self._names = sorted(observation_spec)
-        self._scale = scale
+        self._names, self._scale = sorted(observation_spec), scale
         self.num_outputs = sum(int(np.prod(observation_spec[name].shape)) for name in self._names)
-
-    def calibrate(self, first: Observation) -> None:
-        """Does nothing: features are taken as they are."""
-
-    def distinct(self, observation: Observation) -> tuple[torch.Tensor, None]:
-        """Returns the result of `forward`, and None: equal observations are mapped separately."""
-        return self(observation), None
 
     def forward(self, observation: Observation) -> torch.Tensor:
         """Maps arrays [N, ...] to inputs of the LSTM, [N, num_outputs]."""
@@ -139,90 +151,42 @@ class FeatureTorso(nn.Module):
 class PixelTorso(nn.Module):
     """The paper's convolutions (Section 4): 32@8x8/4, 64@4x4/2 and 64@3x3/1 with ReLU.
 
-    Pixels are taken relative to a reference image, an episode's first one, and scaled. Equal images, as all first ones
-    without variation, pass the convolutions once.
+    Attributes:
+      reference: the image that pixels are relative to, uint8 [height, width, 3]; black, as in the paper, until another
+        takes its place.
     """
 
     reference: torch.Tensor
 
     def __init__(self, observation_spec: Mapping[str, specs.Array], scale: float):
-        """Builds the torso for one image; `scale` is a factor on pixels in [0, 1].
-
-        The reference image is black, as in the paper, until `calibrate` is called.
-        """
+        """Builds the torso for one image; `scale` is a factor on pixels in [0, 1]."""
         super().__init__()
-        ((self._name, spec),) = observation_spec.items()
+        (spec,) = observation_spec.values()
         height, width, channels = spec.shape
         self._scale = scale / 255
         layers = nn.Sequential(
-            nn.Conv2d(channels, 32, 8, 4),
-            nn.ReLU(),
-            nn.Conv2d(32, 64, 4, 2),
-            nn.ReLU(),
-            nn.Conv2d(64, 64, 3),
-            nn.ReLU(),
+            *(nn.Conv2d(channels, 32, 8, 4), nn.ReLU()),
+            *(nn.Conv2d(32, 64, 4, 2), nn.ReLU()),
+            *(nn.Conv2d(64, 64, 3), nn.ReLU()),
         )
         self.convolutions = layers.to(memory_format=torch.channels_last)  # type: ignore[call-overload]
         self.register_buffer("reference", torch.zeros(height, width, channels, dtype=torch.uint8))
-        sides = np.array([height, width])
-        for layer in layers:
-            if isinstance(layer, nn.Conv2d):
-                sides = (sides - layer.kernel_size) // layer.stride + 1
-        self.num_outputs = 64 * int(sides.prod())
-
-    def calibrate(self, first: Observation) -> None:
-        """Makes the first of these images, uint8 [N, height, width, 3], the reference."""
-        self.reference.copy_(first[self._name][0])
+        with torch.no_grad():
+            self.num_outputs = layers(torch.zeros(1, channels, height, width)).numel()
 
     def forward(self, observation: Observation) -> torch.Tensor:
         """Maps images, uint8 [N, height, width, 3], to inputs of the LSTM, [N, num_outputs]."""
-        outputs, places = self.distinct(observation)
-        return outputs if places is None else outputs[places]
-
-    def distinct(self, observation: Observation) -> tuple[torch.Tensor, torch.Tensor | None]:
-        """Maps equal images once; returns outputs, [D, num_outputs], and each image's place among them, int64 [N]."""
-        images = observation[self._name]
-        distinct, places = _distinct(images)
-        device = self.reference.device
-        pixels = (images[distinct].to(device).float() - self.reference.float()).mul_(self._scale)
+        images = _only(observation).to(self.reference.device)
+        pixels = (images.float() - self.reference.float()).mul_(self._scale)
         # [N, height, width, 3] read as [N, 3, height, width] is what torch calls channels last.
-        outputs = self.convolutions(pixels.permute(0, 3, 1, 2)).flatten(1)
-        return outputs, places.to(device) if len(distinct) < len(images) else None
-
-
-def _distinct(images: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
-    """Returns the indices of distinct images, and for each image its place among them."""
-    numbers: dict[bytes, int] = {}
-    places = [numbers.setdefault(image.tobytes(), len(numbers)) for image in images.numpy()]
-    first = np.unique(places, return_index=True)[1]
-    return torch.from_numpy(first), torch.tensor(places)
-
-
-def _in_words(shapes: Mapping[str, tuple[int, ...]]) -> str:
-    return ", ".join(f"{name} {shape}" for name, shape in sorted(shapes.items())) or "nothing"
-
-
-def _sees_images(observation_spec: Mapping[str, specs.Array]) -> bool:
-    """Returns True for one image and False for features; raises ValueError for anything else."""
-    images = [name for name, spec in observation_spec.items() if spec.dtype == np.uint8]
-    if not observation_spec or (images and len(observation_spec) > 1):
-        raise ValueError(
-            f"the network takes features (float32) or one image (uint8), and the observation has "
-            f"{', '.join(sorted(observation_spec)) or 'nothing'}; leave out all but features, or all but one image"
-        )
-    return bool(images)
+        outputs: torch.Tensor = self.convolutions(pixels.permute(0, 3, 1, 2)).flatten(1)
+        return outputs
 
 
 class RecurrentActorCritic(RecurrentNetwork):
     """Torso, LSTM, and two linear heads: the policy's logits and the value."""
 
-    def __init__(
-        self,
-        observation_spec: Mapping[str, specs.Array],
-        num_actions: int,
-        *,
-        observation_scale: float,
-    ):
+    def __init__(self, observation_spec: Mapping[str, specs.Array], num_actions: int, *, observation_scale: float):
         """Builds the network, with weights from torch's global seed; for the scale see `ActorCriticConfig`."""
         super().__init__(observation_spec, observation_scale, observation_scale)
         self.lstm = lstm.LSTM(self.torso.num_outputs, LSTM_UNITS)

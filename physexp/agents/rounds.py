@@ -43,6 +43,11 @@ class Round:
         return np.arange(len(self.actions))[:, None] < self.lengths
 
     @property
+    def is_last(self) -> np.ndarray:
+        """Returns which step is the last of its episode, bool [T, B]."""
+        return np.arange(len(self.actions))[:, None] == self.lengths - 1
+
+    @property
     def batch_sizes(self) -> torch.Tensor:
         """Returns how many episodes have a t-th step, int64 [T]."""
         return torch.from_numpy(self.played.sum(axis=1))
@@ -50,6 +55,12 @@ class Round:
     def packed(self, array: np.ndarray) -> torch.Tensor:
         """Returns the steps of an array [T, B, ...] that were played, packed."""
         return torch.from_numpy(array[self.played])
+
+    def padded(self, packed: torch.Tensor) -> torch.Tensor:
+        """Returns packed steps, [N, ...], as [T, B, ...], 0 after an episode's end."""
+        padded = packed.new_zeros((*self.actions.shape, *packed.shape[1:]))
+        padded[torch.from_numpy(self.played).to(packed.device)] = packed
+        return padded
 
     def select(self, episodes: np.ndarray | None = None) -> "Round":
         """Returns some episodes, or all, from the longest to the shortest, as the network unrolls them."""

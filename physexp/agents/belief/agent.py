@@ -81,7 +81,7 @@ class Belief(synchronous.SynchronousAgent):
         config, network, averaged = self._config, self.variables.network, self.variables.averaged
         assert episodes.inputs is not None
         actions, played = torch.from_numpy(episodes.actions), torch.from_numpy(episodes.played)
-        inputs = _padded(episodes.inputs.to(network.device).float(), played)
+        inputs = episodes.padded(episodes.inputs.to(network.device).float())
         logits, shares = (part.cpu() for part in network.unroll(inputs, actions.to(network.device), _DROPOUT))
         with torch.no_grad():
             outputs_of_held_out = averaged.held_out(inputs, actions.to(network.device))
@@ -93,8 +93,9 @@ class Belief(synchronous.SynchronousAgent):
         best = (shares.detach() * learns[..., None]).sum(0).argmax(-1)  # By the members that learn from the episode.
         interacting = network.values(beliefs, held_out_shares).gather(-1, best[..., None])[..., 0]
         answering, rewards = losses.answer_values(beliefs.amax(-1)), torch.from_numpy(episodes.rewards.sum(axis=0))
+        are_last = torch.from_numpy(episodes.is_last)
         targets = losses.interaction_targets(
-            answering, interacting, best == actions, _are_last(episodes), rewards, config.discount, _LAMBDA
+            answering, interacting, best == actions, are_last, rewards, config.discount, _LAMBDA
         )
         taken = actions.clamp(max=network.num_interactions - 1).expand(len(logits), *actions.shape)
         values = network.values(beliefs, shares).gather(-1, taken[..., None])[..., 0]
@@ -113,9 +114,8 @@ class Belief(synchronous.SynchronousAgent):
         """Updates the unit of inputs: their root mean square change since the start of the episode."""
         variables = self.variables
         assert played.inputs is not None
-        were_played = torch.from_numpy(played.played)
-        seen = _padded(played.inputs.cpu(), were_played)
-        changes = (seen - seen[:1])[were_played].double()
+        seen = played.padded(played.inputs.cpu())
+        changes = (seen - seen[:1])[torch.from_numpy(played.played)].double()
         variables.moments += torch.stack([changes.square().sum(), (changes != 0).sum()])
         squares, count = variables.moments.tolist()
         if count:
@@ -155,16 +155,4 @@ def _label_targets(
         are_right = torch.from_numpy(episodes.rewards.sum(axis=0)) > 0
         labels = losses.label_posterior(held_out_logits[lengths - 1, each], answered, are_right)
         are_counted = are_counted & (last_actions >= num_interactions)
-    return labels, are_counted if config.every_step else are_counted & _are_last(episodes)
-
-
-def _are_last(episodes: rounds.Round) -> torch.Tensor:
-    """Returns the last step of each episode, bool [T, B]."""
-    return torch.arange(len(episodes.actions))[:, None] == torch.from_numpy(episodes.lengths) - 1
-
-
-def _padded(packed: torch.Tensor, played: torch.Tensor) -> torch.Tensor:
-    """Returns packed steps, [N, ...], as [T, B, ...], 0 after an episode's end."""
-    padded = packed.new_zeros((*played.shape, *packed.shape[1:]))
-    padded[played.to(packed.device)] = packed
-    return padded
+    return labels, are_counted if config.every_step else are_counted & torch.from_numpy(episodes.is_last)

@@ -36,7 +36,7 @@ def label_posterior(logits: torch.Tensor, answers: torch.Tensor, are_right: torc
 
 
 def belief_loss(logits: torch.Tensor, labels: torch.Tensor, are_counted: torch.Tensor) -> torch.Tensor:
-    """Returns the mean cross-entropy of beliefs at every step of every episode, [K].
+    """Returns the mean cross-entropy over the steps that count, [K].
 
     Args:
       logits: of the beliefs of K members, [K, T, B, L].
@@ -47,13 +47,7 @@ def belief_loss(logits: torch.Tensor, labels: torch.Tensor, are_counted: torch.T
 
 
 def value_loss(values: torch.Tensor, targets: torch.Tensor, are_counted: torch.Tensor) -> torch.Tensor:
-    """Returns the mean squared error of the values of interactions that were taken, [K].
-
-    Args:
-      values: by K members, [K, T, B].
-      targets: their targets, [T, B].
-      are_counted: which steps count, bool [K, T, B].
-    """
+    """Returns the mean squared error of values by K members, [K, T, B], over the steps that count, [K]."""
     return _means((values - targets).square(), are_counted)
 
 
@@ -101,13 +95,9 @@ def interaction_targets(
 
 
 def calibration_error(confidences: torch.Tensor, outcomes: torch.Tensor) -> float:
-    """Returns the expected calibration error of confidences (ECE: Naeini et al., 2015).
+    """Returns the expected calibration error of beliefs in answers, [N] (ECE: Naeini et al., 2015).
 
-    Confidence is sorted into ten bins of equal width.
-
-    Args:
-      confidences: beliefs in the answers, [N].
-      outcomes: 1 for a right answer, 0 for a wrong one, [N].
+    Confidence is sorted into ten bins of equal width. Outcomes are 1 for a right answer and 0 for a wrong one.
     """
     bins = (confidences * _NUM_BINS).long().clamp(0, _NUM_BINS - 1)
     gaps = torch.zeros(_NUM_BINS, dtype=confidences.dtype).index_add_(0, bins, confidences - outcomes)
