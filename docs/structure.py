@@ -49,11 +49,11 @@ def imports() -> dict[str, set[str]]:
 
 
 def room(module: str) -> str | None:
-    """Returns the room of a module; None for the package's own entry points."""
+    """Returns the room of a module; None for the package itself."""
     parts = module.split(".")[1:]
     if parts[:1] == ["analysis"]:
         parts = parts[1:]
-    return parts[0] if parts and parts[0] != "__main__" else None
+    return parts[0] if parts else None
 
 
 @functools.cache

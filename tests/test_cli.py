@@ -124,7 +124,9 @@ def test_help_after_a_domain_lists_its_options(run):
 
 def test_the_version_is_the_packages(run):
     assert run("--version") == Done(0, f"physexp {physexp.__version__}\n", "")
-    module = subprocess.run([sys.executable, "-m", "physexp", "--version"], capture_output=True, text=True, check=True)
+    module = subprocess.run(
+        [sys.executable, "-m", "physexp.cli", "--version"], capture_output=True, text=True, check=True
+    )
     assert module.stdout == f"physexp {physexp.__version__}\n"
 
 
@@ -212,12 +214,11 @@ def test_a_mistyped_command_line_is_answered_in_one_line(run, line, message):
     assert run(*line.split()) == Done(2, "", f"physexp: {message}\n")
 
 
-def test_a_negative_number_with_an_exponent_is_given_after_an_equals_sign(run):
+def test_a_negative_number_with_an_exponent_is_no_option(run):
     line = "train towers/fist_features --agent a3c --initial-logits"
-    assert parsing.parse(f"{line}=-1e-05 --initial-logits 1 -2".split()).hyperparameters == {
-        "initial_logits": (-1e-05, 1.0, -2.0)
-    }
-    assert_refused(run(*line.split(), "-1e-05"), "write --option=-1e-05")
+    for given in (f"{line} -1e-05 1 -2.", f"{line}=-1e-05 --initial-logits 1 -2"):
+        assert parsing.parse(given.split()).hyperparameters == {"initial_logits": (-1e-05, 1.0, -2.0)}
+    assert_refused(run("train", "threshold/features", "--noise", "-1e-05"), "noise is -1e-05; give a number from 0")
 
 
 def test_an_empty_argument_is_refused(run):

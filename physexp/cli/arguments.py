@@ -4,9 +4,10 @@ The fields of a dataclass are the arguments; a command's own are declared with `
 """
 
 import argparse
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import dataclasses
 from pathlib import Path
+import re
 from typing import Any, Literal, NamedTuple, NoReturn, get_args, get_origin, get_type_hints
 
 from physexp import checks
@@ -72,6 +73,7 @@ class Parser(argparse.ArgumentParser):
 
     def __init__(self, name: str, kind: type, groups: Sequence[Group] = (), is_strict: bool = True):
         super().__init__(prog=f"physexp {name}", description=kind.__doc__, allow_abbrev=False, add_help=is_strict)
+        self._negative_number_matcher = re.compile(r"-(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$", re.IGNORECASE)  # Also -1e-05.
         self.flags: list[str] = []
         self._is_strict = is_strict
         own = [field for field in dataclasses.fields(kind) if field.metadata]
@@ -82,7 +84,10 @@ class Parser(argparse.ArgumentParser):
         kinds = get_type_hints(kind)
         for field in own:
             if field.name in self.words:
-                self._add_word(field.name, kinds[field.name], field.metadata)
+                count = field.metadata["count"] if is_strict else "*"
+                settings = _of_value(kinds[field.name]) | dict(field.metadata) | {"nargs": count, "default": None}
+                del settings["count"]
+                self.add_argument(field.name, **settings)
             else:
                 self._add_option(self, field.name, kinds[field.name], field.metadata, field.default)
         for group in groups:
@@ -99,19 +104,8 @@ class Parser(argparse.ArgumentParser):
         """Raises the message, with the command that lists the allowed arguments."""
         raise ValueError(f"{message.removeprefix('argument ')}; see {self.prog} --help")
 
-    def _add_word(self, name: str, kind: Any, metadata: Mapping[str, Any]) -> None:
-        """Adds an argument without a name."""
-        settings = _of_value(kind) | {"help": metadata["help"], "metavar": metadata["metavar"], "default": None}
-        self.add_argument(name, **settings | {"nargs": metadata["count"] if self._is_strict else "*"})
-
     def _add_option(
-        self,
-        section: Any,
-        name: str,
-        kind: Any,
-        metadata: Mapping[str, Any],
-        default: Any,
-        is_pair: bool = False,
+        self, section: Any, name: str, kind: Any, metadata: Mapping[str, Any], default: Any, is_pair: bool = False
     ) -> None:
         """Adds an option that is left out if it is not given; a flag that `is_pair` has a `--no-` form too."""
         settings = _of_value(kind) | {"dest": name, "default": argparse.SUPPRESS, "help": metadata["help"]}
@@ -144,3 +138,47 @@ def _of_value(kind: Any) -> dict[str, Any]:
 
 def _shown(value: Any) -> str:
     return " ".join(map(_shown, value)) if isinstance(value, tuple) else agent_config.shown(value)
+
+
+# The options of domains, made from their `Options` classes.
+
+
+def domains_of(words: Sequence[str]) -> list[str]:
+    """Returns the domains whose options go with a command's words, which begin with a domain or a trained agent.
+
+    The folder of a run does not say what it holds before it is read: the options of all domains go with it, and are
+    compared with its own when it is read.
+    """
+    if not words:
+        return []
+    from physexp import suite
+
+    domain = words[0].partition("/")[0]
+    return [domain] if domain in suite.TASKS_BY_DOMAIN else list(suite.TASKS_BY_DOMAIN)
+
+
+def of_task(words: Sequence[str], more: Callable[[str], Sequence[type]] = lambda domain: ()) -> Group:
+    """Returns the options of the domain that some words begin with, before `more` dataclasses of options."""
+    if not words:
+        return Group("task_kwargs", "the domain", [])
+    from physexp import suite
+
+    names = domains_of(words)
+    holders = [holder for name in names for holder in (suite.options(name), *more(name))]
+    return Group("task_kwargs", names[0] if len(names) == 1 else "the domain", holders)
+
+
+def task_groups(words: Sequence[str], agent: str | None = None) -> list[Group]:
+    """Returns the options of a command that begins with a task."""
+    return [of_task(words)]
+
+
+def agent_groups(words: Sequence[str], agent: str | None = None) -> list[Group]:
+    """Returns the options of a command that begins with a trained agent; by default they are the agent's."""
+    return [of_task(words)._replace(default="the agent's")]
+
+
+def task_of(words: Sequence[str]) -> tuple[str, str]:
+    """Returns the domain and the task of a command's words, DOMAIN TASK or DOMAIN/TASK; without a task, it is empty."""
+    domain, _, task = "/".join(words).partition("/")
+    return domain, task

@@ -1,6 +1,6 @@
 """The commands by name, in the order in which help lists them."""
 
-from physexp.cli import experiments, export, ideal, playing, score, sweep, tasks, train
+from physexp.cli import demo, doctor, experiments, export, ideal, playing, score, sweep, tasks, train
 
 COMMANDS = {
     "tasks": tasks.Tasks,
@@ -18,6 +18,6 @@ COMMANDS = {
     "reproduce": experiments.Reproduce,
     "report": experiments.Report,
     "bench": experiments.Bench,
-    "doctor": tasks.Doctor,
-    "demo": train.Demo,
+    "doctor": doctor.Doctor,
+    "demo": demo.Demo,
 }

@@ -1,18 +1,22 @@
 """Examines this machine: versions, hardware and extras, each with advice if something is missing."""
 
 from collections.abc import Iterator
+import dataclasses
 import importlib
 import importlib.metadata
 import os
 from pathlib import Path
 import platform
 import shutil
+import sys
 from typing import Any
 
 from packaging import requirements, specifiers
 
 from physexp import extras
 from physexp.agents import processes
+from physexp.cli import printing
+from physexp.cli.arguments import option
 
 OK, MISSING, BROKEN = "ok", "missing", "broken"
 """Verdicts: fine; some commands or some speed need it; the environments themselves do not work."""
@@ -21,6 +25,23 @@ OK, MISSING, BROKEN = "ok", "missing", "broken"
 _CORE = ("numpy", "scipy", "physexp.suite", "torch", "pyarrow", "rerun")
 _MEMORY = 2.0  # GiB: two workers that train the towers from pixels take 1.2.
 _DISK = 1.0  # GiB: a run from pixels takes some hundredths of it, its replays more.
+
+
+@dataclasses.dataclass
+class Doctor:
+    """Check versions, GPU and OpenGL, and advise about everything that is missing.
+
+    The exit status is 1 if the environments themselves do not work, else 0.
+    """
+
+    json: bool = option(False, "print JSON")
+
+    def run(self) -> None:
+        """Prints the checks and exits."""
+        found = examine()
+        printing.show(found if self.json else found["checks"], self.json)
+        if any(check["verdict"] == BROKEN for check in found["checks"]):
+            sys.exit(1)
 
 
 def examine() -> dict[str, Any]:

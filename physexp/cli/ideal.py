@@ -5,8 +5,7 @@ import dataclasses
 from typing import Any
 
 from physexp.analysis import domains
-from physexp.cli import options as options_lib
-from physexp.cli import printing
+from physexp.cli import arguments, printing
 from physexp.cli.arguments import Group, option, word
 
 _IDEALS = {name: domain.ideal for name, domain in domains.DOMAINS.items() if domain.ideal is not None}
@@ -26,7 +25,7 @@ class Ideal:
     @classmethod
     def groups(cls, words: Sequence[str], agent: str | None) -> list[Group]:
         """Returns the options of the domain and of its ideal experimenter."""
-        return [options_lib.of_task(words, lambda domain: [_IDEALS[domain].options] if domain in _IDEALS else [])]
+        return [arguments.of_task(words, lambda domain: [_IDEALS[domain].options] if domain in _IDEALS else [])]
 
     def run(self) -> None:
         """Solves the task and prints the returns.
@@ -36,7 +35,7 @@ class Ideal:
         """
         from physexp import suite
 
-        domain, task = options_lib.task_of(self.words)
+        domain, task = arguments.task_of(self.words)
         if domain not in _IDEALS:
             raise ValueError(f"no ideal experimenter is known of {domain!r}; choose from {', '.join(_IDEALS)}")
         tasks = suite.TASKS_BY_DOMAIN[domain]

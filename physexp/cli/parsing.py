@@ -1,7 +1,6 @@
 """Parses the arguments of a command. Heavy libraries are imported by the command that needs them: `--help` is quick."""
 
 from collections.abc import Sequence
-import contextlib
 import difflib
 import os
 from typing import Any
@@ -76,9 +75,6 @@ def _problem(unknown: Sequence[str], parser: Parser, groups: Sequence[Group], fl
     given = next((argument.partition("=")[0] for argument in unknown if argument.startswith("-")), None)
     if given is None:
         return f"{unknown[0]!r} is one argument too many"
-    with contextlib.suppress(ValueError):  # argparse takes -1e-05 for an option, unlike -0.1.
-        float(given)
-        return f"{given} is taken for an option; write --option={given}, once for each number of a list"
     if given in flags_of_all:
         return f"{given} is not an option of {' nor of '.join(group.title for group in groups)}; leave it out"
     close = difflib.get_close_matches(given, parser.flags, n=1)

@@ -5,8 +5,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Literal
 
 from physexp.agents import config as agent_config
-from physexp.cli import options as options_lib
-from physexp.cli import printing
+from physexp.cli import arguments, printing
 from physexp.cli.arguments import AGENT, TASK, option, word
 
 _INTERACTION = "learned, or random: interaction actions are replaced by uniformly drawn ones (paper, Section 5.3)"
@@ -17,7 +16,7 @@ _SEED = "seed of the environments and actions; by default one that training neve
 class Evaluate:
     """Play episodes with a trained agent and measure how well it answers, beside the ideal experimenter."""
 
-    groups: ClassVar = staticmethod(options_lib.agent_groups)
+    groups: ClassVar = staticmethod(arguments.agent_groups)
 
     target: str = word("AGENT", AGENT)
     episodes: int = option(1000, "number of episodes")
@@ -54,7 +53,7 @@ class Evaluate:
 class Replay:
     """Write episodes of a trained agent for the rerun viewer: the scene, observations, beliefs and actions."""
 
-    groups: ClassVar = staticmethod(options_lib.agent_groups)
+    groups: ClassVar = staticmethod(arguments.agent_groups)
 
     target: str = word("AGENT", AGENT)
     compare: str | None = option(None, "a second agent, shown beside the first on the same instances", "AGENT")
@@ -91,7 +90,7 @@ class Play:
     Tasks with features need no OpenGL.
     """
 
-    groups: ClassVar = staticmethod(options_lib.task_groups)
+    groups: ClassVar = staticmethod(arguments.task_groups)
 
     words: tuple[str, ...] = word("DOMAIN TASK", TASK, "+")
     seed: int | None = option(None, "seed of the environment; by default one from the operating system")
@@ -102,7 +101,7 @@ class Play:
         """Plays until the player stops."""
         from physexp.analysis.play import game
 
-        game.play(*options_lib.task_of(self.words), self.task_kwargs, self.seed, self.view)
+        game.play(*arguments.task_of(self.words), self.task_kwargs, self.seed, self.view)
 
 
 @dataclasses.dataclass

@@ -1,8 +1,7 @@
-"""Commands that list the tasks and examine this machine."""
+"""The command that lists the tasks."""
 
 import dataclasses
 import itertools
-import sys
 
 from physexp.cli import printing
 from physexp.cli.arguments import option
@@ -49,22 +48,3 @@ class Tasks:
             printing.tell(f"{domain}: {question}")
             printing.show(table)
             printing.tell("")
-
-
-@dataclasses.dataclass
-class Doctor:
-    """Check versions, GPU and OpenGL, and advise about everything that is missing.
-
-    The exit status is 1 if the environments themselves do not work, else 0.
-    """
-
-    json: bool = option(False, "print JSON")
-
-    def run(self) -> None:
-        """Prints the checks and exits."""
-        from physexp.cli import doctor
-
-        found = doctor.examine()
-        printing.show(found if self.json else found["checks"], self.json)
-        if any(check["verdict"] == doctor.BROKEN for check in found["checks"]):
-            sys.exit(1)

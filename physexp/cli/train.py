@@ -11,8 +11,7 @@ from physexp import extras
 from physexp.agents import config as agent_config
 from physexp.analysis.training import callbacks
 from physexp.analysis.training import config as config_lib
-from physexp.cli import options as options_lib
-from physexp.cli import printing
+from physexp.cli import arguments, printing
 from physexp.cli.arguments import TASK, Group, option, word
 
 
@@ -34,22 +33,22 @@ class Train:
     @classmethod
     def groups(cls, words: Sequence[str], agent: str | None) -> list[Group]:
         """Returns the options of the domain and of the learner; without a learner, of all learners."""
-        of_domain = options_lib.of_task(words)
+        of_domain = arguments.of_task(words)
         if agent is None:
             return [of_domain, Group("hyperparameters", "learners", list(config_lib.ALGORITHMS.values()))]
-        is_known = options_lib.domains_of(words) == list(options_lib.task_of(words)[:1])
-        preset = config_lib.preset(*(options_lib.task_of(words) if is_known else ()), algorithm=agent)
+        is_known = arguments.domains_of(words) == list(arguments.task_of(words)[:1])
+        preset = config_lib.preset(*(arguments.task_of(words) if is_known else ()), algorithm=agent)
         return [of_domain, Group("hyperparameters", f"--agent {agent}", [preset])]
 
     @property
     def domain(self) -> str:
         """The domain's name."""
-        return options_lib.task_of(self.words)[0]
+        return arguments.task_of(self.words)[0]
 
     @property
     def task(self) -> str:
         """The task's name."""
-        return options_lib.task_of(self.words)[1]
+        return arguments.task_of(self.words)[1]
 
     @property
     def config(self) -> agent_config.AgentConfig:
@@ -151,17 +150,3 @@ class Train:
         printing.warn(
             f"the checkpoint after {int(paths[-1].stem):,} frames: {paths[-1]}", f"to go on: {shlex.join(words)}"
         )
-
-
-@dataclasses.dataclass
-class Demo:
-    """Train an agent for a minute or two, and compare it with randomized interaction."""
-
-    run_dir: Path = option(Path("runs/demo"), "the folder of the run; another demonstration in it is moved aside")
-
-    def run(self) -> None:
-        """Trains and evaluates the demonstration's agent."""
-        extras.require("matplotlib")
-        from physexp.cli import demo
-
-        demo.run(self.run_dir)

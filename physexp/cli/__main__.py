@@ -1,4 +1,4 @@
-"""`python -m physexp` is the command `physexp`."""
+"""`python -m physexp.cli` is the command `physexp`."""
 
 from physexp.cli import main
 
