@@ -10,6 +10,7 @@ import pytest
 
 from physexp import suite
 from physexp.suite import gymnasium, stable_baselines
+from physexp.suite.engine import episodes
 
 TASK = ("towers", "fist_features")
 
@@ -19,14 +20,14 @@ class Busy:
 
     def __init__(self, environment, monkeypatch, action):
         stepping, done = threading.Event(), threading.Event()
-        judge = type(environment.task.rules).judge
+        judge = episodes.Ledger.judge
 
         def waiting(*args):
             stepping.set()
             done.wait()
             return judge(*args)
 
-        monkeypatch.setattr(type(environment.task.rules), "judge", waiting)
+        monkeypatch.setattr(episodes.Ledger, "judge", waiting)
         self._done, self.timestep = done, None
         self._thread = threading.Thread(target=self._play, args=(environment, action))
         self._thread.start()

@@ -6,6 +6,7 @@ import numpy as np
 
 from physexp import checks
 from physexp.suite.engine import seeding
+from physexp.suite.engine.rules import RIGHT, WRONG
 
 
 class Ledger:
@@ -73,9 +74,11 @@ class Ledger:
 
     def judge(self, rows: np.ndarray, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Returns rewards, float64 [K], and whether episodes end, bool [K], after actions, int [K], of some rows."""
-        rewards, last = self._task.rules.judge(actions, self.answers[rows], self.steps[rows])
+        rules = self._task.rules
+        last = (actions >= rules.num_interactions) | (self.steps[rows] >= rules.step_limit)
+        right = actions - rules.num_interactions == self.answers[rows]
         self.over[rows] = last
-        return rewards, last
+        return np.where(right, RIGHT, np.where(last, WRONG, 0.0)), last
 
 
 def _checked(name: str, given: Any, drawn: np.ndarray, least: float, largest: float) -> np.ndarray:

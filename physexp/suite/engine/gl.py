@@ -114,21 +114,23 @@ _DRAWING = threading.Lock()
 """Held while a job is done and while this process is forked, so that no fork finds the driver's own locks taken."""
 os.register_at_fork(before=_DRAWING.acquire, after_in_parent=_DRAWING.release, after_in_child=_DRAWING.release)
 
-_QUEUES: dict[int, queue.SimpleQueue[Any]] = {}  # By process: a fork has no thread of its parent's.
+_QUEUES: dict[int, queue.SimpleQueue[Any]] = {}  # Of futures and functions; by process, since a fork has no thread.
 
 
-def _jobs(process: int) -> queue.SimpleQueue[Any]:
-    """Returns the queue of a process's drawing thread, which the first call starts: futures, and functions to call."""
+def later(function: Callable[[], Any]) -> futures.Future[Any]:
+    """Has the drawing thread of this process call a function, after its earlier jobs; the first call starts it."""
     new: queue.SimpleQueue[Any] = queue.SimpleQueue()
-    jobs = _QUEUES.setdefault(process, new)  # Of several threads that come first, one starts it.
+    jobs = _QUEUES.setdefault(os.getpid(), new)  # Of several threads that come first, one starts it.
+    if jobs is new:  # It outlives the hooks of `atexit`.
+        threading.Thread(target=_work, args=(jobs,), name="physexp drawing", daemon=True).start()
+    future: futures.Future[Any] = futures.Future()
+    jobs.put((future, function))
+    return future
 
-    def work() -> None:
-        while True:
-            _do(*jobs.get())
 
-    if jobs is new:
-        threading.Thread(target=work, name="physexp drawing", daemon=True).start()  # It outlives the hooks of `atexit`.
-    return jobs
+def _work(jobs: queue.SimpleQueue[Any]) -> None:
+    while True:
+        _do(*jobs.get())  # In a function of its own, which keeps nothing of the last job alive.
 
 
 def _do(future: futures.Future[Any], function: Callable[[], Any]) -> None:
@@ -138,13 +140,6 @@ def _do(future: futures.Future[Any], function: Callable[[], Any]) -> None:
         future.set_result(result)
     except BaseException as error:  # The thread that waits raises it.
         future.set_exception(error)
-
-
-def later(function: Callable[[], Any]) -> futures.Future[Any]:
-    """Has the drawing thread of this process call a function, after its earlier jobs."""
-    future: futures.Future[Any] = futures.Future()
-    _jobs(os.getpid()).put((future, function))
-    return future
 
 
 def draw(function: Callable[[], Any]) -> Any:
@@ -158,8 +153,7 @@ def draw(function: Callable[[], Any]) -> Any:
 def make_context(size: int) -> Any:
     """Makes an off-screen GL context for images of `size` by `size` pixels; only the drawing thread calls it.
 
-    Raises:
-      RuntimeError: if no GL backend works; the message names the environment variables and a remedy.
+    If no GL backend works, it raises RuntimeError, which names the environment variables and a remedy.
     """
     backend = choose_backend()
     try:

@@ -15,7 +15,7 @@ RIGHT, WRONG = 1.0, -1.0
 
 @dataclasses.dataclass(frozen=True)
 class Rules:
-    """How actions are read and judged.
+    """How actions are read.
 
     Attributes:
       num_interactions: number of interaction actions.
@@ -54,10 +54,3 @@ class Rules:
                 f"action is {bad}; allowed are 0 to {self.num_interactions - 1} (interact) and "
                 f"{self.num_interactions} to {self.num_actions - 1} (label)"
             )
-
-    def judge(self, actions: np.ndarray, answers: np.ndarray, steps: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Returns rewards, float64 [N], and whether episodes end, bool [N]; steps, int [N], include the one judged."""
-        labeled = actions >= self.num_interactions
-        last = labeled | (steps >= self.step_limit)
-        right = actions - self.num_interactions == answers
-        return np.where(right, RIGHT, np.where(last, WRONG, 0.0)), last

@@ -28,11 +28,7 @@ def _mix(x: np.ndarray) -> np.ndarray:
 
 
 def environment_seed(seed: int, index: int) -> int:
-    """Returns the seed, in [0, 2**32), of environment `index` in a batch seeded with `seed`.
-
-    Raises:
-      ValueError: if one of them is not an integer in [0, 2**63).
-    """
+    """Returns the seed, in [0, 2**32), of environment `index` in a batch seeded with `seed`; both are in [0, 2**63)."""
     seed = checks.integer("seed", seed, 0, LARGEST_SEED)
     index = checks.integer("index", index, 0, LARGEST_SEED)
     return int(environment_seeds(seed, np.array([index]))[0])
@@ -45,12 +41,9 @@ def environment_seeds(seed: int, indices: np.ndarray) -> np.ndarray:
 
 
 def uniforms(seeds: np.ndarray, episodes: np.ndarray, count: int, attempt: int = 0) -> np.ndarray:
-    """Returns independent uniform numbers in (0, 1) of some episodes, float64 [N, count].
+    """Returns independent uniform numbers in (0, 1), float64 [N, count], of episodes: seeds and indices, int64 [N].
 
-    Args:
-      seeds, episodes: environment seeds and episode indices, int64 [N].
-      count: numbers per episode.
-      attempt: 0, 1, ... for further, independent numbers of the same episodes.
+    Each attempt, 0, 1 and so on, gives further, independent numbers of the same episodes.
     """
     return _uniforms(_keys(seeds, episodes), count, attempt)
 
@@ -84,11 +77,7 @@ def _uniforms(keys: np.ndarray, count: int, attempt: int = 0) -> np.ndarray:
 
 
 def seed_from(random: Any) -> int:
-    """Returns the environment seed that an argument `random` stands for, as in dm_control's tasks.
-
-    Raises:
-      ValueError: if it is not an integer in [0, 2**63), a `numpy.random.RandomState`, or None for a random seed.
-    """
+    """Returns the environment seed that an argument `random` stands for, as in dm_control's tasks."""
     if random is None:
         random = np.random.RandomState()
     if isinstance(random, np.random.RandomState):

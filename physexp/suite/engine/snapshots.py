@@ -15,12 +15,8 @@ class Snapshot:
 
     Attributes:
       environments: their indices, int64 [N].
-      episodes: indices of the episodes, int64 [N].
-      hidden: their hidden properties, [N, ...].
-      nuisances: the values of their random variation, float64 [N, number of nuisances].
-      substeps: physics steps in a control step, int64 [N].
-      steps: control steps taken, int64 [N].
-      touched: whether each held entity has moved, bool [N, number of held entities].
+      identity: arrays [N, ...] that tell the episodes from others of the same environments.
+      steps, touched: as in `episodes.Ledger`.
       observed: the last observations, arrays [N, ...] by name.
       states: states of the simulations and their sensors, one array for each structure, float64 [number of its
         environments, ...].
@@ -28,10 +24,7 @@ class Snapshot:
     """
 
     environments: np.ndarray
-    episodes: np.ndarray
-    hidden: np.ndarray
-    nuisances: np.ndarray
-    substeps: np.ndarray
+    identity: tuple[np.ndarray, ...]
     steps: np.ndarray
     touched: np.ndarray
     observed: dict[str, np.ndarray]
@@ -66,10 +59,7 @@ def take(batch: batch_lib.BatchEnvironment, environments: np.ndarray | None = No
         by_structure = [(group, chosen[members]) for group, members in batch.by_structure(chosen)]
         return Snapshot(
             environments=chosen.copy(),
-            episodes=batch.episodes[chosen],
-            hidden=ledger.hidden[chosen],
-            nuisances=ledger.nuisances[chosen],
-            substeps=ledger.substeps[chosen],
+            identity=_identity(batch, chosen),
             steps=ledger.steps[chosen],
             touched=ledger.touched[chosen],
             observed={name: values[chosen] for name, values in batch.observations.items()},
@@ -82,15 +72,18 @@ def restore(batch: batch_lib.BatchEnvironment, snapshot: Snapshot) -> None:
     """Takes episodes back to a snapshot; the next step goes on from there."""
     with batch.in_use(snapshot.environments) as chosen:
         ledger = batch.ledger
-        now = batch.episodes, ledger.hidden, ledger.nuisances, ledger.substeps
-        saved = snapshot.episodes, snapshot.hidden, snapshot.nuisances, snapshot.substeps
-        if not all(np.array_equal(values[chosen], then) for values, then in zip(now, saved, strict=True)):
+        if not all(map(np.array_equal, _identity(batch, chosen), snapshot.identity)):
             raise ValueError("environments have begun other episodes since the snapshot; restore it before that")
         ledger.steps[chosen], ledger.touched[chosen], ledger.over[chosen] = snapshot.steps, snapshot.touched, False
         for name, values in snapshot.observed.items():
             batch.observations[name][chosen] = values
         for (group, members), states in zip(batch.by_structure(chosen), snapshot.states, strict=True):
             group.restore(chosen[members], states)
+
+
+def _identity(batch: batch_lib.BatchEnvironment, chosen: np.ndarray) -> tuple[np.ndarray, ...]:
+    ledger = batch.ledger
+    return tuple(each[chosen] for each in (batch.episodes, ledger.hidden, ledger.nuisances, ledger.substeps))
 
 
 def view(batch: batch_lib.BatchEnvironment, field: str, environment: int) -> np.ndarray:
