@@ -25,7 +25,7 @@ def replay(
     tell: callbacks.Tell = callbacks.ignore,
     task_kwargs: Mapping[str, Any] | None = None,
 ) -> Path:
-    """Plays episodes with trained agents and writes them for the viewer.
+    """Plays episodes with trained agents and writes them for the viewer; returns the path of the file.
 
     Args:
       targets: folders of runs or `domain/task`; several agents are shown side by side, on the first one's instances.
@@ -34,9 +34,6 @@ def replay(
       interaction, select, seed: see `selection.select`.
       tell: called with lines about the progress.
       task_kwargs: options of the agents' tasks, see `finding.find_agent`.
-
-    Returns:
-      The path of the file.
 
     Raises:
       OSError: if the file cannot be written.
@@ -51,25 +48,21 @@ def replay(
                 f"{targets[0]} plays {words.task_name(config)}, and {target} plays {words.task_name(other.config)}; "
                 "compare agents that play the same"
             )
-    chosen = list(selection.select(network, config, count, select, interaction, seed, tell))
+    chosen = selection.select(network, config, count, select, interaction, seed, tell)
     if len(chosen) < count:
         tell(f"only {len(chosen)} episodes are {select}")
-    groups = [functools.partial(_episodes, targets, agents, instance, interaction) for instance in chosen]
-    return writing.write(output, groups, tell)
+    titles = [targets[0] if interaction == "learned" else f"{targets[0]}, {interaction} interaction", *targets[1:]]
+
+    def group(seed: int, index: int, actions: Sequence[int]) -> list[Film]:
+        """Repeats the first agent's episode; the others play it."""
+        return [
+            recording.reenact(agent.network, agent.config, seed, index, None if number else actions, title)
+            for number, (agent, title) in enumerate(zip(agents, titles, strict=True))
+        ]
+
+    return writing.write(output, [functools.partial(group, *instance) for instance in chosen], tell)
 
 
 def _played(config: config_lib.TrainConfig) -> tuple[str, str, suite.Options]:
     """Returns domain, task and all options but the seed of an agent."""
     return config.domain, config.task, suite.options(config.domain)(**{**config.task_kwargs, "random": 0})
-
-
-def _episodes(
-    targets: Sequence[str], agents: Sequence[finding.Agent], instance: selection.Instance, interaction: str
-) -> list[Film]:
-    """Returns the episodes of all agents on one instance; the first agent's is repeated, the others play it."""
-    seed, episode, actions = instance
-    titles = [targets[0] if interaction == "learned" else f"{targets[0]}, {interaction} interaction", *targets[1:]]
-    return [
-        recording.reenact(agent.network, agent.config, seed, episode, None if number else actions, title)
-        for number, (agent, title) in enumerate(zip(agents, titles, strict=True))
-    ]

@@ -1,9 +1,7 @@
 """Episodes in the viewer while they are played."""
 
-import rerun as rr
-
 from physexp.agents import environment_loop
-from physexp.analysis.replay import layout, recording, viewing, words, writing
+from physexp.analysis.replay import layout, recording, viewing, writing
 
 
 class Live(environment_loop.Observer):
@@ -15,18 +13,14 @@ class Live(environment_loop.Observer):
 
     def observe_first(self, environment, timestep):
         episode = self._recorder.episode
-        self._stream = rr.RecordingStream(
-            f"physexp-{episode.domain}-{episode.task}", recording_id=f"{episode.seed}-{episode.index}-live"
-        )
+        self._stream = writing.new_stream(episode, "live")
         self._screen.show(self._stream, layout.blueprint([episode], [""]))
-        self._stream.send_recording_name(words.name(episode))
         self._show(is_over=False)
 
     def observe(self, environment, timestep, action):
         self._show(timestep.last())
 
     def _show(self, is_over: bool) -> None:
-        episode = self._recorder.episode
-        writer = writing.EpisodeWriter(self._stream, episode, "")
+        writer = writing.EpisodeWriter(self._stream, self._recorder.episode, "")
         writer.write() if is_over else writer.write_so_far()
         self._screen.flush(self._stream)

@@ -8,24 +8,15 @@ import numpy as np
 from physexp.analysis.data import readings
 from physexp.analysis.replay import recording
 
-ACTION = (220, 40, 120)
-"""The arrow of the action under way."""
-
-ANSWERS = (255, 150, 220)
-"""The probability that the agent answers."""
-
-VALUE = (235, 235, 235)
-"""The return that the agent expects."""
-
-MARK = (255, 255, 255)
-"""A text beside a thing that tells its hidden property."""
-
-JOINT = (255, 255, 255)
-"""A bar between two things of one body."""
+ACTION = (220, 40, 120)  # The arrow of the action under way.
+ANSWERS = (255, 150, 220)  # The probability that the agent answers.
+VALUE = (235, 235, 235)  # The return that the agent expects.
+MARK = (255, 255, 255)  # A text beside a thing that tells its hidden property.
+JOINT = (255, 255, 255)  # A bar between two things of one body.
 
 _DARK = 90  # Darker colours vanish on the viewer's dark ground.
 _PALE = (170, 170, 180)
-_FIRST_LABEL, _LAST_LABEL = np.array((0, 95, 110)), np.array((190, 250, 255))
+_FIRST_LABEL, _LAST_LABEL = (0, 95, 110), (190, 250, 255)
 
 
 def of_thing(shapes: recording.Shapes, name: str) -> tuple[int, ...]:
@@ -38,24 +29,22 @@ def of_thing(shapes: recording.Shapes, name: str) -> tuple[int, ...]:
 
 def of_labels(labels: Sequence[str], shapes: recording.Shapes) -> list[tuple[int, ...]]:
     """Returns colours of labels: those of the things that they name, or shades that no thing has."""
-    named = _named(labels, shapes)
-    if named is not None:
+    if named := _named(labels, shapes):
         return [of_thing(shapes, name) for name in named]
-    return [tuple(map(int, shade)) for shade in np.linspace(_FIRST_LABEL, _LAST_LABEL, len(labels)).astype(int)]
+    return [tuple(shade) for shade in np.linspace(_FIRST_LABEL, _LAST_LABEL, len(labels)).astype(int).tolist()]
 
 
 def short(labels: Sequence[str], shapes: recording.Shapes) -> list[str]:
     """Returns short labels: the names of the things that they name, or the labels themselves."""
-    named = _named(labels, shapes)
-    return list(labels) if named is None else [readings.spoken(name) for name in named]
+    return [readings.spoken(name) for name in _named(labels, shapes)] or list(labels)
 
 
-def _named(labels: Sequence[str], shapes: recording.Shapes) -> list[str] | None:
-    """Returns the thing that each label names; None unless each names a different one."""
+def _named(labels: Sequence[str], shapes: recording.Shapes) -> list[str]:
+    """Returns the thing that each label names; nothing unless each names a different one."""
     found: list[str] = []
     for label in labels:
         names = [name for name in shapes.names if re.search(rf"\b{re.escape(readings.spoken(name))}\b", label)]
         if len(names) != 1 or names[0] in found:
-            return None
+            return []
         found += names
     return found

@@ -23,18 +23,13 @@ class Writer:
         self._folder, self._config = run.path / "replays", config
 
     def __call__(self, frames: int, variables: Mapping[str, torch.Tensor]) -> None:
-        """Plays one episode with the network's variables and writes it, if it is time.
-
-        Raises:
-          OSError: if the file cannot be written.
-        """
-        names = [path.stem for path in self._folder.glob("*.rrd")]
-        last = max((int(name) for name in names if name.isdecimal() and int(name) <= frames), default=0)
-        if frames - last < self._config.replay_every:
+        """Plays one episode with the network's variables and writes it, if it is time; raises as `writing.write`."""
+        earlier = [int(path.stem) for path in self._folder.glob("*.rrd") if path.stem.isdecimal()]
+        if frames - max((each for each in earlier if each <= frames), default=0) < self._config.replay_every:
             return
         network = trainer.make_network(self._config)
         network.load_state_dict(variables)
         title = f"{self._config.name} after {frames:,} steps"
         self._folder.mkdir(exist_ok=True)
-        path = self._folder / f"{frames:015d}.rrd"
-        writing.write(path, [lambda: [recording.reenact(network, self._config, SEED, 0, None, title)]])
+        episode = recording.reenact(network, self._config, SEED, 0, None, title)
+        writing.write(self._folder / f"{frames:015d}.rrd", [lambda: [episode]])

@@ -29,9 +29,7 @@ def check_display() -> None:
 def view(path: Path, web: bool, tell: Callable[[str], None] = lambda line: None) -> None:
     """Opens a file in a window, or on the web for a browser, until the viewer is closed or Ctrl-C ends it.
 
-    Raises:
-      RuntimeError: if the viewer fails.
-      ValueError: if there is no display for a window.
+    Raises RuntimeError if the viewer fails, ValueError if there is no display for a window.
     """
     data_port = _free_port(_DATA_PORT if web else 0)
     command = [*_command(data_port), str(path)]

@@ -53,13 +53,11 @@ def about(episode: recording.Film, ending: str) -> str:
 
 def outcome(episode: recording.Film) -> str:
     """Returns the outcome of an episode as a sentence."""
-    label = int(episode.actions[-1]) - episode.declared.num_interactions
-    label_names = episode.declared.label_names
-    truth = label_names[episode.answer]
+    label, names = episode.actions[-1] - episode.declared.num_interactions, episode.declared.label_names
     if label < 0:
-        return f"Time ran out. The right answer: {truth}."
-    verdict = "right" if label == episode.answer else f"wrong; it is: {truth}"
-    return f"Answer after {len(episode.actions) - 1} interactions: {label_names[label]}. That is {verdict}."
+        return f"Time ran out. The right answer: {names[episode.answer]}."
+    verdict = "right" if label == episode.answer else f"wrong; it is: {names[episode.answer]}"
+    return f"Answer after {len(episode.actions) - 1} interactions: {names[label]}. That is {verdict}."
 
 
 def bars(labels: Sequence[str], belief: np.ndarray, answers: np.ndarray, ideal: np.ndarray | None) -> str:

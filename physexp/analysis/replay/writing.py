@@ -15,11 +15,12 @@ did/actions            actions so far; did/outcome: question and outcome
 Everything is on one timeline, `time`, in seconds. Episodes side by side have their entities below A, B and so on.
 """
 
-from collections.abc import Callable, Iterator, Sequence
-import contextlib
+from collections.abc import Callable, Iterable, Sequence
 import os
 from pathlib import Path
+import string
 import subprocess
+from typing import Any
 
 import numpy as np
 import rerun as rr
@@ -28,7 +29,6 @@ from scipy.spatial import transform
 from physexp.agents import files
 from physexp.analysis.data import readings
 from physexp.analysis.replay import beliefs, layout, palette, recording, words
-from physexp.analysis.replay.layout import TIMELINE
 from physexp.analysis.replay.viewing import PROGRAM, last_line
 from physexp.analysis.training import callbacks
 from physexp.suite.engine import declarations
@@ -42,31 +42,22 @@ _OFF = ("off", "false", "0")  # Values of RERUN that make rerun drop all data.
 
 
 def write(
-    path: Path,
-    groups: Sequence[Callable[[], Sequence[recording.Film]]],
-    tell: callbacks.Tell = callbacks.ignore,
+    path: Path, groups: Sequence[Callable[[], Sequence[recording.Film]]], tell: callbacks.Tell = callbacks.ignore
 ) -> Path:
-    """Writes recordings into one file, which is complete after each of them.
+    """Writes recordings into one file, which is complete after each of them; returns its path.
 
-    Args:
-      path: `*.rrd`, in a folder that exists.
-      groups: functions that return the episodes of one recording; several episodes are shown side by side.
-      tell: called with a line for each recording.
-
-    Returns:
-      The path.
+    Each group is a function that returns the episodes of one recording; several episodes are shown side by side. `tell`
+    is called with a line for each recording.
 
     Raises:
-      OSError: if the file cannot be written; earlier recordings stay.
+      OSError, ValueError: as `check_output`; after an OSError, earlier recordings stay.
       RuntimeError: if rerun's program fails.
-      ValueError: if the path is not one of a replay.
     """
     check_output(path)
     written = b""
     for number, group in enumerate(groups):
         episodes = list(group())
-        with _strictly():
-            newest = _recording(episodes)
+        newest = _recording(episodes)
         written = _merge(written + newest) if written else newest
         files.write_atomically(path, written)
         tell(f"{number + 1} of {len(groups)}: {words.name(episodes[0])}")
@@ -74,13 +65,7 @@ def write(
 
 
 def check_output(path: Path) -> None:
-    """Checks the path of a replay before it is played.
-
-    Raises:
-      OSError: if the file cannot be written.
-      ValueError: if the name does not end in .rrd, the path is no regular file, the folder does not exist, or rerun is
-        switched off.
-    """
+    """Raises OSError or ValueError if a replay cannot be written to a path."""
     if os.environ.get("RERUN", "on").lower() in _OFF:
         raise ValueError("RERUN in the environment switches rerun off, so no replay can be written; unset it")
     if path.is_dir():
@@ -91,17 +76,6 @@ def check_output(path: Path) -> None:
         raise ValueError(f"{path.parent} is no folder; make it, or name a file in another")
     if not os.access(path.parent, os.W_OK | os.X_OK):
         raise PermissionError(f"{path.parent} is a folder that you may not write to; name a file in another")
-
-
-@contextlib.contextmanager
-def _strictly() -> Iterator[None]:
-    """Makes rerun raise errors instead of dropping data with a warning."""
-    before = rr.strict_mode()
-    rr.set_strict_mode(True)
-    try:
-        yield
-    finally:
-        rr.set_strict_mode(before)
 
 
 def _merge(recordings: bytes) -> bytes:
@@ -118,17 +92,26 @@ def _merge(recordings: bytes) -> bytes:
 
 def _recording(episodes: Sequence[recording.Film]) -> bytes:
     """Returns a recording, made in memory because rerun silently drops data that it cannot write to a file."""
-    first, players = episodes[0], "-".join(episode.agent for episode in episodes)
-    stream = rr.RecordingStream(
-        f"physexp-{first.domain}-{first.task}", recording_id=f"{first.seed}-{first.index}-{players}"
-    )
-    roots = [""] if len(episodes) == 1 else [f"{chr(ord('A') + index)}" for index in range(len(episodes))]
-    memory = stream.memory_recording()
-    stream.send_blueprint(layout.blueprint(episodes, roots), make_active=False, make_default=True)
-    stream.send_recording_name(words.name(first))
-    for episode, root in zip(episodes, roots, strict=True):
-        EpisodeWriter(stream, episode, root).write()
+    players = "-".join(episode.agent for episode in episodes)
+    stream = new_stream(episodes[0], players)
+    roots = [""] if len(episodes) == 1 else string.ascii_uppercase[: len(episodes)]
+    memory, was_strict = stream.memory_recording(), rr.strict_mode()
+    rr.set_strict_mode(True)  # Rerun raises errors instead of dropping data with a warning.
+    try:
+        stream.send_blueprint(layout.blueprint(episodes, roots), make_active=False, make_default=True)
+        for episode, root in zip(episodes, roots, strict=True):
+            EpisodeWriter(stream, episode, root).write()
+    finally:
+        rr.set_strict_mode(was_strict)
     return memory.drain_as_bytes()
+
+
+def new_stream(episode: recording.Film, player: str) -> rr.RecordingStream:
+    """Returns a stream for an episode."""
+    name = f"physexp-{episode.domain}-{episode.task}"
+    stream = rr.RecordingStream(name, recording_id=f"{episode.seed}-{episode.index}-{player}")
+    stream.send_recording_name(words.name(episode))
+    return stream
 
 
 class EpisodeWriter:
@@ -138,20 +121,15 @@ class EpisodeWriter:
         self._stream, self._episode, self._root = stream, episode, root
         self._task = episode.declared
         # Observations come before each action and at the end; a label takes no time.
-        steps = np.minimum(np.arange(len(episode.actions) + 1), self._num_interactions)
-        self._step_times = steps * episode.control_timestep
-
-    @property
-    def _num_interactions(self) -> int:
-        return int((self._episode.actions < self._task.num_interactions).sum())
+        num_interactions = int((episode.actions < self._task.num_interactions).sum())
+        self._step_times = np.minimum(np.arange(len(episode.actions) + 1), num_interactions) * episode.control_timestep
 
     def write(self) -> None:
         """Writes everything."""
         self.write_so_far()
-        self._write_played_out()
-        self._write_hidden()
+        self._write_truth()
         self._write_belief()
-        self._write_outcome()
+        self._markdown("did/outcome", words.about(self._episode, words.outcome(self._episode)), self._step_times[-1])
 
     def write_so_far(self) -> None:
         """Writes the part that follows from observations and actions, and may be shown before the answer."""
@@ -159,16 +137,16 @@ class EpisodeWriter:
         self._write_seen()
         self._write_actions()
 
-    def _path(self, entity: str) -> str:
-        return f"{self._root}/{entity}"
-
     def _log(self, entity: str, archetype, time: float | None = None) -> None:
         if time is not None:
-            self._stream.set_time(TIMELINE, duration=time)
-        self._stream.log(self._path(entity), archetype, static=time is None)
+            self._stream.set_time(layout.TIMELINE, duration=time)
+        self._stream.log(f"{self._root}/{entity}", archetype, static=time is None)
 
     def _columns(self, entity: str, times, columns) -> None:
-        self._stream.send_columns(self._path(entity), [rr.TimeColumn(TIMELINE, duration=times)], columns)
+        self._stream.send_columns(f"{self._root}/{entity}", [rr.TimeColumn(layout.TIMELINE, duration=times)], columns)
+
+    def _markdown(self, entity: str, text: str, time: float) -> None:
+        self._log(entity, rr.TextDocument(text, media_type="text/markdown"), time)
 
     # The scene.
 
@@ -177,86 +155,95 @@ class EpisodeWriter:
         half = (*self._task.root_entity.mat.size[:2], _FLOOR_THICKNESS / 2)
         floor = rr.Boxes3D(centers=[(0, 0, -half[2])], half_sizes=[half], colors=[_FLOOR_COLOR], fill_mode="solid")
         self._log("world/room/floor", floor)
-        shapes, poses = self._episode.shapes, (self._episode.positions, self._episode.rotations)
-        for k in np.flatnonzero(shapes.are_drawn & shapes.are_placed).tolist():
-            entity = f"world/{'things' if shapes.are_moving[k] else 'room'}/{shapes.names[k]}"
-            self._log(entity, self._shape(k))
-            self._follow(entity, k, poses)
+        shapes = self._episode.shapes
+        are_seen = shapes.are_drawn & shapes.are_placed
+        self._write_shapes("room", are_seen & ~shapes.are_moving)
+        self._write_shapes("things", are_seen & shapes.are_moving)
         if len(self._episode.actions):
             self._write_arrows("world/things/action", self._episode.positions)
 
-    def _write_played_out(self) -> None:
-        """Writes the drawn things that observations do not place, from the answer on."""
-        episode, shapes, first = self._episode, self._episode.shapes, self._episode.num_played + 1
-        for k in np.flatnonzero(shapes.are_drawn & ~shapes.are_placed).tolist():
-            if first < len(episode.times):
-                self._log(f"world/things/{shapes.names[k]}", self._shape(k), episode.times[first])
-                self._follow(f"world/things/{shapes.names[k]}", k, (episode.positions, episode.rotations), first)
+    def _write_shapes(self, folder: str, which: np.ndarray, is_true: bool = False, first: int = 0) -> None:
+        """Writes some of the shapes, bool [K]; see `_follow`."""
+        for k in np.flatnonzero(which).tolist():
+            self._follow(f"world/{folder}/{self._episode.shapes.names[k]}", self._shape(k), k, is_true, first)
 
     def _shape(self, k: int):
         """Returns the rerun archetype of a shape."""
         shapes = self._episode.shapes
-        return _archetype(shapes.kinds[k], shapes.sizes[k], (255 * shapes.colors[k]).astype(np.uint8))
+        size, radius, length = shapes.sizes[k], shapes.sizes[k, 0], 2 * shapes.sizes[k, 2]
+        look: dict[str, Any] = {"colors": [(255 * shapes.colors[k]).astype(np.uint8)], "fill_mode": "solid"}
+        if shapes.kinds[k] == "box":
+            return rr.Boxes3D(half_sizes=[size], **look)
+        if shapes.kinds[k] == "cylinder":
+            return rr.Cylinders3D(lengths=[length], radii=[radius], **look)
+        if shapes.kinds[k] == "capsule":  # Rerun places it by its lower end.
+            return rr.Capsules3D(lengths=[length], radii=[radius], translations=[(0, 0, -length / 2)], **look)
+        return rr.Ellipsoids3D(half_sizes=[size], **look)
 
-    def _follow(self, entity: str, k: int, poses: tuple[np.ndarray, np.ndarray], first: int = 0) -> None:
-        """Gives an entity the poses of a shape, from a first frame on."""
-        positions, rotations = (values[first:, k] for values in poses)
-        quaternions = transform.Rotation.from_matrix(rotations).as_quat()
-        columns = rr.Transform3D.columns(translation=positions, quaternion=quaternions)
-        self._columns(entity, self._episode.times[first:], columns)
+    def _follow(self, entity: str, archetype, k: int, is_true: bool = False, first: int = 0) -> None:
+        """Writes something that follows the poses of a shape, from a first frame on."""
+        episode, times = self._episode, self._episode.times[first:]
+        positions = episode.true_positions if is_true else episode.positions
+        rotations = episode.true_rotations if is_true else episode.rotations
+        self._log(entity, archetype, times[0] if first else None)
+        quaternions = transform.Rotation.from_matrix(rotations[first:, k]).as_quat()
+        poses = rr.Transform3D.columns(translation=positions[first:, k], quaternion=quaternions)
+        self._columns(entity, times, poses)
 
-    def _write_hidden(self) -> None:
+    def _write_truth(self) -> None:
         """Writes true poses, texts beside things, bars inside rigid bodies, and bands."""
-        episode, shapes = self._episode, self._episode.shapes
-        poses = episode.true_positions, episode.true_rotations
-        for k in np.flatnonzero(shapes.are_moving).tolist():
-            self._log(f"world/hidden/{shapes.names[k]}", self._shape(k))
-            self._follow(f"world/hidden/{shapes.names[k]}", k, poses)
+        episode, shapes, after = self._episode, self._episode.shapes, self._episode.num_played + 1
+        if after < len(episode.times):  # The answer is played out, and shows what observations do not place.
+            self._write_shapes("things", shapes.are_drawn & ~shapes.are_placed, first=after)
+        self._write_shapes("hidden", shapes.are_moving, is_true=True)
         self._write_arrows("world/hidden/action", episode.true_positions)
-        revealed = self._task.reveal(episode.hidden)
+        revealed, find = self._task.reveal(episode.hidden), shapes.names.index
         for number, (thing, text) in enumerate(revealed.marks.items()):
-            entity, k = f"world/hidden/mark_{thing}", shapes.names.index(thing)
-            place = (0, 0, shapes.sizes[k].max() + _TEXT_ABOVE[number % 2])
-            self._log(
-                entity, rr.Points3D([place], labels=[text], colors=[palette.MARK], radii=[0.006], show_labels=True)
-            )
-            self._follow(entity, k, poses)
+            place = (0, 0, shapes.sizes[find(thing)].max() + _TEXT_ABOVE[number % 2])
+            mark = rr.Points3D([place], labels=[text], colors=[palette.MARK], radii=[0.006], show_labels=True)
+            self._follow(f"world/hidden/mark_{thing}", mark, find(thing), is_true=True)
         for first, second in revealed.joined:
-            entity = f"world/hidden/{first}_to_{second}"
-            self._log(entity, self._bar(shapes.names.index(first), shapes.names.index(second)))
-            self._follow(entity, shapes.names.index(first), poses)
+            bar = self._bar(find(first), find(second))
+            self._follow(f"world/hidden/{first}_to_{second}", bar, find(first), is_true=True)
         for first, second in revealed.tied:
-            self._write_band(
-                f"world/hidden/{first}_to_{second}", [shapes.names.index(first), shapes.names.index(second)]
-            )
-
-    def _write_band(self, entity: str, ends: list[int]) -> None:
-        """Writes a line between two moving shapes."""
-        self._log(entity, rr.LineStrips3D.from_fields(colors=[palette.JOINT], radii=[_BAND_RADIUS]))
-        self._columns(
-            entity, self._episode.times, rr.LineStrips3D.columns(strips=self._episode.true_positions[:, ends])
-        )
+            entity, strips = f"world/hidden/{first}_to_{second}", episode.true_positions[:, [find(first), find(second)]]
+            self._log(entity, rr.LineStrips3D.from_fields(colors=[palette.JOINT], radii=[_BAND_RADIUS]))
+            self._columns(entity, episode.times, rr.LineStrips3D.columns(strips=strips))
 
     def _bar(self, first: int, second: int) -> rr.Boxes3D:
         """Returns a bar through two shapes, in the frame of the first."""
-        episode = self._episode
+        episode, size = self._episode, self._episode.shapes.sizes[first].max()
         offset = episode.true_positions[0, second] - episode.true_positions[0, first]
         between = offset @ episode.true_rotations[0, first]
-        size, distance = episode.shapes.sizes[first].max(), np.linalg.norm(between)
+        distance = np.linalg.norm(between)
         turn, _ = transform.Rotation.align_vectors(between / distance, (0, 0, 1))
-        half = (0.4 * size, 1.15 * size, 0.4 * distance)
         return rr.Boxes3D(
             centers=[between / 2],
-            half_sizes=[half],
+            half_sizes=[(0.4 * size, 1.15 * size, 0.4 * distance)],
             quaternions=[turn.as_quat()],
             colors=[palette.JOINT],
             fill_mode="solid",
         )
 
+    def _write_arrows(self, entity: str, positions: np.ndarray) -> None:
+        """Writes the arrow of the action under way at every physics step."""
+        episode, interactions = self._episode, self._task.interactions
+        steps = np.ceil(episode.times / episode.control_timestep - 1e-6).astype(int) - 1  # Of the action under way.
+        origins, vectors = np.zeros((2, len(steps), 3))
+        for frame, action in enumerate(episode.actions[np.clip(steps, 0, len(episode.actions) - 1)]):
+            if action < len(interactions):
+                origins[frame] = positions[frame, episode.shapes.names.index(interactions[action].thing)]
+                # The first frame shows the controls that are about to be sent.
+                vectors[frame] = _arrow(interactions[action], episode.controls[max(frame, 1)])
+        self._log(entity, rr.Arrows3D.from_fields(colors=[palette.ACTION], radii=[0.012]))
+        self._columns(entity, episode.times, rr.Arrows3D.columns(origins=origins, vectors=vectors))
+        end = self._step_times[-1] + 1e-3  # No arrow after the last step.
+        self._columns(entity, [end], rr.Arrows3D.columns(origins=[(0, 0, 0)], vectors=[(0, 0, 0)]))
+
     # Observations.
 
     def _write_seen(self) -> None:
-        observations = self._episode.observations
+        observations, colors_of = self._episode.observations, self._colors
         for name in observations.keys() - self._task.observer.readings.keys():
             for time, image in zip(self._step_times, observations[name], strict=True):
                 self._log(f"seen/{name}", rr.Image(image), time)
@@ -265,49 +252,41 @@ class EpisodeWriter:
             if reading.name not in observations:
                 continue
             values = reading.values(observations[reading.name])
-            colors = [palette.of_thing(self._episode.shapes, thing) for thing in reading.things]
             for number, component in enumerate(reading.components):
-                entity = layout.entity(reading, component)
-                self._series(entity, values[..., number], reading.names, colors, steps=not reading.unit)
+                entity, curves = layout.entity(reading, component), values[..., number]
+                self._series(entity, curves, reading.names, colors_of(reading.things), steps=not reading.unit)
             if reading.is_position:
                 moved.update(zip(reading.things, np.linalg.norm(values - values[0], axis=2).T, strict=True))
         if moved:
-            colors = [palette.of_thing(self._episode.shapes, thing) for thing in moved]
             distances = np.stack(list(moved.values()), axis=1)
-            self._series("seen/moved", distances, [readings.spoken(thing) for thing in moved], colors)
+            self._series("seen/moved", distances, [*map(readings.spoken, moved)], colors_of(moved), steps=False)
 
-    def _series(self, entity: str, values: np.ndarray, names: Sequence[str], colors=None, steps: bool = False) -> None:
+    def _colors(self, things: Iterable[str]) -> list[tuple[int, ...]]:
+        return [palette.of_thing(self._episode.shapes, thing) for thing in things]
+
+    def _series(self, entity: str, values: np.ndarray, names: Sequence[str], colors=None, steps: bool = True) -> None:
         """Writes curves [T, S] at the times of the steps; `steps` draws them as step functions."""
-        lines = rr.SeriesLines(
-            names=list(names),
-            colors=colors,
-            widths=[2.0] * len(names),
-            interpolation_mode="StepAfter" if steps else None,
-        )
-        self._log(entity, lines)
+        look: dict[str, Any] = {"colors": colors, "interpolation_mode": "StepAfter" if steps else None}
+        self._log(entity, rr.SeriesLines(names=list(names), widths=[2.0] * len(names), **look))
         self._columns(entity, self._step_times[: len(values)], rr.Scalars.columns(scalars=values))
 
-    # Beliefs.
+    # Beliefs and actions.
 
     def _write_belief(self) -> None:
         episode, shapes, labels = self._episode, self._episode.shapes, self._task.label_names
         names, colors = palette.short(labels, shapes), palette.of_labels(labels, shapes)
         ideal = beliefs.of_ideal(episode)
         if ideal is not None:
-            self._series("belief/ideal", ideal, names, colors, steps=True)
+            self._series("belief/ideal", ideal, names, colors)
         if len(episode.policies):
             belief, answers = beliefs.of_agent(episode), episode.policies[:, self._task.num_interactions :]
             for step in range(len(belief)):
                 table = words.bars(names, belief[step], answers[step], None if ideal is None else ideal[step])
                 self._markdown("belief/now", table, self._step_times[step])
-            self._series("belief/labels", belief, names, colors, steps=True)
-            self._series("belief/policy", episode.policies, self._task.action_names, steps=True)
-            self._series(
-                "belief/answers", answers.sum(axis=1, keepdims=True), ["answers now"], [palette.ANSWERS], steps=True
-            )
-            self._series("belief/value", episode.values[:, None], ["value"], [palette.VALUE], steps=True)
-
-    # Actions.
+            self._series("belief/labels", belief, names, colors)
+            self._series("belief/policy", episode.policies, self._task.action_names)
+            self._series("belief/answers", answers.sum(axis=1, keepdims=True), ["answers now"], [palette.ANSWERS])
+            self._series("belief/value", episode.values[:, None], ["value"], [palette.VALUE])
 
     def _write_actions(self) -> None:
         names = self._task.action_names
@@ -316,52 +295,11 @@ class EpisodeWriter:
             self._markdown("did/actions", "\n".join(lines[: step + 1]), self._step_times[step])
         self._markdown("did/outcome", words.about(self._episode, "Not answered yet."), 0.0)
 
-    def _write_outcome(self) -> None:
-        text = words.about(self._episode, words.outcome(self._episode))
-        self._markdown("did/outcome", text, self._step_times[-1])
-
-    def _markdown(self, entity: str, text: str, time: float) -> None:
-        self._log(entity, rr.TextDocument(text, media_type="text/markdown"), time)
-
-    def _write_arrows(self, entity: str, positions: np.ndarray) -> None:
-        """Writes the arrow of the action under way at every physics step."""
-        episode, interactions = self._episode, self._task.interactions
-        steps = np.ceil(episode.times / episode.control_timestep - 1e-6).astype(int) - 1  # Of the action under way.
-        steps = np.clip(steps, 0, len(episode.actions) - 1)
-        origins, vectors = np.zeros((2, len(steps), 3))
-        for frame, step in enumerate(steps):
-            if episode.actions[step] < len(interactions):
-                origins[frame] = positions[frame, episode.shapes.names.index(interactions[episode.actions[step]].thing)]
-                # The first frame shows the controls that are about to be sent.
-                vectors[frame] = _arrow(interactions[episode.actions[step]], episode.controls[max(frame, 1)])
-        self._log(entity, rr.Arrows3D.from_fields(colors=[palette.ACTION], radii=[0.012]))
-        self._columns(entity, episode.times, rr.Arrows3D.columns(origins=origins, vectors=vectors))
-        end = self._step_times[-1] + 1e-3  # No arrow after the last step.
-        self._columns(entity, [end], rr.Arrows3D.columns(origins=[(0, 0, 0)], vectors=[(0, 0, 0)]))
-
 
 def _arrow(interaction: declarations.Interaction, sent: np.ndarray) -> np.ndarray:
     """Returns the arrow of an interaction, (3,), reversed if the sent controls oppose the declared ones.
 
     All arrows have the same length, since no observation tells a varying strength.
     """
-    vector = np.array(interaction.vector, float)
-    return (
-        _ARROW_LENGTH
-        * np.sign(sent @ np.asarray(interaction.control, float))
-        * vector
-        / (np.linalg.norm(vector) or 1.0)
-    )
-
-
-def _archetype(kind: str, size: np.ndarray, color: np.ndarray):
-    """Returns the rerun archetype of a kind, half sizes, m, (3,), and a colour, uint8 (4,)."""
-    if kind == "box":
-        return rr.Boxes3D(half_sizes=[size], colors=[color], fill_mode="solid")
-    radius, length = size[0], 2 * size[2]
-    if kind == "cylinder":
-        return rr.Cylinders3D(lengths=[length], radii=[radius], colors=[color], fill_mode="solid")
-    if kind == "capsule":
-        below = (0, 0, -length / 2)  # Rerun places a capsule by its lower end.
-        return rr.Capsules3D(lengths=[length], radii=[radius], translations=[below], colors=[color], fill_mode="solid")
-    return rr.Ellipsoids3D(half_sizes=[size], colors=[color], fill_mode="solid")
+    vector, declared = np.array(interaction.vector, float), np.asarray(interaction.control, float)
+    return _ARROW_LENGTH * np.sign(sent @ declared) * vector / (np.linalg.norm(vector) or 1.0)
