@@ -1,48 +1,80 @@
-"""Tables in Parquet files with checksums of their pages."""
+"""Parquet files, and limits for files that may come from strangers: downloaded agents, scores and replays."""
 
-from collections.abc import Sequence
 import io
 from pathlib import Path
+import stat
 from typing import Any
 
 import pyarrow
-from pyarrow import parquet
+from pyarrow import compute, parquet
 
 from physexp.agents import files
 
+MAX_AGENT = 2**26
+"""Bytes of an agent's file; the largest of ours has three million."""
+MAX_TEXT = 2**20
+"""Bytes of a JSON file."""
+_MAX_TABLE = 2**28  # Bytes of a Parquet file; the largest of ours has two million.
+_MAX_VALUES = 80_000_000  # Of all columns: 10,000 episodes of every task in the log of a score.
+_MAX_UNPACKED = 2**29  # Bytes of all pages.
+_MAX_STRINGS = 2**28  # Bytes of all text, once every row has its own copy of a dictionary's.
+_MAX_FOOTER_ENTRY = 2**20  # Bytes of a text, or entries of a list, in a Parquet file's description of itself.
+
 
 def write(path: Path, table: pyarrow.Table, **options: Any) -> None:
-    """Writes a table, whole or not at all.
-
-    Args:
-      path: the file.
-      table: what goes into it.
-      options: of `pyarrow.parquet.write_table`.
-
-    Raises:
-      OSError: if it cannot be written.
-    """
+    """Writes a table with checksums of its pages, whole or not at all; options as of `pyarrow.parquet.write_table`."""
     sink = io.BytesIO()
     parquet.write_table(table, sink, write_page_checksum=True, **options)
     files.write_atomically(path, sink.getvalue())
 
 
-def read(path: Path, schema: pyarrow.Schema, columns: Sequence[str] | None = None) -> pyarrow.Table:
-    """Reads the columns of a schema, or some of them.
+def read(path: Path, schema: pyarrow.Schema) -> pyarrow.Table:
+    """Reads a Parquet file; refuses one that would unpack to more than any table of ours.
 
     Raises:
       OSError: if there is no such file.
-      ValueError: if it is damaged or has other columns.
+      ValueError: if it is damaged, has other columns, or is too large.
     """
-    wanted = schema if columns is None else pyarrow.schema([schema.field(name) for name in columns])
-    with Path(path).open("rb") as content:
-        try:
-            file = parquet.ParquetFile(content, page_checksum_verification=True)
-            if missing := [name for name in wanted.names if name not in file.schema_arrow.names]:
-                raise ValueError(f"it has no column {missing[0]}")
-            found = file.read(wanted.names, use_threads=False)
-            return found.cast(wanted.with_metadata(file.schema_arrow.metadata))
-        except (ValueError, OSError, KeyError, pyarrow.ArrowException) as error:
-            raise ValueError(
-                f"{path} is damaged ({files.reason(error)}); put back what was written, or remove it"
-            ) from None
+    check(path, _MAX_TABLE)
+    try:
+        with parquet.ParquetFile(
+            path,
+            read_dictionary=[field.name for field in schema if field.type == pyarrow.string()],
+            page_checksum_verification=True,
+            pre_buffer=False,
+            thrift_string_size_limit=_MAX_FOOTER_ENTRY,
+            thrift_container_size_limit=_MAX_FOOTER_ENTRY,
+        ) as file:
+            _check_size(file.metadata)
+            if file.schema_arrow.names != schema.names:
+                raise ValueError(f"its columns are not {', '.join(schema.names)}")
+            found = file.read(use_threads=False)
+            _check_strings(found)
+            return found.cast(schema.with_metadata(file.schema_arrow.metadata))
+    except (ValueError, OSError, KeyError, pyarrow.ArrowException) as error:
+        raise ValueError(f"{path} is damaged ({files.reason(error)}); put back what was written") from None
+
+
+def check(path: Path, max_bytes: int) -> None:
+    """Raises ValueError for a file that is not regular, such as a pipe, or has more bytes; OSError if there is none."""
+    status = path.stat()
+    if not stat.S_ISREG(status.st_mode):
+        raise ValueError(f"{path} is no regular file; put one in its place")
+    if status.st_size > max_bytes:
+        raise ValueError(f"{path} has {status.st_size / 1e6:,.0f} MB; give a file of at most {max_bytes / 1e6:.0f} MB")
+
+
+def _check_size(metadata: parquet.FileMetaData) -> None:
+    groups = [metadata.row_group(index) for index in range(metadata.num_row_groups)]
+    num_values = sum(group.column(index).num_values for group in groups for index in range(group.num_columns))
+    num_bytes = sum(group.total_byte_size for group in groups)
+    if not 0 <= max(num_values, metadata.num_rows) <= _MAX_VALUES or not 0 <= num_bytes <= _MAX_UNPACKED:
+        raise ValueError(f"it unpacks to {num_values:,} values, {num_bytes / 1e6:,.0f} MB: more than any table of ours")
+
+
+def _check_strings(found: pyarrow.Table) -> None:
+    columns = [column for column in found.columns if pyarrow.types.is_dictionary(column.type)]
+    chunks = [chunk for column in columns for chunk in column.chunks]
+    longest = [compute.max(compute.binary_length(chunk.dictionary)).as_py() or 0 for chunk in chunks]
+    if sum(length * len(chunk) for length, chunk in zip(longest, chunks, strict=True)) > _MAX_STRINGS:
+        raise ValueError("it has more text than any table of ours")

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from physexp import extras, suite
-from physexp.analysis.data import provenance, tables
-from physexp.analysis.score import episodes, playing, protocol, scoring, steps, targets
+from physexp import extras
+from physexp.analysis.data import episodes, provenance, tables
+from physexp.analysis.score import judging, playing, protocol, scoring, steps, targets
 
 FILE = "export.json"
 TABLE = "steps.parquet"
@@ -56,7 +56,7 @@ def export(
     if seed == protocol.SEED:
         raise ValueError(f"seed is {seed}, whose episodes are scored; give another one")
     minari_name = targets.file_name(target.name) if as_minari else None
-    writers = {question: _Writer(folder, question, seed, minari_name) for question in questions}
+    writers = {question: _Writer(folder, question, minari_name) for question in questions}
     names = [question.name for question in questions]
     facts = {"target": target.name, "greedy": target.greedy, "seed": seed, "episodes": num_episodes}
     facts["agent"] = target.describe(names)
@@ -68,32 +68,32 @@ def export(
                 writers[question].add(episode)
                 show(session.num_played)
             writers[question].write()
-        tasks = {writer.question.name: writer.facts() for writer in writers.values() if writer.num_episodes}
+        tasks = {question.name: described for question, one in writers.items() if (described := one.facts())}
         return session.write(FILE, facts, {"tasks": tasks})
 
 
 class _Writer:
     """Writes the episodes of a task, part by part."""
 
-    def __init__(self, folder: Path, question: protocol.Question, seed: int, minari_name: str | None):
-        self.question, self.num_episodes = question, 0
-        self._steps = steps.Steps(question, suite.environment_seed(seed, 0))
+    def __init__(self, folder: Path, question: protocol.Question, minari_name: str | None):
+        self.question = question
         self._folder = folder / f"{question.domain}-{question.task}" / TABLE
-        self._pending: list[dict[str, np.ndarray]] = []
-        self._num_pending, self._num_parts = 0, 0
-        self._num_right, self._num_steps, self._return = 0, 0, 0.0
+        self._schema = steps.schema(question)
+        self._judge = judging.Judge(question) if protocol.is_judged(question.domain) else None
         self._minari_folder, self._minari_name = folder / MINARI, minari_name
         self._data_set: Any = None
+        self._pending: list[episodes.Episode] = []
+        self._returns: list[float] = []
+        self._num_pending = self._num_parts = self._num_steps = self._num_right = 0
 
     def add(self, episode: episodes.Episode) -> None:
         """Adds the next episode."""
         count = len(episode.actions)
-        self._pending.append(self._steps.rows(self.num_episodes, episode))
+        self._pending.append(episode)
         self._num_pending += count
-        self.num_episodes += 1
         self._num_steps += count
         self._num_right += bool(episode.rewards[-1] > 0)
-        self._return += float(self.question.discount ** np.arange(count) @ episode.rewards)
+        self._returns.append(float(self.question.discount ** np.arange(count) @ episode.rewards))
         if self._num_pending >= _ROWS:
             self.write()
 
@@ -101,29 +101,33 @@ class _Writer:
         """Writes the pending episodes as a part."""
         if not self._pending:
             return
-        table = self._steps.table(self._pending)
+        judged = [self._judge(one.hidden, one.actions) if self._judge else None for one in self._pending]
+        rows = [steps.rows(self.question, *one) for one in zip(self._pending, judged, strict=True)]
         if not self._num_parts:
             shutil.rmtree(self._folder, ignore_errors=True)  # Of an interrupted session.
             self._folder.mkdir(parents=True)
-        tables.write(self._folder / f"part-{self._num_parts:05d}.parquet", table, compression="zstd")
-        self._pending, self._num_pending = [], 0
-        self._num_parts += 1
+        path = self._folder / f"part-{self._num_parts:05d}.parquet"
+        tables.write(path, steps.table(self._schema, rows), compression="zstd")
         if self._minari_name is not None:
             from physexp.analysis.score import data_set
 
-            self._data_set = self._data_set or data_set.DataSet(self._minari_folder, self._steps, self._minari_name)
-            self._data_set.add(table)
+            self._data_set = self._data_set or data_set.create(self._minari_folder, self.question, self._minari_name)
+            data_set.add(self._data_set, self._pending, judged)
+        self._pending, self._num_pending = [], 0
+        self._num_parts += 1
 
     def facts(self) -> dict[str, Any]:
-        """Returns the task's question, the meanings of its columns, and means of its episodes."""
-        question = self.question
+        """Returns the task's question, the meanings of its columns, and means of its episodes; nothing without any."""
+        question, count = self.question, len(self._returns)
+        if not count:
+            return {}
         names = ("question", "discount", "step_limit", "num_interactions", "action_names", "label_names")
         return {
-            "episodes": self.num_episodes,
+            "episodes": count,
             "steps": self._num_steps,
-            "success_rate": self._num_right / self.num_episodes,
-            "mean_return": self._return / self.num_episodes,
-            "judged": self._steps.is_judged,
+            "success_rate": self._num_right / count,
+            "mean_return": sum(self._returns) / count,
+            "judged": self._judge is not None,
             **{name: getattr(question, name) for name in names},
             "observations": {
                 name: {"shape": list(spec.shape), "dtype": spec.dtype.name}

@@ -5,69 +5,59 @@ Tasks are judged side by side, in processes of their own: the search for values 
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent import futures
-import dataclasses
 import multiprocessing
+import types
+from typing import NamedTuple
+
+import numpy as np
 
 from physexp.agents import processes
 from physexp.analysis.ideal import base as ideal_base
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import episodes, protocol, scores
+from physexp.analysis.score import protocol, scores
 
 _CACHED = 8192  # Judgements.
 
-
-class Judge:
-    """Judges episodes by their hidden properties and actions."""
-
-    def __init__(self, solution: ideal_base.Solution):
-        self._solution = solution
-        self._cache: dict[tuple[bytes, bytes], ideal_base.Judgement] = {}
-
-    def __call__(self, episode: episodes.Episode) -> mistakes.Actions:
-        """Returns the judgement of each action of an episode; raises ValueError if it cannot be known."""
-        return mistakes.actions(self.judgement(episode), episode.actions)
-
-    def judgement(self, episode: episodes.Episode) -> ideal_base.Judgement:
-        """Returns the beliefs in an episode and the values of all actions; raises ValueError if they are unknown."""
-        key = episode.hidden.tobytes(), episode.actions.tobytes()
-        if key not in self._cache:
-            if len(self._cache) == _CACHED:
-                self._cache.clear()
-            self._cache[key] = self._solution.judge(episode)
-        return self._cache[key]
+Moves = tuple[np.ndarray, np.ndarray]
+"""The hidden property of an episode, [...], and its T actions, int64 [T]."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Judged:
-    """The judgement of all episodes of a task.
-
-    Attributes:
-      actions: the judgements of the actions of each episode.
-      ideal: statistics of the ideal experimenter over the same number of episodes; None if it cannot play.
-    """
+class Judged(NamedTuple):
+    """The judgements of the actions of each episode of a task, and the ideal experimenter's play of as many."""
 
     actions: list[mistakes.Actions]
     ideal: scores.Reference | None
 
 
+class Judge:
+    """Judges episodes of a task by their hidden properties and actions."""
+
+    def __init__(self, question: protocol.Question):
+        self._solution = protocol.ideal(question)
+        self._cache: dict[tuple[bytes, bytes], ideal_base.Judgement] = {}
+
+    def __call__(self, hidden: np.ndarray, actions: np.ndarray) -> ideal_base.Judgement:
+        """Returns the beliefs in an episode and the values of all actions; raises ValueError if they are unknown."""
+        key = hidden.tobytes(), actions.tobytes()
+        if key not in self._cache:
+            if len(self._cache) == _CACHED:
+                self._cache.clear()
+            self._cache[key] = self._solution.judge(types.SimpleNamespace(hidden=hidden, actions=actions))
+        return self._cache[key]
+
+
 def judge(
-    played: Mapping[protocol.Question, Sequence[episodes.Episode]], show: Callable[[int], None] = lambda done: None
-) -> dict[str, Judged]:
-    """Judges the episodes of tasks; leaves no process behind.
+    played: Mapping[protocol.Question, Sequence[Moves]], show: Callable[[int], None] = lambda done: None
+) -> dict[protocol.Question, Judged]:
+    """Judges the episodes of tasks; leaves no process behind; raises BrokenExecutor if one was killed.
 
     Args:
       played: the episodes of each task; a single task is judged in this process.
       show: called with the number of judged episodes, after each one of a single task, or else after each task.
-
-    Returns:
-      The judgements by the tasks' names.
-
-    Raises:
-      BrokenExecutor: if a process was killed.
     """
     if len(played) == 1:
         ((question, its),) = played.items()
-        return {question.name: _judged(question, its, show)}
+        return {question: _judged(question, its, show)}
     context, others = processes.spawning(), set(multiprocessing.active_children())
     pool = futures.ProcessPoolExecutor(min(processes.num_cores(), len(played)), context, initializer=processes.begin)
     try:
@@ -78,7 +68,7 @@ def judge(
             future.result()
             done += begun[future]
             show(done)
-        return {question.name: future.result() for question, future in zip(played, begun, strict=True)}
+        return {question: future.result() for question, future in zip(played, begun, strict=True)}
     except BaseException:
         for worker in set(multiprocessing.active_children()) - others:
             processes.kill(worker)
@@ -87,14 +77,14 @@ def judge(
         pool.shutdown(cancel_futures=True)
 
 
-def _judged(question: protocol.Question, played: Sequence[episodes.Episode], show: Callable[[int], None]) -> Judged:
-    judge, found = Judge(protocol.ideal(question)), []
-    for episode in played:
-        found.append(judge(episode))
+def _judged(question: protocol.Question, played: Sequence[Moves], show: Callable[[int], None]) -> Judged:
+    judge, found = Judge(question), []
+    for hidden, actions in played:
+        found.append(mistakes.actions(judge(hidden, actions), actions))
         show(len(found))
     return Judged(found, scores.reference(question, len(played)))
 
 
-def _judged_by_worker(name: str, played: Sequence[episodes.Episode]) -> Judged:
+def _judged_by_worker(name: str, played: Sequence[Moves]) -> Judged:
     (question,) = protocol.named([name])  # A question equals itself alone, within one process.
     return _judged(question, played, lambda done: None)

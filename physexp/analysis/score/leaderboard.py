@@ -76,7 +76,7 @@ def _row(folder: Path, questions: Sequence[protocol.Question], verify: Callable[
     found = scoring.read(folder)
     _check(folder, found, [question.name for question in questions])
     verify(folder)
-    played = scores.of_log(log.read(folder), questions, {})
+    played = scores.of_log(log.read(folder), dict.fromkeys(questions))
     earned = scores.over(played, questions)
     of_all = collections.Counter(question.domain for question in questions)
     done = collections.Counter(one.question.domain for one in played)

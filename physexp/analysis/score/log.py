@@ -9,9 +9,9 @@ import numpy as np
 import pyarrow
 from pyarrow import compute
 
-from physexp.analysis.data import tables, untrusted
+from physexp.analysis.data import episodes, tables
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import episodes, protocol
+from physexp.analysis.score import protocol
 
 FILE = "actions.parquet"
 
@@ -61,10 +61,10 @@ def digest(observation: Mapping[str, np.ndarray]) -> int:
     return int.from_bytes(hashed.digest(), "little")
 
 
-def taken(question: protocol.Question, seed: int, number: int, episode: episodes.Episode) -> dict[str, Any]:
-    """Returns the columns `TAKEN` of the episode of an index in the environment of a seed, T rows."""
+def taken(question: protocol.Question, episode: episodes.Episode) -> dict[str, Any]:
+    """Returns the columns `TAKEN` of an episode, T rows."""
     count = len(episode.actions)
-    keys = {"domain": question.domain, "task": question.task, "seed": seed, "episode": number}
+    keys = {"domain": question.domain, "task": question.task, "seed": episode.seed, "episode": episode.index}
     return {
         **{name: np.full(count, value) for name, value in keys.items()},
         "step": np.arange(count),
@@ -73,10 +73,12 @@ def taken(question: protocol.Question, seed: int, number: int, episode: episodes
     }
 
 
-def played(question: protocol.Question, number: int, episode: episodes.Episode) -> dict[str, Any]:
-    """Returns the columns `PLAYED` of the episode of an index, T rows."""
-    digests = np.array([digest(before.observation) for before in episode.timesteps[:-1]], np.uint64)
-    return {**taken(question, protocol.ENVIRONMENT_SEED, number, episode), "observation": digests}
+def played(question: protocol.Question, episode: episodes.Episode) -> dict[str, Any]:
+    """Returns the columns `PLAYED` of an episode, T rows."""
+    seen = [
+        {name: values[step] for name, values in episode.observations.items()} for step in range(len(episode.actions))
+    ]
+    return {**taken(question, episode), "observation": np.array([digest(each) for each in seen], np.uint64)}
 
 
 def judged(question: protocol.Question, actions: np.ndarray, found: mistakes.Actions) -> dict[str, Any]:
@@ -104,13 +106,8 @@ def write(folder: Path, found: pyarrow.Table) -> None:
 
 
 def read(folder: Path) -> pyarrow.Table:
-    """Returns the log of a folder.
-
-    Raises:
-      OSError: if there is none.
-      ValueError: if it is damaged; the line names the file.
-    """
-    return untrusted.read_table(folder / FILE, SCHEMA)
+    """Returns the log of a folder; raises OSError if there is none, and ValueError if it is damaged."""
+    return tables.read(folder / FILE, SCHEMA)
 
 
 def of_task(found: pyarrow.Table, question: protocol.Question) -> dict[str, np.ndarray]:

@@ -33,6 +33,7 @@ class Player:
         """Takes the function, `module:function`, and the limit of each call, s."""
         self.name, self._timeout = name, timeout
         self._process: Any = None
+        self._question: protocol.Question | None = None  # Of the actor in the process.
 
     def __enter__(self):
         return self
@@ -45,12 +46,18 @@ class Player:
         processes.kill(self._process)
         self._ours.close()
 
-    def make(self, question: protocol.Question, first: int) -> core.Actor:
-        """Returns the agent's actor for a task and its first episode; raises PlayerError if the agent fails."""
+    def actor(self, question: protocol.Question, index: int) -> core.Actor:
+        """Returns an actor for the episode of an index in a task; the agent keeps one for all episodes of a task.
+
+        Raises:
+          PlayerError: if the agent fails.
+        """
         if self._process is None:
             self._start()
-        self.call(f"({question.name}, before the first episode)", question, self._timeout + _START_SECONDS)
-        return _Actor(self, question, first)
+        if question is not self._question:
+            self.call(f"({question.name}, before the first episode)", question, self._timeout + _START_SECONDS)
+            self._question = question
+        return _Actor(self, question, index)
 
     def call(self, place: str, message: Any, timeout: float | None = None) -> dict[str, Any]:
         """Sends a message and returns the answer; raises PlayerError, with the place, if the agent fails."""
@@ -103,17 +110,17 @@ class Player:
 
 
 class _Actor(core.Actor):
-    """An actor of a player's process, to which each time step is sent once."""
+    """The actor of a player's process in one episode; each time step is sent to it once."""
 
-    def __init__(self, player: Player, question: protocol.Question, first: int):
-        self._player, self._question, self._number = player, question, first - 1
+    def __init__(self, player: Player, question: protocol.Question, index: int):
+        self._player, self._question, self._index = player, question, index
         self._message: tuple[int | None, dm_env.TimeStep]
 
     def observe_first(self, timestep):
-        self._number, self._step, self._message = self._number + 1, 0, (None, timestep)
+        self._step, self._message = 0, (None, timestep)
 
     def select_action(self, observation):
-        place = f"({self._question.name}, episode {self._number}, step {self._step})"
+        place = f"({self._question.name}, episode {self._index}, step {self._step})"
         action = self._player.call(place, self._message).get("action")
         if not isinstance(action, int) or not 0 <= action < self._question.num_actions:
             raise PlayerError(
@@ -125,4 +132,4 @@ class _Actor(core.Actor):
     def observe(self, action: int, next_timestep: dm_env.TimeStep) -> None:
         self._step, self._message = self._step + 1, (action, next_timestep)
         if next_timestep.last():
-            self._player.call(f"({self._question.name}, episode {self._number}, the end)", self._message)
+            self._player.call(f"({self._question.name}, episode {self._index}, the end)", self._message)

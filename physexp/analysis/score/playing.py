@@ -6,17 +6,18 @@ target plays the others alone.
 """
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 import contextlib
 import itertools
 import json
+import operator
 from pathlib import Path
 import time
 from typing import IO, Any
 
-from physexp.agents import files
-from physexp.analysis.data import lock, provenance
-from physexp.analysis.score import episodes, player, protocol, targets, user_agent
+from physexp.agents import environment_loop, files
+from physexp.analysis.data import episodes, lock, provenance
+from physexp.analysis.score import actors, player, protocol, targets, user_agent
 
 FILE = "played.jsonl"
 
@@ -29,7 +30,7 @@ class Session:
       problem: the error of an agent that failed; empty if none did.
     """
 
-    def __init__(self, file: IO[bytes], kept: Mapping[str, Sequence[Sequence[int]]], make: targets.Make):
+    def __init__(self, file: IO[bytes], kept: Mapping[str, Sequence[Sequence[int]]], make: actors.Make):
         self._file, self._kept, self._make, self._begun = file, kept, make, time.monotonic()
         self.num_played = sum(map(len, kept.values()))
         self.problem = ""
@@ -44,14 +45,30 @@ class Session:
           player.PlayerError: if an agent fails before any episode is over.
           ValueError: if a stored episode does not follow from its actions.
         """
-        try:
-            for question in questions:
-                for episode in self._play(question, num_episodes, seed):
+        for question in questions:
+            kept = self._kept.get(question.name, ())
+            with contextlib.closing(protocol.load(question, seed)) as environment:
+                for index, actions in enumerate(kept):
+                    try:
+                        episode = episodes.play(environment, environment_loop.Repeat(actions), index)
+                    except ValueError as error:
+                        raise ValueError(
+                            f"{self._file.name}: {question.name}, episode {index}: {error}; another version has played "
+                            "it, so remove the folder"
+                        ) from None
                     yield question, episode
-        except player.PlayerError as error:
-            if not self.num_played:
-                raise
-            self.problem = str(error)
+                for index in range(len(kept), num_episodes):
+                    try:
+                        episode = episodes.play(environment, self._make(question, index), index)
+                    except player.PlayerError as error:
+                        if not self.num_played:
+                            raise
+                        self.problem = str(error)
+                        return
+                    self._file.write(json.dumps([question.name, episode.actions.tolist()]).encode() + b"\n")
+                    self._file.flush()
+                    self.num_played += 1
+                    yield question, episode
 
     def write(self, name: str, facts: Mapping[str, Any], results: Mapping[str, Any]) -> dict[str, Any]:
         """Writes facts, the outcome, the provenance and results into a file of the folder; returns all of them.
@@ -68,27 +85,6 @@ class Session:
                 f"{self.problem}; the episodes before it are in {folder}, and the same command goes on after them"
             )
         return written
-
-    def _play(self, question: protocol.Question, num_episodes: int, seed: int) -> Iterator[episodes.Episode]:
-        kept = self._kept.get(question.name, ())[:num_episodes]
-        environment = protocol.load(question, seed)
-        for number, actions in enumerate(kept):
-            try:
-                yield episodes.replay(environment, actions, number)
-            except ValueError as error:
-                raise ValueError(
-                    f"{self._file.name}: {question.name}, episode {number}: {error}; another version has played it, so "
-                    "remove the folder"
-                ) from None
-        if len(kept) < num_episodes:
-            actor = self._make(question, len(kept))
-            for number in range(len(kept), num_episodes):
-                played = episodes.play(environment, actor, number)
-                self._file.write(json.dumps([question.name, played.actions.tolist()]).encode() + b"\n")
-                self._file.flush()
-                self.num_played += 1
-                yield played
-        environment.close()
 
 
 @contextlib.contextmanager
@@ -115,7 +111,7 @@ def session(folder: Path, target: targets.Target, timeout: float, facts: Mapping
             raise ValueError(f"{folder} exists and is not empty; give another --output")
         file = stack.enter_context(path.open("a+b"))
         kept = _kept(file, folder, json.loads(json.dumps(facts)))
-        found = Session(file, kept, stack.enter_context(target.playing(timeout)))
+        found = Session(file, kept, target.make or stack.enter_context(player.Player(target.name, timeout)).actor)
         try:
             yield found
         except BaseException:
@@ -140,22 +136,26 @@ def _kept(file: IO[bytes], folder: Path, facts: Mapping[str, Any]) -> dict[str, 
         file.write(json.dumps(facts).encode() + b"\n")
         return {}
     file.truncate(size)
-    if difference := _difference(lines[0], facts):
-        raise ValueError(f"{folder} was begun with {difference}; give the same, or another --output")
+    for place, theirs, ours in differences(lines[0], facts):
+        raise ValueError(
+            f"{folder} was begun with {' '.join(place)} {json.dumps(theirs)} instead of {json.dumps(ours)}; give the "
+            "same, or another --output"
+        )
     kept = defaultdict(list)
     for task, actions in lines[1:]:
         kept[task].append(actions)
     return kept
 
 
-def _difference(theirs: Any, ours: Any) -> str:
-    """Returns the first difference between two facts in words; nothing if there is none."""
-    if not (isinstance(theirs, dict) and isinstance(ours, dict)):
-        return "" if theirs == ours else f"{json.dumps(theirs)} instead of {json.dumps(ours)}"
-    for name in {**ours, **theirs}:
-        if difference := _difference(theirs.get(name), ours.get(name)):
-            return f"{name} {difference}"
-    return ""
+def differences(
+    theirs: Any, ours: Any, are_equal: Callable[[Any, Any], bool] = operator.eq, place: tuple[str, ...] = ()
+) -> Iterator[tuple[tuple[str, ...], Any, Any]]:
+    """Yields the names, one inside the other, and both values where dictionaries of dictionaries differ."""
+    if isinstance(theirs, dict) and isinstance(ours, dict):
+        for name in {**ours, **theirs}:
+            yield from differences(theirs.get(name), ours.get(name), are_equal, (*place, name))
+    elif not are_equal(theirs, ours):
+        yield place, theirs, ours
 
 
 def unfinished(folder: Path) -> Path:

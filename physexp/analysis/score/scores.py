@@ -7,6 +7,7 @@ trimmed.
 """
 
 from collections.abc import Mapping, Sequence
+import contextlib
 import dataclasses
 import functools
 from typing import Any
@@ -15,8 +16,9 @@ import numpy as np
 import pyarrow
 from scipy import stats
 
+from physexp.analysis.data import episodes
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import episodes, log, protocol
+from physexp.analysis.score import log, protocol
 from physexp.suite.engine import rules
 
 _RESAMPLES = 2_000
@@ -55,10 +57,9 @@ def reference(question: protocol.Question, num_episodes: int) -> Reference | Non
         return None
     drawn = protocol.drawn(question, num_episodes)
     _, first, counts = np.unique(drawn, axis=0, return_index=True, return_counts=True)
-    environment = protocol.load(question)
-    played = [episodes.play(environment, actor, int(number)) for number in first]
-    environment.close()
-    gains = [mistakes.information(solution.beliefs(episode))[:-1] for episode in played]
+    with contextlib.closing(protocol.load(question)) as environment:
+        played = [episodes.play(environment, actor, int(index)) for index in first]
+    gains = [mistakes.information(solution.beliefs(one))[:-1] for one in played]
     lengths = np.array([len(bits) for bits in gains])
     padded = np.array([np.pad(bits, (0, lengths.max() - len(bits))) for bits in gains])
     return Reference(float(counts @ lengths / num_episodes), counts @ padded / num_episodes)
@@ -125,20 +126,10 @@ class TaskScore:
         }
 
 
-def of_log(
-    found: pyarrow.Table, questions: Sequence[protocol.Question], ideals: Mapping[str, Reference | None]
-) -> list[TaskScore]:
-    """Returns the scores of the tasks that are in a log.
-
-    Args:
-      found: the log.
-      questions: the tasks; those that are not in the log are left out.
-      ideals: statistics of the ideal experimenter by task, over the same number of episodes, where they are known.
-    """
-    parts = [(question, log.of_task(found, question)) for question in questions]
-    return [
-        _of_task(question, columns, ideals.get(question.name)) for question, columns in parts if len(columns["step"])
-    ]
+def of_log(found: pyarrow.Table, ideals: Mapping[protocol.Question, Reference | None]) -> list[TaskScore]:
+    """Returns the scores of the tasks in a log; `ideals` has the ideal's play of as many episodes where it is known."""
+    parts = [(question, known, log.of_task(found, question)) for question, known in ideals.items()]
+    return [_of_task(question, columns, known) for question, known, columns in parts if len(columns["step"])]
 
 
 def _of_task(question: protocol.Question, columns: Mapping[str, np.ndarray], known: Reference | None) -> TaskScore:

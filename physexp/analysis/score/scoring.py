@@ -2,14 +2,13 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
-import dataclasses
 from pathlib import Path
 from typing import Any
 
 from physexp import checks
 from physexp.agents import files
-from physexp.analysis.data import provenance, untrusted
-from physexp.analysis.score import episodes, judging, log, playing, protocol, scores, targets
+from physexp.analysis.data import provenance, tables
+from physexp.analysis.score import judging, log, playing, protocol, scores, targets
 
 FILE = "score.json"
 _TRAINED = {
@@ -70,43 +69,23 @@ def score(
     facts = {"version": protocol.VERSION, "target": target.name, "greedy": target.greedy, "protocol": extent}
     agent = target.describe(names)
     defining = {**facts, "agent": agent, "versions": provenance.versions()}
+    rows, moves = defaultdict(list), defaultdict(list)
     with playing.session(folder, target, timeout, defining) as session:
-        played = _play(session, questions, num_episodes, lambda: show(session.num_played // 2))
-        judged = judging.judge(
-            {question: [episode for _, episode in its] for question, its in played.items()},
-            lambda done: show((session.num_played + done) // 2),
+        for question, episode in session.play(questions, num_episodes, protocol.SEED):
+            rows[question].append(log.played(question, episode))
+            moves[question].append((episode.hidden, episode.actions))  # Images of many episodes are large.
+            show(session.num_played // 2)
+        judged = judging.judge(moves, lambda done: show((session.num_played + done) // 2))
+        found = log.table(
+            {**columns, **log.judged(question, columns["action"], actions)}
+            for question, its in rows.items()
+            for columns, actions in zip(its, judged[question].actions, strict=True)
         )
-        metrics = _write_log(folder, played, judged)
+        log.write(folder, found)
+        metrics = scores.summary(scores.of_log(found, {question: one.ideal for question, one in judged.items()}))
         written = session.write(FILE, {**facts, "agent": {**agent, **(made or {})}}, metrics)
         finish(folder)
     return written
-
-
-_Played = Mapping[protocol.Question, Sequence[tuple[Mapping[str, Any], episodes.Episode]]]
-"""The episodes of each task, with their columns of the log; without time steps, since images of many are large."""
-
-
-def _play(
-    session: playing.Session, questions: Sequence[protocol.Question], num_episodes: int, show: Callable[[], None]
-) -> _Played:
-    found: dict[protocol.Question, list[tuple[dict[str, Any], episodes.Episode]]] = defaultdict(list)
-    for question, episode in session.play(questions, num_episodes, protocol.SEED):
-        columns = log.played(question, len(found[question]), episode)
-        found[question].append((columns, dataclasses.replace(episode, timesteps=[])))
-        show()
-    return found
-
-
-def _write_log(folder: Path, played: _Played, judged: Mapping[str, judging.Judged]) -> dict[str, Any]:
-    """Writes the log; returns its metrics."""
-    found = log.table(
-        {**columns, **log.judged(question, episode.actions, actions)}
-        for question, its in played.items()
-        for (columns, episode), actions in zip(its, judged[question.name].actions, strict=True)
-    )
-    log.write(folder, found)
-    ideals = {name: one.ideal for name, one in judged.items()}
-    return scores.summary(scores.of_log(found, list(played), ideals))
 
 
 def read(folder: Path) -> dict[str, Any]:
@@ -119,7 +98,7 @@ def read(folder: Path) -> dict[str, Any]:
     path = folder / FILE
     if not path.exists():
         raise ValueError(f"{folder} holds no score ({FILE}); give a folder that `physexp score` has written")
-    untrusted.check(path, untrusted.MAX_TEXT)
+    tables.check(path, tables.MAX_TEXT)
     found = files.read_json(path)
     version = found.get("version") if isinstance(found, dict) else None
     if version != protocol.VERSION:

@@ -1,7 +1,6 @@
 """Finds all that can be scored, each as a `Target`: baselines, trained agents, teams of them, and users' functions."""
 
-from collections.abc import Callable, Collection, Iterator, Sequence
-import contextlib
+from collections.abc import Callable, Collection, Sequence
 import dataclasses
 import functools
 from pathlib import Path
@@ -11,16 +10,13 @@ from typing import Any
 from physexp.agents import config as agent_config
 from physexp.agents import core
 from physexp.analysis import domains
-from physexp.analysis.score import actors, player, protocol
+from physexp.analysis.score import actors, protocol
 from physexp.analysis.training import config as config_lib
 
 SHIPPED = "shipped"
 """The team of the best agents that come with the package."""
 
 _LONGEST = 60  # Letters of a file's name; file systems allow 255 bytes.
-
-Make = Callable[[protocol.Question, int], core.Actor]
-"""Returns an actor for a task, from the task and the index of the first episode that it will play."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -31,7 +27,7 @@ class Target:
       name: the text that it was found by.
       greedy: whether trained agents take their likeliest actions instead of drawing them.
       questions: the tasks that it can play; None for all, as far as is known before an actor is made.
-      make: makes its actors in this process; None for a user's function.
+      make: makes its actors; None for a user's function, which has a process of its own.
       describe: returns how the agents of some tasks, by name, were trained: algorithm, seed, command, commit, frames,
         seconds; of a team, algorithms and sums, and `agents` by the task's name.
     """
@@ -39,7 +35,7 @@ class Target:
     name: str
     greedy: bool
     questions: tuple[protocol.Question, ...] | None
-    make: Make | None
+    make: actors.Make | None
     describe: Callable[[Collection[str]], dict[str, Any]] = lambda tasks: {}
 
     def choose(self, tasks: Sequence[str], observations: str) -> tuple[protocol.Question, ...]:
@@ -64,15 +60,6 @@ class Target:
                 )
         return found
 
-    @contextlib.contextmanager
-    def playing(self, timeout: float) -> Iterator[Make]:
-        """Returns a context in which actors play; a user's function has its own process and `timeout` s a call."""
-        if self.make is not None:
-            yield self.make
-            return
-        with player.Player(self.name, timeout) as its:
-            yield its.make
-
 
 def find(name: str, greedy: bool = False) -> Target:
     """Returns the target of a name.
@@ -91,7 +78,7 @@ def find(name: str, greedy: bool = False) -> Target:
     if name in actors.BASELINES:
         return Target(name, greedy, None, actors.BASELINES[name])
     if makers := _baselines_of_domains().get(name):
-        return Target(name, greedy, tuple(makers), lambda question, first: makers[question]())
+        return Target(name, greedy, tuple(makers), lambda question, index: makers[question]())
     if "," in name or _is_team(name):
         return _team(name, greedy)
     return _agent(name, greedy)
@@ -106,6 +93,7 @@ def file_name(name: str) -> str:
 
 
 def _agent(name: str, greedy: bool) -> Target:
+    from physexp.agents import acting
     from physexp.analysis.training import finding, publishing
 
     try:
@@ -126,13 +114,10 @@ def _agent(name: str, greedy: bool) -> Target:
         found = {fact: trained.get(fact) for fact in ("command", "commit", "frames", "seconds")}
         return {"algorithm": config.agent.title, "seed": config.agent.seed, **found}
 
-    return Target(
-        name,
-        greedy,
-        (protocol.question(config.domain, config.task),),
-        lambda question, first: actors.Network(agent.network, greedy, first),
-        describe,
-    )
+    def make(question: protocol.Question, index: int) -> core.Actor:
+        return acting.RecurrentActor(agent.network, index, greedy)
+
+    return Target(name, greedy, (protocol.question(config.domain, config.task),), make, describe)
 
 
 def _team(name: str, greedy: bool) -> Target:
@@ -148,18 +133,14 @@ def _team(name: str, greedy: bool) -> Target:
                 raise ValueError(f"both {members[question].name} and {member} play {question.name}; name one of them")
             members[question] = agent
 
-    def make(question: protocol.Question, first: int) -> core.Actor:
-        of_member = members[question].make
-        assert of_member is not None
-        return of_member(question, first)
-
     def describe(tasks: Collection[str]) -> dict[str, Any]:
         each = {question.name: agent.describe(tasks) for question, agent in members.items() if question.name in tasks}
         sums = {name: sum(one[name] for one in each.values()) for name in ("frames", "seconds")}
         algorithms = dict.fromkeys(one["algorithm"] for one in each.values())
         return {"algorithm": ", ".join(algorithms), **sums, "agents": each}
 
-    return Target(name, greedy, tuple(members), make, describe)
+    makers = {question: agent.make for question, agent in members.items() if agent.make}
+    return Target(name, greedy, tuple(members), lambda question, index: makers[question](question, index), describe)
 
 
 def _is_team(name: str) -> bool:

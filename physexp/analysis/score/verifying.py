@@ -1,6 +1,7 @@
 """Verifies a score: plays the logged actions again and compares everything that follows from them."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
+import contextlib
 import functools
 import hashlib
 import math
@@ -11,8 +12,10 @@ from typing import Any
 import numpy as np
 
 import physexp
-from physexp.analysis.data import provenance
-from physexp.analysis.score import episodes, judging, log, protocol, scores, scoring
+from physexp.agents import environment_loop
+from physexp.analysis.data import episodes, provenance
+from physexp.analysis.ideal import mistakes
+from physexp.analysis.score import judging, log, playing, protocol, scores, scoring
 
 _TOLERANCE = 1e-9  # Of floating-point numbers, on any machine.
 
@@ -29,32 +32,33 @@ def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dic
       ValueError: if anything differs; the line names it.
     """
     written, found = scoring.read(folder), log.read(folder)
-    path = folder / log.FILE
+    path, each = folder / log.FILE, written["protocol"]["episodes"]
     if written["protocol"]["seed"] != protocol.SEED:
         raise ValueError(f"{folder / scoring.FILE}: seed is {written['protocol']['seed']} instead of {protocol.SEED}")
-    logged = log.split(log.as_columns(found))
-    questions = protocol.named(written["protocol"]["tasks"])
-    counts = _counts(path, len(logged), written, len(questions))
-    left = enumerate(logged, 1)
-    for question, count in zip(questions, counts, strict=True):
-        environment, judge = protocol.load(question), judging.Judge(protocol.ideal(question))
-        for number, (done, columns) in zip(range(count), left, strict=False):
-            place = f"{path}: {question.name}, episode {number}"
-            try:
-                episode = episodes.replay(environment, columns["action"].tolist(), number)
-            except ValueError as error:
-                raise ValueError(f"{place}: {error}") from None
-            judged = log.judged(question, episode.actions, judge(episode))
-            _compare(place, columns, {**log.played(question, number, episode), **judged})
-            show(done)
-        environment.close()
-    ideals = {
-        question.name: scores.reference(question, count)
-        for question, count in zip(questions, counts, strict=True)
-        if count
-    }
-    again = scores.summary(scores.of_log(found, questions, ideals))
-    _compare_metrics(folder / scoring.FILE, {name: written[name] for name in again}, again)
+    logged, questions = log.split(log.as_columns(found)), protocol.named(written["protocol"]["tasks"])
+    expected = each * len(questions)
+    if not 0 < len(logged) <= expected or (len(logged) < expected and written["complete"]):
+        raise ValueError(f"{path} has {len(logged)} episodes instead of {expected}")
+    ideals = {}
+    for first, question in zip(range(0, len(logged), each), questions, strict=False):  # The last ones may be missing.
+        its, judge = logged[first : first + each], judging.Judge(question)
+        with contextlib.closing(protocol.load(question)) as environment:
+            for index, columns in enumerate(its):
+                place = f"{path}: {question.name}, episode {index}"
+                try:
+                    episode = episodes.play(environment, environment_loop.Repeat(columns["action"].tolist()), index)
+                except ValueError as error:
+                    raise ValueError(f"{place}: {error}") from None
+                judged = mistakes.actions(judge(episode.hidden, episode.actions), episode.actions)
+                again = {**log.played(question, episode), **log.judged(question, episode.actions, judged)}
+                _compare(place, columns, again)
+                show(first + index + 1)
+        ideals[question] = scores.reference(question, len(its))
+    metrics = scores.summary(scores.of_log(found, ideals))
+    for names, theirs, ours in playing.differences({name: written[name] for name in metrics}, metrics, _are_close):
+        raise ValueError(
+            f"{folder / scoring.FILE}: {', '.join(names)} is {theirs}, and {ours} by the log; score again, elsewhere"
+        )
     return {
         "episodes": len(logged),
         "actions": len(found),
@@ -71,33 +75,22 @@ def verify_once(folder: Path) -> None:
     """
     known = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "physexp" / "verified"
     known.mkdir(parents=True, exist_ok=True)
-    mark = known / _digest([*_sources(), *((folder / name).read_bytes() for name in (scoring.FILE, log.FILE))])
+    parts = [_sources(), *((folder / name).read_bytes() for name in (scoring.FILE, log.FILE))]
+    mark = known / hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
     if not mark.exists():
         verify(folder)
         mark.touch()
 
 
 @functools.cache
-def _sources() -> list[bytes]:
+def _sources() -> bytes:
     """Returns all that decides whether a folder is verified: the package's sources and the versions."""
     paths = sorted(Path(physexp.__file__).parent.rglob("*.py"))
-    return [repr(provenance.versions()).encode(), *(path.read_bytes() for path in paths)]
-
-
-def _digest(parts: Sequence[bytes]) -> str:
-    return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
-
-
-def _counts(path: Path, num_episodes: int, written: Mapping[str, Any], num_tasks: int) -> list[int]:
-    """Returns the number of episodes of each task; after an early end, the last ones are missing."""
-    each = written["protocol"]["episodes"]
-    expected = num_tasks * each
-    if not 0 < num_episodes <= expected or (num_episodes < expected and written["complete"]):
-        raise ValueError(f"{path} has {num_episodes} episodes instead of {expected}")
-    return [min(each, max(0, num_episodes - task * each)) for task in range(num_tasks)]
+    return repr((provenance.versions(), [path.read_bytes() for path in paths])).encode()
 
 
 def _compare(place: str, logged: Mapping[str, np.ndarray], again: Mapping[str, np.ndarray]) -> None:
+    """Raises ValueError if a value of an episode differs; the line names the place, the step and the column."""
     for name in log.SCHEMA.names:
         theirs, ours = logged[name], again[name]
         is_close = name in log.JUDGED.names and ours.dtype.kind == "f"
@@ -108,17 +101,6 @@ def _compare(place: str, logged: Mapping[str, np.ndarray], again: Mapping[str, n
                 f"{place}, step {step}: {name} is {theirs[step]}, and {ours[step]} when it is played again; the log "
                 "was changed, or another version made it"
             )
-
-
-def _compare_metrics(path: Path, written: Any, again: Mapping[str, Any], place: str = "") -> None:
-    if not isinstance(written, dict) or set(written) - set(again):
-        raise ValueError(f"{path}: {place or 'it '}has other metrics than {', '.join(again)}; score again, elsewhere")
-    for name, ours in again.items():
-        theirs = written.get(name)
-        if isinstance(ours, dict):
-            _compare_metrics(path, theirs, ours, f"{place}{name}, ")
-        elif not _are_close(theirs, ours):
-            raise ValueError(f"{path}: {place}{name} is {theirs}, and {ours} by the log; score again, elsewhere")
 
 
 def _are_close(theirs: Any, ours: Any) -> bool:

@@ -11,7 +11,7 @@ import numpy as np
 from physexp import suite
 from physexp.agents import config as agent_config
 from physexp.agents import networks, pretrained, registry
-from physexp.analysis.data import untrusted
+from physexp.analysis.data import tables
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
@@ -34,8 +34,7 @@ class Agent(NamedTuple):
 def load_network(run: run_lib.Run) -> networks.RecurrentNetwork:
     """Returns the network that a run has trained.
 
-    Raises:
-      ValueError: if there is none yet, or its files are damaged or do not fit; it names the file.
+    Raises ValueError if there is none yet, or its files are damaged or do not fit; it names the file.
     """
     network = trainer.make_network(run.config)
     network.load_state_dict(run.variables(network.state_dict()))
@@ -56,45 +55,31 @@ def find_agent(target: str, task_kwargs: Mapping[str, Any] | None = None) -> Age
     """
     path, wanted = Path(target).expanduser(), task_kwargs or {}
     domain, _, task = target.partition("/")
-    if agent := published(target):
-        found = _of_card(agent)
+    if path.is_file():
+        if path.suffix != ".safetensors":
+            raise ValueError(f"{target} is no agent; give the folder of a run, or a published agent (NAME.safetensors)")
+        tables.check(path, tables.MAX_AGENT)
+        found = _of_card(pretrained.load_file(path))
     elif path.exists():
         run = run_lib.Run(path)
         found = Agent(load_network(run), run.config, lambda: provenance(run))
+    elif target in pretrained.names():
+        found = _of_card(pretrained.load_named(target))
     elif (domain, task) in suite.ALL_TASKS:
         found = shipped_agent(domain, task, wanted)
     else:
         close = difflib.get_close_matches(target, [*pretrained.names(), *map("/".join, suite.ALL_TASKS)])
+        known = ", ".join(close) or "DOMAIN/TASK, as `physexp tasks` lists them"
         raise ValueError(
             f"{target} holds no run (no config.json); give the folder of a run, the file of a published agent "
-            f"(NAME.safetensors), or a trained agent: "
-            f"{', '.join(close) or 'DOMAIN/TASK, as `physexp tasks` lists them'}"
+            f"(NAME.safetensors), or a trained agent: {known}"
         )
     _check_options(target, found.config, wanted)
     return found
 
 
-def published(target: str) -> pretrained.Pretrained | None:
-    """Returns the published agent in a file, or the one with this name in the package; None if it is neither.
-
-    Raises:
-      ValueError: if its file is damaged.
-    """
-    path = Path(target).expanduser()
-    if path.is_file():
-        if path.suffix != ".safetensors":
-            raise ValueError(f"{target} is no agent; give the folder of a run, or a published agent (NAME.safetensors)")
-        untrusted.check(path, untrusted.MAX_AGENT)
-        return pretrained.load_file(path)
-    return pretrained.load_named(target) if target in pretrained.names() and not path.exists() else None
-
-
 def shipped_agent(domain: str, task: str, task_kwargs: Mapping[str, Any]) -> Agent:
-    """Returns the agent that comes with the package for a task with these options.
-
-    Raises:
-      ValueError: if there is none; it lists those that there are.
-    """
+    """Returns the agent that comes with the package for a task with these options; raises as `find_agent`."""
     options = {name: value for name, value in task_kwargs.items() if name in pretrained.options_of(domain, task)}
     agent = _of_card(pretrained.load(domain, task, **options))
     _check_options(f"{domain}/{task}", agent.config, task_kwargs)
@@ -105,13 +90,12 @@ def _check_options(target: str, config: config_lib.TrainConfig, wanted: Mapping[
     """Refuses an agent that was trained with other options than are wanted."""
     if not wanted:
         return
-    options = suite.load_task(config.domain, config.task, config.task_kwargs).options
+    options = dataclasses.asdict(config.load_task().options)
     for name, value in wanted.items():
-        has_it = hasattr(options, name)
-        trained_at = getattr(options, name, None)  # The task's own, where the configuration has none.
+        trained_at = options.get(name)  # The task's own, where the configuration has none.
         if value != trained_at:
             usual = "without" if trained_at is None else f"at {name} {agent_config.shown(trained_at)}"
-            what = f"was trained {usual}" if has_it else f"has no {name}"
+            what = f"was trained {usual}" if name in options else f"has no {name}"
             raise ValueError(f"{target} {what}, and {name} is {value}; leave that out, or name another agent")
 
 
@@ -126,13 +110,10 @@ def _of_card(agent: pretrained.Pretrained) -> Agent:
 def network_facts(config: config_lib.TrainConfig) -> dict[str, Any]:
     """Returns the specs of the environment and the hyperparameters that a network is made from."""
     environment = trainer.make_environment(config, 0, 1, 1)
-    observations = {
-        name: [list(spec.shape), np.dtype(spec.dtype).name] for name, spec in environment.observation_spec().items()
-    }
-    kind = registry.NETWORKS[config.agent.algorithm]
+    observed, kind = environment.observation_spec(), registry.NETWORKS[config.agent.algorithm]
     facts = {
         "kind": kind.__name__,
-        "observations": observations,
+        "observations": {name: [list(spec.shape), np.dtype(spec.dtype).name] for name, spec in observed.items()},
         "num_actions": environment.action_spec().num_values,
         "hyperparameters": kind.hyperparameters(environment, config.agent),
     }
@@ -141,11 +122,7 @@ def network_facts(config: config_lib.TrainConfig) -> dict[str, Any]:
 
 
 def config_of(card: Mapping[str, Any]) -> config_lib.TrainConfig:
-    """Returns the configuration that an agent was trained with, from its card.
-
-    Raises:
-      ValueError: if its card does not say so.
-    """
+    """Returns the configuration that an agent was trained with; raises ValueError if its card does not say so."""
     try:
         facts = {name: card[name] for name in ("domain", "task", "task_kwargs", "agent")}
         return config_lib.TrainConfig.from_json(facts)
@@ -154,11 +131,7 @@ def config_of(card: Mapping[str, Any]) -> config_lib.TrainConfig:
 
 
 def provenance(run: run_lib.Run) -> dict[str, Any]:
-    """Returns command, commit, frames and seconds of a run's training.
-
-    Raises:
-      ValueError: if its metrics do not say how long it was trained.
-    """
+    """Returns command, commit, frames and seconds of training; raises ValueError if a run's metrics are of no use."""
     path = run.path / "metrics.csv"
     try:
         last = run.metrics()[-1]
@@ -176,12 +149,10 @@ def provenance(run: run_lib.Run) -> dict[str, Any]:
 def command(config: config_lib.TrainConfig) -> str:
     """Returns the command that trains such a run, with the options that differ from the task's preset."""
     words = ["physexp", "train", config.domain, config.task, "--agent", config.agent.algorithm]
-    for name, value in config.task_kwargs.items():
-        words += _flag(name, value)
     preset = dataclasses.asdict(config_lib.preset(config.domain, config.task, algorithm=config.agent.algorithm))
-    for name, value in dataclasses.asdict(config.agent).items():
-        if value != preset[name]:
-            words += _flag(name, value)
+    changed = [(name, value) for name, value in dataclasses.asdict(config.agent).items() if value != preset[name]]
+    for name, value in [*config.task_kwargs.items(), *changed]:
+        words += _flag(name, value)
     return " ".join(words)
 
 

@@ -9,7 +9,7 @@ import pyarrow
 from pyarrow import parquet
 import pytest
 
-from physexp.analysis.data import tables, untrusted
+from physexp.analysis.data import tables
 from physexp.analysis.training import run as run_lib
 
 SCHEMA = run_lib.EPISODES
@@ -31,8 +31,7 @@ TABLE = pyarrow.table(
 def test_a_table_comes_back_and_other_readers_read_it_too(tmp_path):
     path = tmp_path / "part-1.parquet"
     tables.write(path, TABLE, compression="zstd")
-    assert tables.read(path, SCHEMA).equals(TABLE) and untrusted.read_table(path, SCHEMA).equals(TABLE)
-    assert tables.read(path, SCHEMA, ["reward", "frames"]).equals(TABLE.select(["reward", "frames"]))
+    assert tables.read(path, SCHEMA).equals(TABLE)
     pd.testing.assert_frame_equal(pd.read_parquet(path), TABLE.to_pandas())
     with pytest.raises(FileNotFoundError, match="nothing"):
         tables.read(tmp_path / "nothing", SCHEMA)
@@ -69,31 +68,30 @@ BOMBS = {
 
 
 @pytest.mark.parametrize("case", FAULTY)
-@pytest.mark.parametrize("read", [tables.read, untrusted.read_table])
-def test_a_faulty_table_is_refused_in_one_line(read, case, tmp_path):
+def test_a_faulty_table_is_refused_in_one_line(case, tmp_path):
     (tmp_path / "table").write_bytes(FAULTY[case])
     with pytest.raises(ValueError, match=f"^{tmp_path / 'table'} is damaged .*; put back what was written") as refused:
-        read(tmp_path / "table", SCHEMA)
+        tables.read(tmp_path / "table", SCHEMA)
     assert "\n" not in str(refused.value)
 
 
 @pytest.mark.parametrize("case", BOMBS)
 def test_a_small_file_that_unpacks_to_much_is_refused(case, tmp_path, monkeypatch):
-    monkeypatch.setattr(untrusted, "_MAX_VALUES", MANY - 1)
-    monkeypatch.setattr(untrusted, "_MAX_STRINGS", LARGE - 1)
-    monkeypatch.setattr(untrusted, "_MAX_UNPACKED", LARGE - 1)
+    monkeypatch.setattr(tables, "_MAX_VALUES", MANY - 1)
+    monkeypatch.setattr(tables, "_MAX_STRINGS", LARGE - 1)
+    monkeypatch.setattr(tables, "_MAX_UNPACKED", LARGE - 1)
     bomb, message = BOMBS[case]
     assert len(bomb) < 10_000
     (tmp_path / "table").write_bytes(bomb)
     with pytest.raises(ValueError, match=message):
-        untrusted.read_table(tmp_path / "table", TEXT if case == "long text" else SCHEMA)
+        tables.read(tmp_path / "table", TEXT if case == "long text" else SCHEMA)
 
 
 def test_a_strangers_file_is_a_regular_one_of_limited_size(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     with pytest.raises(ValueError, match="pipe is no regular file; put one in its place"):
-        untrusted.check(tmp_path / "pipe", 100)
+        tables.check(tmp_path / "pipe", 100)
     with (tmp_path / "huge").open("wb") as file:
         file.truncate(2**40)  # It takes no room on the disk.
     with pytest.raises(ValueError, match="huge has 1,099,512 MB; give a file of at most 1 MB"):
-        untrusted.check(tmp_path / "huge", 10**6)
+        tables.check(tmp_path / "huge", 10**6)

@@ -5,7 +5,6 @@ from pathlib import Path
 import sys
 
 import commands
-import made_agents
 import minari
 import numpy as np
 from pyarrow import parquet
@@ -16,16 +15,10 @@ from physexp import suite
 from physexp.analysis.data import tables
 from physexp.analysis.score import exporting, log, player, playing, protocol, steps, targets
 
+pytestmark = pytest.mark.usefixtures("here")
+
 THRESHOLD = protocol.named(["threshold/features"])
 BOTH = protocol.named(["threshold/features", "strings/features"])
-
-
-@pytest.fixture(autouse=True)
-def here(monkeypatch, tmp_path):
-    """A folder with agents, which is the current one."""
-    made_agents.put_into(tmp_path)
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 def export(target, questions=THRESHOLD, count=4, folder="exported", **options):
@@ -38,7 +31,7 @@ def table_of(asked, folder="exported"):
 
 def columns_of(asked, folder="exported"):
     table = table_of(asked, folder)
-    return {name: steps.array(table[name]) for name in table.column_names}
+    return {name: np.array(table[name].to_pylist()) for name in table.column_names}
 
 
 def test_each_row_is_what_the_environment_returns_for_the_action():
@@ -144,7 +137,7 @@ def test_parts_have_whole_episodes_and_equal_a_single_part(monkeypatch):
     (asked,) = THRESHOLD
     parts = sorted((Path("in_parts") / "threshold-features" / exporting.TABLE).iterdir())
     assert len(parts) > 1
-    schema = steps.Steps(asked, 0).schema
+    schema = steps.schema(asked)
     for part in parts:
         table = tables.read(part, schema)
         assert table["step"][0].as_py() == 0 and table["terminated"][-1].as_py()

@@ -77,7 +77,9 @@ def test_a_forged_row_is_named_and_the_others_are_shown(copied):
     rows = log.read(folder).to_pandas()
     changed = pyarrow.Table.from_pandas(rows.assign(worth=rows.value + 5), log.SCHEMA, preserve_index=False)
     log.write(folder, changed)
-    change_facts(folder, **scores.summary(scores.of_log(changed, BOTH, {})))  # The metrics follow from the forged log.
+    change_facts(
+        folder, **scores.summary(scores.of_log(changed, dict.fromkeys(BOTH)))
+    )  # The metrics follow from the forged log.
     done = commands.run("leaderboard", "--results-dir", results, first=shorten)
     assert done.returncode == 1 and f"{folder} is no row: " in done.stderr
     assert "threshold/features, episode 0, step 0: worth is " in done.stderr

@@ -11,25 +11,18 @@ import subprocess
 import sys
 
 import commands
-import made_agents
 import numpy as np
 import psutil
 import pytest
 import waiting
 
 from physexp import suite
-from physexp.analysis.score import episodes, judging, log, player, playing, protocol, scoring, targets, verifying
+from physexp.analysis.score import judging, log, player, playing, protocol, scoring, targets, verifying
+
+pytestmark = pytest.mark.usefixtures("here")
 
 THRESHOLD = protocol.named(["threshold/features"])
 BOTH = protocol.named(["threshold/features", "strings/features"])
-
-
-@pytest.fixture(autouse=True)
-def here(monkeypatch, tmp_path):
-    """A folder with agents, which is the current one."""
-    made_agents.put_into(tmp_path)
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 def score(target, questions=THRESHOLD, count=4, folder="scored", greedy=False, **options):
@@ -299,8 +292,7 @@ def test_a_killed_judge_is_an_error():
     (slow,), (fast,) = protocol.named(["sealed_box/features"]), THRESHOLD
     ways = np.random.default_rng(0).integers(slow.num_interactions, size=(100, 20))
     aimless = zip(protocol.drawn(slow, 100), ways, strict=True)
-    answer = episodes.Episode(protocol.drawn(fast, 1)[0], np.array([fast.num_interactions]), np.zeros(1), [])
-    played = {slow: [episodes.Episode(one, way, np.zeros(20), []) for one, way in aimless], fast: [answer]}
+    played = {slow: list(aimless), fast: [(protocol.drawn(fast, 1)[0], np.array([fast.num_interactions]))]}
     with pytest.raises(futures.BrokenExecutor):
         judging.judge(played, kill)
     assert not multiprocessing.active_children()

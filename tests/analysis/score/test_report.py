@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 import screens
 
-from physexp.analysis.data import plots
-from physexp.analysis.score import episodes, protocol, report, scores, scoring, targets
+from physexp.analysis.data import episodes, plots
+from physexp.analysis.score import protocol, report, scores, scoring, targets
 from physexp.suite.engine import rules
 
 TASKS = ["threshold/features", "strings/features"]
@@ -95,10 +95,10 @@ def test_bits_of_each_interaction_are_drawn_beside_the_ideals(found):
 
 def test_random_actions_return_on_average_the_expected_return():
     (asked,) = protocol.named(["threshold/features"])
-    actor, environment = targets.find("random").make(asked, 0), protocol.load(asked)
+    make, environment = targets.find("random").make, protocol.load(asked)
     returns = []
-    for number in range(600):
-        rewards = episodes.play(environment, actor, number).rewards
+    for index in range(600):
+        rewards = episodes.play(environment, make(asked, index), index).rewards
         returns.append(rewards[-1] * asked.discount ** (len(rewards) - 1))
     error = np.std(returns) / np.sqrt(len(returns))
     # One in 16,000 is further off than four standard errors; the instances are always the same.

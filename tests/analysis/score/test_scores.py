@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from physexp import suite
-from physexp.analysis.score import episodes, judging, log, protocol, scores, scoring, targets
+from physexp.analysis.data import episodes
+from physexp.analysis.score import judging, log, protocol, scores, scoring, targets
 
 FEATURES = [protocol.question(*names) for names in suite.tagged("features")]
 COUNT = 6
@@ -12,14 +13,15 @@ COUNT = 6
 
 def play(target, asked, count=COUNT):
     """The score of a target on a task, played in this process."""
-    actor, environment = targets.find(target).make(asked, 0), protocol.load(asked)
-    judge = judging.Judge(protocol.ideal(asked))
-    played = []
-    for number in range(count):
-        episode = episodes.play(environment, actor, number)
-        played.append({**log.played(asked, number, episode), **log.judged(asked, episode.actions, judge(episode))})
+    make, environment = targets.find(target).make, protocol.load(asked)
+    played = [episodes.play(environment, make(asked, index), index) for index in range(count)]
     environment.close()
-    (found,) = scores.of_log(log.table(played), [asked], {asked.name: scores.reference(asked, count)})
+    judged = judging.judge({asked: [(one.hidden, one.actions) for one in played]})[asked]
+    rows = [
+        {**log.played(asked, one), **log.judged(asked, one.actions, actions)}
+        for one, actions in zip(played, judged.actions, strict=True)
+    ]
+    (found,) = scores.of_log(log.table(rows), {asked: judged.ideal})
     return found
 
 

@@ -121,7 +121,7 @@ def test_missing_doubled_or_disordered_rows_are_refused(folder, change, said):
         (lambda found: found["whole"].update(score=1.0), "whole, score is 1.0, and -?0"),
         (lambda found: found["domains"]["strings"].update(interval=[0.9, 1]), "domains, strings, interval is"),
         (lambda found: found["tasks"]["strings/features"].pop("luck"), "tasks, strings/features, luck is None"),
-        (lambda found: found["tasks"].update(more={}), "tasks, has other metrics than threshold/features, strings"),
+        (lambda found: found["tasks"].update(more={}), "tasks, more is {}, and None by the log"),
         (lambda found: found["protocol"].update(seed=1), "seed is 1 instead of 2000003"),
         (lambda found: found["protocol"].update(tasks=["threshold/features"]), "has 8 episodes instead of 4"),
         (lambda found: found["protocol"].update(tasks=[["x"]]), "is faulty: tasks is"),
