@@ -102,9 +102,7 @@ class Train:
             display = stack.enter_context(progress.Progress(config))
             reports = [callbacks.expendable(display, printing.warn, "the progress")]
             if self.tensorboard:
-                from physexp.analysis.training import tensorboard
-
-                board = tensorboard.TensorBoard(run)
+                board = progress.TensorBoard(run)
                 reports.append(callbacks.expendable(board, printing.warn, "TensorBoard"))
                 stack.callback(callbacks.expendable(board.close, printing.warn, "TensorBoard"))
             on_checkpoint = None

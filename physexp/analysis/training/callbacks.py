@@ -8,8 +8,8 @@ Tell = Callable[[str], None]
 Report = Callable[[dict[str, Any]], None]
 
 
-def ignore(_: Any) -> None:
-    """Does nothing with a line or a row."""
+def ignore(*_: Any) -> None:
+    """Does nothing."""
 
 
 def expendable(watch: Callable[..., Any], tell: Tell, name: str) -> Callable[..., None]:

@@ -29,15 +29,12 @@ _UNNAMED = a3c.A3CConfig.algorithm  # Names of runs leave the paper's learner ou
 
 
 def preset(domain: str = "", task: str = "", *, algorithm: str = DEFAULT_ALGORITHM) -> agent_config.AgentConfig:
-    """Returns the configuration to train a task's agent with; without a preset, the algorithm's defaults.
-
-    Its discount is the domain's; without a domain, the algorithm's default.
-    """
+    """Returns a task's preset for an algorithm, or the algorithm's defaults, with the domain's discount, if any."""
     if not domain:
         return ALGORITHMS[algorithm]()
     known = domains.find(domain)
-    usual = known.presets.get(task, {}).get(algorithm) or ALGORITHMS[algorithm]()
-    return usual.replace(discount=known.discount)
+    preset = known.presets.get(task, {}).get(algorithm, ALGORITHMS[algorithm]())
+    return preset.replace(discount=known.discount)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -45,8 +42,7 @@ class TrainConfig:
     """A training run.
 
     Attributes:
-      domain: the domain's name.
-      task: the task's name.
+      domain, task: names of the environment.
       task_kwargs: the `task_kwargs` of `suite.load` that were chosen, without the seed: numbers, texts or flags.
       replay_every: environment steps between replays that training writes; 0 for none.
       agent: the agent's configuration.
@@ -83,8 +79,8 @@ class TrainConfig:
         """A name for the run's folder."""
         options = "".join(f"-{name}{agent_config.shown(value)}" for name, value in sorted(self.task_kwargs.items()))
         algorithm = "" if self.agent.title == _UNNAMED else f"-{self.agent.title}"
-        discount = f"-discount{self.agent.discount:g}"
-        return f"{self.domain}-{self.task}{options}{algorithm}{discount}-seed{self.agent.seed}"
+        numbers = f"discount{self.agent.discount:g}-seed{self.agent.seed}"
+        return f"{self.domain}-{self.task}{options}{algorithm}-{numbers}"
 
     def load_task(self) -> Any:
         """Returns the task with its options; see `suite.load_task`."""

@@ -8,15 +8,8 @@ from physexp.analysis.training import run as run_lib
 
 
 def draw(run: run_lib.Run, path: Path) -> Path:
-    """Draws a run's success rate and interactions against frames; returns the path of the PNG.
-
-    Raises:
-      ValueError: if the run has no metrics yet.
-    """
-    rows = run.metrics()
-    if not rows:
-        raise ValueError(f"{run.path} has no metrics yet")
-    config = run.config
+    """Draws the success rate and interactions of a run with metrics against frames; returns the path of the PNG."""
+    rows, config = run.metrics(), run.config
     frames = [row["frames"] / 1e6 for row in rows]
     with plots.style():
         drawn, (top, bottom) = plots.new(rows=2, width=4.5, height=1.8, sharex=True)

@@ -1,4 +1,4 @@
-"""Progress of training: a live table on a terminal, plain lines elsewhere."""
+"""Progress of training: a live table on a terminal, plain lines elsewhere, and metrics for TensorBoard."""
 
 from collections.abc import Callable, Iterator
 import contextlib
@@ -7,6 +7,7 @@ import time
 from typing import Any
 
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import run as run_lib
 
 _COLUMNS = (
     ("frames", "{:,.0f}"),
@@ -57,27 +58,43 @@ class Progress:
             self._live.update(grid, refresh=True)
         elif time.monotonic() - self._printed > _LINE_SECONDS or row["frames"] >= self._config.agent.frames:
             self._printed = time.monotonic()
-            print(
-                "  ".join(f"{name.replace('_', ' ')} {value}" for name, value in cells.items()),
-                file=self._file,
-                flush=True,
-            )
+            line = "  ".join(f"{name.replace('_', ' ')} {value}" for name, value in cells.items())
+            print(line, file=self._file, flush=True)
+
+
+class TensorBoard:
+    """Writes rows of metrics into `tensorboard/` in a run's folder; the first row makes the log."""
+
+    def __init__(self, run: run_lib.Run):
+        self._run = run
+        self._writer: Any = None
+
+    def __call__(self, row: dict[str, float]) -> None:
+        """Logs a row of metrics, the last of the run's, at its environment steps."""
+        if self._writer is None:
+            from torch.utils import tensorboard
+
+            earlier = self._run.metrics()[:-1]  # In a run that is resumed, entries after the checkpoint are hidden.
+            first = int(earlier[-1]["frames"]) + 1 if earlier else 0
+            self._writer = tensorboard.SummaryWriter(str(self._run.path / "tensorboard"), purge_step=first)
+        for name, value in row.items():
+            if name != "frames":
+                self._writer.add_scalar(name, value, int(row["frames"]))
+        self._writer.flush()
+
+    def close(self) -> None:
+        """Closes the log."""
+        if self._writer is not None:
+            self._writer.close()
 
 
 @contextlib.contextmanager
 def bar(name: str, total: int, file=None) -> Iterator[Callable[[int], None]]:
-    """Context with a progress bar on a terminal; yields a function that takes the number of steps done.
-
-    Nothing is shown if `file`, by default standard error, is no terminal.
-    """
+    """Yields a function that takes the number of steps done; a terminal, by default standard error, shows a bar."""
     from rich import console, progress
 
-    columns = (
-        progress.TextColumn("{task.description}"),
-        progress.BarColumn(),
-        progress.MofNCompleteColumn(),
-        progress.TimeRemainingColumn(),
-    )
+    names, counts = progress.TextColumn("{task.description}"), progress.MofNCompleteColumn()
+    columns = names, progress.BarColumn(), counts, progress.TimeRemainingColumn()
     terminal = console.Console(file=file or sys.stderr)
     with progress.Progress(*columns, console=terminal, transient=True, disable=not terminal.is_terminal) as shown:
         task = shown.add_task(name, total=total)

@@ -13,18 +13,12 @@ from physexp.analysis.training import run as run_lib
 def publish(run: run_lib.Run, folder: Path, num_episodes: int, replaces: bool = False) -> Path:
     """Evaluates a run's agent as it will be kept, in half precision, and writes it with its card; returns the path.
 
-    Args:
-      run: a run with a checkpoint.
-      folder: where the agent goes.
-      num_episodes: how many episodes the evaluation plays.
-      replaces: whether it takes the place of the agent that may be there.
-
     Raises:
-      FileExistsError: if there is one, and it does not.
+      FileExistsError: if there is such an agent in the folder, and this one does not replace it.
       OSError: if it cannot be written.
       ValueError: if the run's files are damaged or say too little; the line says what to do. Nothing is written then.
     """
-    config, created = run.config, run.facts
+    config, created = run.config, {"versions": "not recorded", "renderer": "not recorded", **run.facts}
     name = pretrained.name(config.domain, config.task, config.task_kwargs)
     if name in pretrained.names(folder) and not replaces:
         raise FileExistsError(
@@ -43,8 +37,8 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int, replaces: bool = 
         "task_kwargs": dict(config.task_kwargs),
         "default": is_default(config),
         **trained,
-        "versions": created.get("versions", "not recorded"),
-        "renderer": created.get("renderer", "not recorded"),
+        "versions": created["versions"],
+        "renderer": created["renderer"],
         "seed": config.agent.seed,
         "evaluation": {"seed": playing.SEED, **figures},
         "agent": config.to_json()["agent"],

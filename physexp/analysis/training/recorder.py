@@ -35,15 +35,14 @@ class Recorder:
         self,
         run: run_lib.Run,
         config: config_lib.TrainConfig,
-        report: callbacks.Report = callbacks.ignore,
-        tell: callbacks.Tell = callbacks.ignore,
-        on_checkpoint: OnCheckpoint | None = None,
+        report: callbacks.Report,
+        tell: callbacks.Tell,
+        on_checkpoint: OnCheckpoint,
     ):
         """Records nothing yet; for the calls see `trainer.train`, by which the run's folder is locked."""
         self._run, self._config, self._tell = run, config, tell
         self._report = callbacks.expendable(report, tell, "the report of training")
-        watch = on_checkpoint or (lambda frames, variables: None)
-        self._on_checkpoint = callbacks.expendable(watch, tell, "the watcher of checkpoints (replays)")
+        self._on_checkpoint = callbacks.expendable(on_checkpoint, tell, "the watcher of checkpoints (replays)")
         self._num_interactions = config.load_task().num_interactions
         self._frames = self._updates = self._num_episodes = self._frames_at_row = 0
         self._seconds = 0.0
@@ -56,16 +55,13 @@ class Recorder:
     def resume(self, agent: core.Agent) -> None:
         """Restores the agent and the records from the last checkpoint that is whole, or to the start.
 
-        Raises:
-          ValueError: if none is whole, or it is of another task or does not fit; it names the file.
+        Raises ValueError if none is whole, or it is of another task or does not fit; it names the file.
         """
+        own = self._config.task_name
 
         def accept(tensors: Mapping[str, torch.Tensor], facts: Mapping[str, object]) -> None:
-            if facts.get("task") != self._config.task_name:
-                raise ValueError(
-                    f"the checkpoint is of {facts.get('task')}, the run of {self._config.task_name}; put back the "
-                    "run's own"
-                )
+            if (task := facts.get("task")) != own:
+                raise ValueError(f"the checkpoint is of {task}, the run of {own}; put back the run's own")
             agent.restore(tensors)
 
         found = self._run.checkpointer.latest(self._tell, accept)
@@ -140,7 +136,7 @@ class Recorder:
         """Writes and returns the metrics of the updates since the row before; keeps the episodes of the last one."""
         self._run.check_lock()
         now, discount = time.monotonic(), self._config.agent.discount
-        parts = [self._episodes_of(update) for update in self._window]
+        parts = [self._episodes(update) for update in self._window]
         episodes = episodes_lib.Episodes.joined(parts)
         row = {
             "frames": self._frames,
@@ -159,10 +155,9 @@ class Recorder:
         self._window, self._row_started, self._frames_at_row = [], now, self._frames
         return row
 
-    def _episodes_of(self, update: core.Update) -> episodes_lib.Episodes:
-        played = update.episodes
-        seeds = _environment_seeds(update.seed, len(played.lengths))
-        return episodes_lib.Episodes.of_round(played, self._num_interactions, seeds, update.episode)
+    def _episodes(self, update: core.Update) -> episodes_lib.Episodes:
+        seeds = _environment_seeds(update.seed, len(update.episodes.lengths))
+        return episodes_lib.Episodes.of_round(update.episodes, self._num_interactions, seeds, update.episode)
 
 
 def _mean(values: Sequence[float]) -> float:

@@ -52,9 +52,8 @@ METRICS = {
 Those of its learner follow, `AgentConfig.metrics`: means over the updates since the row before.
 """
 
-_RECORDS = (
-    "metrics.csv", "failed_batch.npz", "agent.safetensors", "checkpoints", "episodes.parquet", "replays", "tensorboard"
-)  # fmt: skip
+_FILES = ("metrics.csv", "failed_batch.npz", "agent.safetensors")
+_FOLDERS = ("checkpoints", "episodes.parquet", "replays", "tensorboard")
 
 EPISODES = pyarrow.schema(
     [
@@ -71,11 +70,17 @@ EPISODES = pyarrow.schema(
 
 
 class Run:
-    """A run's folder."""
+    """A run's folder.
+
+    Attributes:
+      path: the folder.
+      agent_path: the network's variables that `keep_agent_only` writes.
+    """
 
     def __init__(self, path: Path):
         """Names a folder, which may not exist yet."""
         self.path = Path(path).expanduser()
+        self.agent_path = self.path / "agent.safetensors"
         self._metrics_path = self.path / "metrics.csv"
         self._has_lock: Callable[[], bool] | None = None
 
@@ -117,7 +122,7 @@ class Run:
         busy = f"another process is training in {self.path}; wait for it or choose another"
         with lock.locked(self.path, busy) as self._has_lock:
             try:
-                for folder in (self.path, *map(self.path.joinpath, ("episodes.parquet", "checkpoints", "replays"))):
+                for folder in (self.path, *map(self.path.joinpath, _FOLDERS)):
                     files.remove_litter(folder)  # Of a trainer that was killed.
                 yield
             finally:
@@ -175,8 +180,7 @@ class Run:
 
     def set_aside(self) -> Path | None:
         """Moves the records and the configuration into a folder `superseded-N`; returns that, or None without any."""
-        recorded = self._recorded()
-        if not recorded:
+        if not (recorded := self._recorded()):
             return None
         folders = (self.path / f"superseded-{number}" for number in itertools.count(1))
         folder = next(folder for folder in folders if not folder.exists())
@@ -187,7 +191,7 @@ class Run:
         return folder
 
     def _recorded(self) -> list[Path]:
-        return [self.path / name for name in _RECORDS if (self.path / name).exists()]
+        return [path for path in map(self.path.joinpath, _FILES + _FOLDERS) if path.exists()]
 
     # The agent.
 
@@ -196,11 +200,6 @@ class Run:
         """Returns whether the agent has been trained for all its frames."""
         rows = self.metrics()
         return bool(rows) and rows[-1]["frames"] >= self.config.agent.frames
-
-    @property
-    def agent_path(self) -> Path:
-        """Returns the path of the network's variables that `keep_agent_only` writes."""
-        return self.path / "agent.safetensors"
 
     @property
     def checkpointer(self) -> "checkpointing.Checkpointer":

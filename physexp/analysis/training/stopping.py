@@ -14,11 +14,7 @@ TOGETHER_SECONDS = 1.0
 
 
 class Interrupted(KeyboardInterrupt):
-    """This process was asked to end.
-
-    Attributes:
-      number: the signal's.
-    """
+    """This process was asked to end, by the signal `number`."""
 
     def __init__(self, number: int):
         super().__init__(number)

@@ -71,11 +71,10 @@ def train(
     the first checkpoint leaves nothing behind.
 
     Args:
-      run: a run that has been created, unless it is started here.
+      run: where to train.
       report: called with each row of metrics.
       tell: called with a line when something has gone wrong that training survives, such as a watcher that fails.
-      start: the configuration of a new run; None to continue the run in the folder, from its last checkpoint if it has
-        one.
+      start: the configuration of a new run; None to continue that in the folder from its last checkpoint, if any.
       on_checkpoint: called after each checkpoint is written.
 
     Raises:
@@ -96,7 +95,7 @@ def train(
         try:
             agent = make_agent(config)
             _check_room(run, agent)
-            recorder = recorder_lib.Recorder(run, config, report, tell, on_checkpoint)
+            recorder = recorder_lib.Recorder(run, config, report, tell, on_checkpoint or callbacks.ignore)
             recorder.resume(agent)
             with stopping.deferred(agent.stop):
                 _run(agent, recorder, run)
@@ -129,9 +128,8 @@ def _run(agent: core.Agent, recorder: recorder_lib.Recorder, run: run_lib.Run) -
         raise RuntimeError(f"training stopped: {error}{recorder.save_failure(error)}; {_standing(run)}") from None
     except OSError as error:
         run.check_lock()  # A folder that was moved is the cause of other errors.
-        raise RuntimeError(
-            f"training stopped: cannot write to {run.path}: {error.strerror}; put that right; {_standing(run)}"
-        ) from None
+        fault = f"cannot write to {run.path}: {error.strerror}; put that right"
+        raise RuntimeError(f"training stopped: {fault}; {_standing(run)}") from None
 
 
 def _standing(run: run_lib.Run) -> str:

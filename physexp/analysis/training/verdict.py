@@ -10,19 +10,14 @@ _EPISODES = 1000  # The verdict is on at least that many of the last ones: their
 
 
 def verdict(rows: Sequence[dict[str, float]], num_labels: int) -> str | None:
-    """Returns a sentence on an agent that has learned nothing; None for any other.
+    """Returns a sentence on an agent that has learned nothing, from the rows of its metrics; None for any other.
 
-    An agent has learned nothing if more than half of its last episodes ended without an answer, or if chance lies in or
-    above the 95 % interval of its share of right answers.
-
-    Args:
-      rows: `metrics.csv` of the whole run.
-      num_labels: number of possible answers; the chance level is its inverse.
+    An agent has learned nothing if more than half of its last episodes ended without an answer, or if chance, one of
+    `num_labels`, lies in or above the 95 % interval of its share of right answers.
     """
-    episodes, right, unanswered = 0.0, 0.0, 0.0
-    before = [0.0, *(row["episodes"] for row in rows)]
-    for row, earlier in zip(reversed(rows), reversed(before[:-1]), strict=True):
-        count = row["episodes"] - earlier
+    episodes = right = unanswered = 0.0
+    for row, before in zip(reversed(rows), [*reversed(rows[:-1]), {"episodes": 0.0}], strict=False):
+        count = row["episodes"] - before["episodes"]
         episodes += count
         right += count * row["success_rate"]
         unanswered += count * row["timeouts"]

@@ -8,8 +8,8 @@ import pytest
 from tensorboard.backend.event_processing import event_accumulator
 import trainers
 
+from physexp.analysis.training import progress, trainer
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import tensorboard, trainer
 
 FRAMES = 1000
 COMMAND = ["train", "which_is_heavier", "features", "--agent", "ppo", "--num-threads", 1, "--num-environments", 32]
@@ -68,7 +68,7 @@ def test_replays_and_tensorboard_that_cannot_be_written_are_a_line_each(tmp_path
 
 def test_tensorboard_has_every_metric_at_its_steps(tmp_path):
     run = trainers.create(tmp_path / "run", "ppo", frames=FRAMES, checkpoint_seconds=0.01)
-    board = tensorboard.TensorBoard(run)
+    board = progress.TensorBoard(run)
     trainer.train(run, board)
     board.close()
     scalars, rows = logged(run), run.metrics()
@@ -83,7 +83,7 @@ def test_tensorboard_hides_entries_after_the_checkpoint_of_a_resumed_run(tmp_pat
     run = run_lib.Run(tmp_path)
 
     def train(*frames):
-        log = tensorboard.TensorBoard(run)
+        log = progress.TensorBoard(run)
         for number in frames:
             row = {**dict.fromkeys(run_lib.METRICS, 0.5), "frames": number}
             run.append_metrics(row)
