@@ -1,5 +1,7 @@
 """The settings of a calling process stay as they are, and results do not depend on them."""
 
+import json
+
 import interpreters
 import pytest
 
@@ -62,12 +64,11 @@ for task in ("features", "pixels"):
     "load_pretrained": """
 from physexp import agents, suite
 from physexp.agents import environment_loop
-for learner in ("belief",):
-    environment = suite.load("towers", "fist_features", {"random": 0})
-    actor = agents.load_pretrained("towers", "fist_features", agent=learner, seed=1)
-    result.append(environment_loop.EnvironmentLoop(environment, actor).run(3))
-    result.append(actor.policy.tolist())
-    environment.close()
+environment = suite.load("towers", "fist_features", {"random": 0})
+actor = agents.load_pretrained("towers", "fist_features", seed=1)
+result.append(environment_loop.EnvironmentLoop(environment, actor).run(3))
+result.append(actor.policy.tolist())
+environment.close()
 """,
     "train": """
 from physexp.agents.belief import config as belief
@@ -75,17 +76,15 @@ from physexp.agents.ppo import config as ppo
 from physexp.analysis.training import playing
 from physexp.analysis.training import config as config_lib, run as run_lib, trainer
 agents = [
-    ppo.PPOConfig(num_threads=1, num_environments=16, num_minibatches=2, frames=500),
-    belief.BeliefConfig(frames_per_update=64, frames=500),
+    ppo.PPOConfig(num_threads=1, num_environments=16, num_minibatches=2, frames=300),
+    belief.BeliefConfig(frames_per_update=64, frames=300),
 ]
-if __name__ == "__main__":
-    for agent in agents:
-        run = run_lib.Run(Path(agent.algorithm))
-        run.create(config_lib.TrainConfig(domain="which_is_heavier", task="features", agent=agent))
-        trainer.train(run)
-        tensors, _ = run.checkpointer.latest()
-        result.append({name: hashlib.sha256(value.numpy().tobytes()).hexdigest() for name, value in tensors.items()})
-        result.append(playing.evaluate(run, 50).summary(0.95))
+for agent in agents:
+    run = run_lib.Run(Path(agent.algorithm))
+    trainer.train(run, start=config_lib.TrainConfig(domain="which_is_heavier", task="features", agent=agent))
+    tensors, _ = run.checkpointer.latest()
+    result.append({name: hashlib.sha256(value.numpy().tobytes()).hexdigest() for name, value in tensors.items()})
+    result.append(playing.evaluate(run, 50).summary(0.95))
 """,
     "draw": """
 from physexp.analysis.data import plots
@@ -103,18 +102,20 @@ result.append(path.stat().st_size > 0)
 }
 
 
-def run(start, folder):
-    """Does all acts in one fresh process; returns their results, and the settings before and after each."""
+def code_of(start, folder):
+    """Returns a program that does all acts; `found` has their results, and the settings before and after each."""
     folder.mkdir()
     code = f"import os\nos.chdir({str(folder)!r})\n{start}{SETTINGS}found.update(before=before)\n"
-    code += "".join(f"result = []\n{act}\nfound[{name!r}] = [result, settings()]\n" for name, act in ACTS.items())
-    found, _ = interpreters.run(code)
-    return found
+    return code + "".join(f"result = []\n{act}\nfound[{name!r}] = [result, settings()]\n" for name, act in ACTS.items())
 
 
 @pytest.mark.long
-def test_settings_stay_and_results_do_not_depend_on_them(tmp_path):
-    usual, odd = run("", tmp_path / "usual"), run(ODD, tmp_path / "odd")
+def test_settings_stay_and_results_do_not_depend_on_them(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    odd, _ = interpreters.run(code_of(ODD, tmp_path / "odd"))
+    usual = {}  # Of this process, which has imported everything.
+    exec(code_of("", tmp_path / "usual"), {"found": usual, "__name__": "acts"})
+    usual = json.loads(json.dumps(usual))
     for act in ACTS:
         for found in (usual, odd):
             for name, value in found["before"].items():

@@ -53,16 +53,12 @@ def test_every_command_of_the_readme_has_a_test_and_make_has_its_targets():
 
 
 def test_the_first_snippets_need_no_graphics():
-    for block in (FIRST, BATCH):
-        printed = subprocess.run(
-            [sys.executable, "-c", block.code],
-            env={**os.environ, "MUJOCO_GL": "disabled"},
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout
-        assert printed == block.shown
-    assert "heaviest: right" in FIRST.shown
+    run_each = "import sys\nfor code in sys.argv[1:]:\n    exec(code, {'__name__': '__main__'})"
+    command = [sys.executable, "-c", run_each, FIRST.code, BATCH.code]
+    printed = subprocess.run(
+        command, env={**os.environ, "MUJOCO_GL": "disabled"}, capture_output=True, text=True, check=True
+    ).stdout
+    assert printed == FIRST.shown + BATCH.shown and "heaviest: right" in FIRST.shown
 
 
 def test_the_pretrained_agent_counts_at_least_18_of_20_towers():
@@ -106,20 +102,15 @@ def test_an_experiment_draws_its_figure_and_holds_and_the_report_has_it(tmp_path
 
 
 @pytest.mark.long
-def test_the_trained_agent_experiments_well_and_is_scored(tmp_path):
-    # Chance is 0.25. The command reached 0.974 and 0.979 with two seeds: less than 0.92 of 200 has a chance of 1e-5.
+def test_the_trained_agent_experiments_well_and_is_scored(tmp_path, capsys):
     evaluations = []
     for command in (line for line in COMMANDS if line.startswith(TRAINING)):
-        as_json = " --json" if "evaluate" in command and "--json" not in command else ""
-        done = subprocess.run(
-            [sys.executable, "-c", "from physexp import cli; cli.main()", *shlex.split(command + as_json)[1:]],
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        if "evaluate" in command:
-            evaluations.append(json.loads(done.stdout))
+        is_evaluation = command.startswith("physexp evaluate")
+        printed = physexp(command + " --json" * (is_evaluation and "--json" not in command), capsys)
+        if is_evaluation:
+            evaluations.append(json.loads(printed))
     learned, random = evaluations
+    # Chance is 0.25. The command reached 0.974 and 0.979 with two seeds: less than 0.92 of 200 has a chance of 1e-5.
     assert learned["success_rate"] >= 0.92
     assert learned["mean_return"] > random["mean_return"]
     assert learned["median_interactions"] >= 2

@@ -17,7 +17,6 @@ from physexp.agents.belief import config as belief
 from physexp.agents.belief import networks as belief_networks
 
 NAMES = pretrained.names()
-every_agent = pytest.mark.parametrize("name", NAMES)
 
 
 def test_every_task_has_an_agent():
@@ -30,13 +29,19 @@ def test_every_task_has_an_agent():
     assert sum(path.stat().st_size for path in pretrained.FOLDER.rglob("*.safetensors")) < 12e6
 
 
-@every_agent
-def test_an_agent_answers_as_well_as_its_card_says(name):
-    agent = pretrained.load_named(name)
-    card, seed, num_episodes = agent.card, fresh_seed(), 60
+@pytest.mark.parametrize("name", NAMES)
+def test_an_agent_is_found_by_its_options_and_answers_as_well_as_its_card_says(name):
+    card = pretrained.card_named(name)
+    domain, task, options = (card[key] for key in ("domain", "task", "task_kwargs"))
+    *_, stem = name.split("/")
+    assert pretrained.name(domain, task, options) == stem
+    options = {option: np.float32(value) for option, value in options.items()}  # As a user's script may have them.
+    agent = pretrained.load(domain, task, agent=card["agent"]["algorithm"], **options)
+    assert agent.card == card
+    seed, num_episodes = fresh_seed(), 60
     assert card["command"].startswith(f"physexp train {card['domain']} {card['task']}")
     assert {"commit", "seed", "frames", "seconds", "evaluation", "versions"} <= set(card)
-    batch = suite.load_batch(card["domain"], card["task"], num_episodes, {"random": seed, **card["task_kwargs"]})
+    batch = suite.load_batch(domain, task, num_episodes, {"random": seed, **card["task_kwargs"]})
     played = acting.play_round(agent.network, batch, 0, acting.drawn(np.random.default_rng(seed)))
     batch.close()
     right = int((played.rewards.sum(axis=0) > 0).sum())
@@ -45,17 +50,6 @@ def test_an_agent_answers_as_well_as_its_card_says(name):
     # The probabilities after the card's own episodes, if all rates were alike before.
     likely = stats.betabinom(num_episodes, known_right + 1, told["episodes"] - known_right + 1)
     assert min(likely.cdf(right), likely.sf(right - 1)) > P_VALUE
-
-
-@every_agent
-def test_an_agent_is_found_by_the_options_of_its_task(name):
-    card = pretrained.card_named(name)
-    domain, task, options = (card[key] for key in ("domain", "task", "task_kwargs"))
-    *learner, stem = name.split("/")
-    assert pretrained.name(domain, task, options) == stem
-    load = functools.partial(pretrained.load, domain, task, agent=learner[0] if learner else None)
-    assert load(**options).card == card
-    assert load(**{name: np.float32(value) for name, value in options.items()}).card == card
 
 
 def test_an_agent_plays_in_a_loop_and_its_default_is_the_tasks():
@@ -129,17 +123,6 @@ def test_frozen_convolutions_are_drawn_from_the_seed_again(follows, small, tmp_p
         tensors.write(path, weights, card)
         with pytest.raises(ValueError, match="draws other convolutions from seed"):
             pretrained.load_file(path)
-
-
-def test_an_agent_is_found_by_its_learner(small, tmp_path):
-    network, card = small
-    for learner, folder in {"belief": tmp_path, "a3c": tmp_path / "a3c", "ppo": tmp_path / "ppo"}.items():
-        pretrained.save(network, {**card, "agent": {"algorithm": learner}}, folder)
-    assert pretrained.names(tmp_path) == ["a3c/towers-some", "ppo/towers-some", "towers-some"]
-    for learner in ("belief", "a3c", "ppo"):
-        found = pretrained.load("towers", "some", agent=learner, folder=tmp_path)
-        assert found.card["agent"]["algorithm"] == learner
-    assert pretrained.load("towers", "some", folder=tmp_path).card["agent"]["algorithm"] == "belief"
 
 
 def test_without_options_the_only_agent_or_the_default_is_taken(small, tmp_path):

@@ -4,7 +4,6 @@ from collections.abc import Callable
 import dataclasses
 import json
 from pathlib import Path
-import shutil
 import subprocess
 
 import subjects
@@ -17,12 +16,10 @@ from physexp.analysis.training import run as run_lib
 
 
 def make(folder: Path) -> None:
-    """Makes one of each: `run`, `kept` (the agent alone), `published`, `score`."""
+    """Makes one of each: `run`, `published`, `score`."""
     run = run_lib.Run(folder / "run")
     run.create(subjects.config())
     subjects.train(run.path)
-    shutil.copytree(run.path, folder / "kept")
-    run_lib.Run(folder / "kept").keep_agent_only()
     subjects.publish(folder / "published", 3)
     scoring.score(targets.find("random"), protocol.named(["threshold/features"]), 2, folder / "score")
 
@@ -45,11 +42,6 @@ def read_checkpoint(folder):
     if told:
         raise ValueError(told[0])
     return _bytes(tensors), facts
-
-
-def read_kept(folder):
-    network, config, _ = finding.find_agent(str(folder / "kept"))
-    return _bytes(network.state_dict()), config
 
 
 def read_published(folder):
@@ -120,7 +112,6 @@ FILES = {
     "config.json": File("run/config.json", read_config, has_checksum=False),
     "metrics.csv": File("run/metrics.csv", read_metrics, has_checksum=False),
     "checkpoint": File("run/checkpoints/*.safetensors", read_checkpoint),
-    "kept agent": File("kept/agent.safetensors", read_kept),
     "published agent": File("published/*.safetensors", read_published),
     "episodes.parquet": File("run/episodes.parquet/*.parquet", read_episodes, has_checksum=False),
     "log of a score": File("score/actions.parquet", read_log, has_checksum=False),

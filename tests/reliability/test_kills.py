@@ -1,6 +1,7 @@
 """A process that is killed while it writes leaves the old file or the new one, and the next process goes on."""
 
 import functools
+import itertools
 import shutil
 
 import attacks
@@ -18,14 +19,14 @@ from physexp.analysis.training import run as run_lib
 pytestmark = pytest.mark.long
 
 
-def killed(kind, function, extent, folders, repetitions, share):
-    """Yields each folder after `function(folder)` was killed at some moment, or has ended before."""
+def killed(kind, function, extent, folders, repetitions, share, *args):
+    """Yields each folder after `function(folder, *args)` was killed at some moment, or has ended before."""
     generator = attacks.generator()
     with attacks.Tally(f"kill, {kind}") as tally:
         for _, folder in zip(range(attacks.repetitions(repetitions, share)), folders, strict=False):
             death = extent.draw(generator)
             print(death)
-            end = attacks.run(function, folder, first=death)
+            end = attacks.run(function, folder, *args, first=death)
             assert end.was_killed or end.code == 0, (death, end.said)
             tally["killed" if end.was_killed else "not killed"] += 1
             yield folder
@@ -37,7 +38,7 @@ def go_on(function, folder):
 
 
 def new_folders(path):
-    return (path / f"attack-{number}" for number in range(1_000_000))
+    return (path / f"attack-{number}" for number in itertools.count())
 
 
 # One file.
@@ -54,34 +55,18 @@ def read_checkpoint(folder):
     return facts["number"]
 
 
-WRITES = {
-    "checkpoint": (write_checkpoint, read_checkpoint),
-    "published agent": (subjects.publish, subjects.published),
-}
-"""Kinds of writes: a function that writes a number, and one that reads it back."""
-
-
-def write_second(kind, folder):
-    WRITES[kind][0](folder, 1)
-
-
-@pytest.mark.parametrize("kind", WRITES)
-def test_a_killed_writer_leaves_the_old_file_or_the_new_one(kind, tmp_path):
-    write, read = WRITES[kind]
-
+def test_a_killed_writer_leaves_the_old_file_or_the_new_one(tmp_path):
     def folders():
         for folder in new_folders(tmp_path):
-            folder.mkdir()
-            write(folder, 0)
+            write_checkpoint(folder, 0)
             yield folder
 
-    second = functools.partial(write_second, kind)
-    extent = attacks.measure(second, next(folders()))
-    shutil.rmtree(tmp_path / "attack-0")
-    for folder in killed(kind, second, extent, folders(), 6, share=0.2):
-        assert read(folder) in (0, 1)
-        write(folder, 2)
-        assert read(folder) == 2
+    extent = attacks.measure(write_checkpoint, next(folders()), 1)
+    for folder in killed("checkpoint", write_checkpoint, extent, folders(), 6, 0.2, 1):
+        assert read_checkpoint(folder) in (0, 1)
+        write_checkpoint(folder, 2)
+        assert read_checkpoint(folder) == 2
+        assert attacks.litter(folder) == []
 
 
 @functools.cache
@@ -146,7 +131,7 @@ def score(folder):
 
 def test_a_killed_score_goes_on_to_the_same_log(tmp_path):
     extent = attacks.measure(score, tmp_path / "whole")
-    for folder in killed("score", score, extent, new_folders(tmp_path), 3, share=0.1):
+    for folder in killed("score", score, extent, new_folders(tmp_path), 2, share=0.1):
         if not (folder / scoring.FILE).exists() or (folder / playing.FILE).exists():
             go_on(score, folder)
         assert log.read(folder).equals(log.read(tmp_path / "whole"))

@@ -5,9 +5,12 @@ import os
 import secrets
 
 import dm_env
+import mujoco
 import numpy as np
+import pytest
 
 from physexp import suite
+from physexp.suite.engine import snapshots
 
 # From the operating system, or from PHYSEXP_TEST_SEED to replay a failure.
 SEED = int(os.environ.get("PHYSEXP_TEST_SEED", secrets.randbits(31)))
@@ -23,6 +26,38 @@ def _load_task(domain, **options):
 def drawn(domain, seeds, indices, **options):
     """Returns the hidden properties of some episodes of a domain."""
     return _load_task(domain, **options).draw(seeds, indices)
+
+
+def drawn_with_answers(domain, seed, **options):
+    """Returns the hidden properties and the answers of the first 100 000 episodes of a seed."""
+    hidden = drawn(domain, np.full(100_000, seed), np.arange(100_000), **options)
+    return hidden, _load_task(domain, **options).answers(hidden)
+
+
+features_and_pixels = pytest.mark.parametrize("task", ["features", "pixels"])
+
+
+def play(rng, batch, hidden, draw=None):
+    """Plays interactions, random ones or from `draw()`, up to the last step; yields them and what is observed."""
+    batch.reset(hidden=hidden)
+    for _ in range(batch.task.rules.step_limit - 1):
+        actions = draw() if draw else rng.integers(batch.task.num_interactions, size=len(hidden))
+        yield actions, batch.step(actions).observation
+
+
+def coordinates(batch) -> np.ndarray:
+    """Returns the coordinates of all environments, `qpos`, [N, nq]."""
+    return np.array([snapshots.view(batch, "qpos", row) for row in range(batch.num_environments)])
+
+
+def assert_moves_as(models, controls, rng, batch, hidden, atol) -> None:
+    """Random interactions move things as MuJoCo moves those of models into which the hidden property is compiled."""
+    data = [mujoco.MjData(model) for model in models]
+    for actions, _ in play(rng, batch, hidden):
+        for model, state, action in zip(models, data, actions, strict=True):
+            state.ctrl[:] = controls[action]
+            mujoco.mj_step(model, state, nstep=batch.task.options.substeps)
+        np.testing.assert_allclose(coordinates(batch), [state.qpos for state in data], atol=atol)
 
 
 def random_actions(rng, task, size):

@@ -9,7 +9,9 @@ import pytest
 from physexp import suite
 from physexp.suite.engine import snapshots
 
-STEPS = 100  # Control steps to compare: some episodes of every task.
+# One compiled model and many, contacts, and geoms that indicate readings: all that drawing knows.
+PIXELS = ["which_is_heavier/pixels", "towers/fist_pixels", "sealed_box/pixels"]
+STEPS = 60  # Control steps to compare: some episodes of every task.
 
 
 def _load_both(name, seed, size, num_threads=1, **task_kwargs):
@@ -25,18 +27,20 @@ def _assert_same_questions(batch, singles) -> None:
         np.testing.assert_array_equal(hidden, single.task.hidden)
 
 
-@every_feature_task
+@pytest.mark.parametrize("name", [*FEATURES, *PIXELS])
 def test_a_batch_is_its_single_environments(seed, name):
-    """All step, then some step, some are reset in the middle of an episode, and some wait."""
+    """All step, one until its time is out; then some step, some are reset in an episode's middle, and some wait."""
     rng, size = np.random.default_rng(seed), 3
-    batch, singles = _load_both(name, seed, size, num_threads=2)
+    batch, singles = _load_both(name, seed, size, num_threads=2, time_limit=2.0)
     assert batch.action_spec() == singles[0].action_spec()
     assert batch.reward_spec() == singles[0].reward_spec() and batch.discount_spec() == singles[0].discount_spec()
     assert dict(batch.observation_spec()) == dict(singles[0].observation_spec())
     assert_same(batch.reset(), [single.reset() for single in singles])
-    for _ in range(STEPS):
+    for step in range(STEPS):
         _assert_same_questions(batch, singles)
         actions = random_actions(rng, batch.task, size)
+        if step < batch.task.rules.step_limit:
+            actions[0] %= batch.task.num_interactions
         assert_same(batch.step(actions), [single.step(a) for single, a in zip(singles, actions, strict=True)])
     for _ in range(STEPS // 2):
         chosen = np.flatnonzero(rng.random(size) < 0.6)
@@ -48,6 +52,8 @@ def test_a_batch_is_its_single_environments(seed, name):
             expected = [singles[i].reset() for i in chosen]
             assert_same(batch.reset(environments=chosen), expected)
         _assert_same_questions(batch, singles)
+    for each in (batch, *singles):
+        each.close()
 
 
 @every_feature_task

@@ -64,6 +64,27 @@ def test_only_the_right_label_earns_one_and_silence_loses_one(env):
     assert env.step(np.int32(0)).first()
 
 
+@pytest.mark.parametrize(
+    "domain, kind, num_interactions, num_labels, step_limit",
+    [("which_is_heavier", "", 4, 4, 100), ("towers", "direct_", 20, 5, 26), ("towers", "fist_", 4, 5, 26)],
+)
+def test_the_numbers_of_the_papers_tasks_are_those_that_users_code_is_written_against(
+    domain, kind, num_interactions, num_labels, step_limit
+):
+    for observed in ("features", "pixels"):
+        assert (domain, f"{kind}{observed}") in suite.ALL_TASKS and f"{kind}{observed}" in suite.TASKS_BY_DOMAIN[domain]
+        environment = suite.load(domain, f"{kind}{observed}", task_kwargs={"random": 0})
+        assert isinstance(environment, dm_env.Environment)
+        task, spec = environment.task, environment.observation_spec()
+        assert (task.num_interactions, task.num_labels) == (num_interactions, num_labels)
+        assert task.rules.step_limit == step_limit
+        if observed == "pixels":
+            assert [(key, one.shape, one.dtype) for key, one in spec.items()] == [("pixels", (84, 84, 3), np.uint8)]
+        else:
+            assert all(one.dtype == np.float32 for one in spec.values())
+        environment.close()
+
+
 @every_feature_task
 def test_the_right_label_in_the_last_step_still_earns_one(env):
     env.reset()

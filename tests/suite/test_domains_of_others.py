@@ -1,10 +1,8 @@
 """A domain of another package works as the package's own: in the suite, Gymnasium, training, score and commands."""
 
+import json
 import os
 from pathlib import Path
-import shutil
-import subprocess
-import sys
 import textwrap
 
 import interpreters
@@ -24,45 +22,13 @@ def install(folder: Path, entry_points: str, **modules: str) -> str:
     return os.pathsep.join(filter(None, (str(folder), os.environ.get("PYTHONPATH"))))
 
 
-@pytest.fixture(scope="module")
-def path(tmp_path_factory):
-    """The search path with an installed package that has the domain `loose`, its facts and an ideal experimenter."""
-    folder = tmp_path_factory.mktemp("site")
-    for name in ("loose", "loose_facts"):
-        shutil.copy(EXAMPLES / f"{name}.py", folder)
-    return install(
-        folder,
-        """
-        [physexp.domains]
-        loose = loose
-
-        [physexp.facts]
-        loose = loose_facts:DOMAIN
-        """,
-    )
-
-
-def _run(path: str, *arguments: str, folder: Path) -> str:
-    """Returns the output of a command line."""
-    finished = subprocess.run(
-        [sys.executable, "-m", "physexp", *arguments],
-        env={**os.environ, "PYTHONPATH": path},
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert finished.returncode == 0, finished.stderr
-    return finished.stdout
-
-
-def test_the_suite_gymnasium_and_the_ideal_know_it(path):
-    code = """
+CODE = """
+import contextlib, io, sys
 import gymnasium, numpy as np
-from physexp import suite
-from physexp.analysis import domains
+from physexp import cli, suite
 import physexp.suite.gymnasium
-found["tasks"] = suite.TASKS_BY_DOMAIN["loose"]
+
+found["names"] = suite.TASKS_BY_DOMAIN["loose"]
 batch = suite.load_batch("loose", "features", 3, {"random": 0})
 single = suite.load("loose", "features", {"random": suite.environment_seed(0, 2)})
 step, alone = batch.reset(), single.reset()
@@ -72,23 +38,38 @@ for action in (0, 1, 2):
 environment = gymnasium.make("physexp/loose-features-v0", random=1)
 environment.reset()
 found["reward"] = environment.step(4 + environment.unwrapped.dm_env.task.correct_answer)[1]
-found["value"] = domains.find("loose").ideal("features", {}, 0.95).value
+
+def run(line):
+    sys.argv = line.split()
+    with contextlib.redirect_stdout(io.StringIO()) as output, contextlib.suppress(SystemExit):
+        cli.main()
+    return output.getvalue()
+
+for line in (
+    "physexp tasks",
+    "physexp train loose features --help",
+    "physexp train loose features --agent ppo --frames 300 --run-dir run",
+    "physexp ideal loose --json",
+    "physexp score run --episodes 5 --json",
+):
+    found[line.split()[1] + line.partition("--help")[1]] = run(line)
 """
-    found, _ = interpreters.run(code, PYTHONPATH=path)
-    assert found["tasks"] == ["features", "pixels"] and found["reward"] == 1
+
+
+def test_the_suite_gymnasium_and_all_commands_know_it(tmp_path, monkeypatch):
+    """Of an installed package that has the domain `loose`, its facts and an ideal experimenter."""
+    modules = {name: (EXAMPLES / f"{name}.py").read_text() for name in ("loose", "loose_facts")}
+    path = install(
+        tmp_path, "[physexp.domains]\nloose = loose\n\n[physexp.facts]\nloose = loose_facts:DOMAIN\n", **modules
+    )
+    monkeypatch.chdir(tmp_path)
+    found, _ = interpreters.run(CODE, PYTHONPATH=path)
+    assert found["names"] == ["features", "pixels"] and found["reward"] == 1
+    assert "Which block is loose?" in found["tasks"] and "--rail-stiffness" in found["train--help"]
     # The ideal pulls up to three of the four blocks. 1/4 (g + g^2 + 2 g^3) with g = 0.95.
-    assert found["value"] == pytest.approx((0.95 + 0.95**2 + 2 * 0.95**3) / 4)
-
-
-def test_commands_train_solve_and_score_it(path, tmp_path):
-    assert "loose" in _run(path, "tasks", folder=tmp_path)
-    assert "--rail-stiffness" in _run(path, "train", "loose", "features", "--help", folder=tmp_path)
-    train = ["train", "loose", "features", "--agent", "ppo", "--frames", "500", "--run-dir", "run"]
-    _run(path, *train, folder=tmp_path)
+    assert json.loads(found["ideal"])["value"] == pytest.approx((0.95 + 0.95**2 + 2 * 0.95**3) / 4)
     assert (tmp_path / "run" / "config.json").exists()
-    assert "0.89" in _run(path, "ideal", "loose", folder=tmp_path)
-    scored = _run(path, "score", "run", "--episodes", "20", "--json", folder=tmp_path)
-    assert "loose" in scored and (tmp_path / "scores").is_dir()
+    assert json.loads(found["score"])["tasks"]["loose/features"]["episodes"] == 5 and (tmp_path / "scores").is_dir()
 
 
 @pytest.mark.parametrize(

@@ -8,17 +8,10 @@ import pytest
 
 from physexp import suite
 from physexp.suite.domains import sealed_box
-from physexp.suite.engine import snapshots
 
-TASKS = [("sealed_box", "features"), ("sealed_box", "pixels")]
 ALL = np.arange(len(sealed_box.ALL_CONTENTS))
 FORCES = np.array([*sealed_box.PUSHES.values(), 0.0])
 WAIT = 4
-
-
-def _places(batch) -> np.ndarray:
-    """Positions of boxes and weights, m [N, 2]."""
-    return np.array([snapshots.view(batch, "qpos", row) for row in range(len(batch.correct_answers))])
 
 
 def _compiled(content: sealed_box.Content) -> mujoco.MjModel:
@@ -43,18 +36,9 @@ def _compiled(content: sealed_box.Content) -> mujoco.MjModel:
 
 
 def test_boxes_move_as_if_their_content_were_compiled_into_them(seed):
-    rng = np.random.default_rng(seed)
     batch = suite.load_batch("sealed_box", "features", len(ALL), {"random": seed})
-    batch.reset(hidden=ALL)
     models = [_compiled(content) for content in sealed_box.ALL_CONTENTS]
-    data = [mujoco.MjData(model) for model in models]
-    for _ in range(batch.task.rules.step_limit - 1):
-        actions = rng.integers(len(FORCES), size=len(ALL))
-        batch.step(actions)
-        for model, state, action in zip(models, data, actions, strict=True):
-            state.ctrl[:] = FORCES[action]
-            mujoco.mj_step(model, state, nstep=5)
-        np.testing.assert_allclose(_places(batch), [state.qpos for state in data], atol=1e-9)
+    episodes.assert_moves_as(models, FORCES, np.random.default_rng(seed), batch, ALL, atol=1e-9)
 
 
 @pytest.mark.parametrize("control_timestep", [0.02, 0.06])
@@ -63,9 +47,9 @@ def test_no_box_leaves_the_bounds_however_it_is_pushed(control_timestep):
     kwargs = {"control_timestep": control_timestep, "time_limit": 12.0, "difficulty": 3}
     batch = suite.load_batch("sealed_box", "features", len(ALL), {"random": 0, **kwargs})
     batch.reset(hidden=ALL)
-    before, bound = _places(batch)[:, 0], batch.observation_spec()["place"].maximum.item()
+    before, bound = episodes.coordinates(batch)[:, 0], batch.observation_spec()["place"].maximum.item()
     for _ in range(batch.task.rules.step_limit - 1):
-        now = _places(batch)[:, 0]
+        now = episodes.coordinates(batch)[:, 0]
         assert (np.abs(now) <= bound * 0.003).all()
         batch.step(np.where(now >= before, FORCES.argmax(), FORCES.argmin()))
         before = now
@@ -73,44 +57,34 @@ def test_no_box_leaves_the_bounds_however_it_is_pushed(control_timestep):
 
 @pytest.mark.parametrize("difficulty, mark", [(1, 0.010), (2, 0.005), (3, 0.003)])
 def test_only_who_waits_sees_the_box_and_to_a_mark(seed, difficulty, mark):
-    rng = np.random.default_rng(seed)
     contents = np.tile(ALL, 4)
     kwargs = {"random": seed, "difficulty": difficulty}
     batch = suite.load_batch("sealed_box", "features", len(contents), kwargs)
-    batch.reset(hidden=contents)
-    for _ in range(batch.task.rules.step_limit - 1):
-        actions = rng.integers(len(FORCES), size=len(contents))
-        seen = {name: value[:, 0] for name, value in batch.step(actions).observation.items()}
+    for actions, observation in episodes.play(np.random.default_rng(seed), batch, contents):
+        seen = {name: value[:, 0] for name, value in observation.items()}
         np.testing.assert_array_equal(seen["push"], FORCES[actions] / 4)
         np.testing.assert_array_equal(seen["covered"], actions != WAIT)
-        marks = np.round(_places(batch)[:, 0] / mark)
+        marks = np.round(episodes.coordinates(batch)[:, 0] / mark)
         np.testing.assert_array_equal(seen["place"], np.where(actions == WAIT, marks, 0))
         assert not np.signbit(seen["place"][seen["place"] == 0]).any()  # -0 would tell the side.
 
 
-@pytest.mark.parametrize("domain_name, task_name", TASKS)
-def test_observations_tell_nothing_but_the_push_and_the_place(seed, domain_name, task_name):
+@episodes.features_and_pixels
+def test_observations_tell_nothing_but_the_push_and_the_place(seed, task):
     """Observations follow from these two, for all contents and all histories."""
-    rng = np.random.default_rng(seed)
     contents = np.tile(ALL, 4)
-    batch = suite.load_batch(domain_name, task_name, len(contents), {"random": seed, "difficulty": 1})
-    batch.reset(hidden=contents)
+    batch = suite.load_batch("sealed_box", task, len(contents), {"random": seed, "difficulty": 1})
     followed = episodes.Followed()
-    for _ in range(batch.task.rules.step_limit - 1):
-        actions = rng.integers(len(FORCES), size=len(contents))
-        observation = batch.step(actions).observation
-        marks = np.where(actions == WAIT, np.round(_places(batch)[:, 0] / 0.010), 0)
+    for actions, observation in episodes.play(np.random.default_rng(seed), batch, contents):
+        marks = np.where(actions == WAIT, np.round(episodes.coordinates(batch)[:, 0] / 0.010), 0)
         followed.add(zip(actions, marks, strict=True), observation)
     # Four pushes, and a place for each mark that was reached.
     assert len([key for key in followed.shown if key[0] != WAIT]) == 4 and followed.num_different() > 20
 
 
 def test_kinds_are_equally_likely_and_so_are_the_contents_of_one_kind(seed):
-    """Each content's share of 100 000 episodes is what its probability makes likely."""
-    count = 100_000
-    drawn = episodes.drawn("sealed_box", np.full(count, seed), np.arange(count))
-    kinds = [content.kind for content in sealed_box.ALL_CONTENTS]
-    expected = np.array([1 / 4 / kinds.count(kind) for kind in kinds])
-    assert [kinds.count(kind) for kind in range(4)] == [6, 12, 12, 12]
-    chance.assert_drawn(np.bincount(drawn, minlength=len(ALL)), expected)
-    assert suite.load_task("sealed_box", "features").answers(ALL).tolist() == kinds
+    drawn, answers = episodes.drawn_with_answers("sealed_box", seed)
+    kinds = np.array([content.kind for content in sealed_box.ALL_CONTENTS])
+    assert np.bincount(kinds).tolist() == [6, 12, 12, 12]
+    chance.assert_drawn(np.bincount(drawn, minlength=len(ALL)), 1 / 4 / np.bincount(kinds)[kinds])
+    np.testing.assert_array_equal(answers, kinds[drawn])

@@ -8,15 +8,8 @@ import pytest
 
 from physexp import suite
 from physexp.suite.domains import strike
-from physexp.suite.engine import snapshots
 
-TASKS = [("strike", "features"), ("strike", "pixels")]
 ALL = np.arange(len(strike.PUCKS))
-
-
-def _positions(batch) -> np.ndarray:
-    """Positions of the pucks, m [N]."""
-    return np.array([snapshots.view(batch, "qpos", row)[0] for row in range(len(batch.correct_answers))])
 
 
 def _played_out(environment, label: int) -> float:
@@ -70,57 +63,36 @@ def _compiled(mass: float, friction: float) -> mujoco.MjModel:
 
 
 def test_pucks_move_as_if_mass_and_friction_were_compiled_into_them(seed):
-    rng = np.random.default_rng(seed)
     batch = suite.load_batch("strike", "features", len(ALL), {"random": seed})
-    batch.reset(hidden=ALL)
     models = [_compiled(*values) for values in zip(*strike.properties(ALL, 0.7), strict=True)]
-    data = [mujoco.MjData(model) for model in models]
-    for _ in range(batch.task.rules.step_limit - 1):
-        actions = rng.integers(3, size=len(ALL))
-        batch.step(actions)
-        for model, state, action in zip(models, data, actions, strict=True):
-            state.ctrl[:] = strike.POKES[action]
-            mujoco.mj_step(model, state, nstep=10)
-        np.testing.assert_allclose(_positions(batch), [state.qpos[0] for state in data], atol=1e-7)
+    episodes.assert_moves_as(models, strike.POKES, np.random.default_rng(seed), batch, ALL, atol=1e-7)
 
 
 @pytest.mark.parametrize("difficulty, gates", [(1, 5), (2, 10), (3, 15)])
 def test_what_is_read_is_the_poke_and_the_last_gate_that_was_passed(seed, difficulty, gates):
-    rng = np.random.default_rng(seed)
     batch = suite.load_batch("strike", "features", len(ALL), {"random": seed, "difficulty": difficulty})
-    batch.reset(hidden=ALL)
     read = []
-    for _ in range(batch.task.rules.step_limit - 1):
-        actions = rng.integers(3, size=len(ALL))
-        seen = {name: value[:, 0] for name, value in batch.step(actions).observation.items()}
-        np.testing.assert_allclose(seen["strength"], np.array(strike.POKES)[actions] / 9)
-        passed = [(position >= np.arange(1, gates + 1) * 0.3 / gates).sum() for position in _positions(batch)]
-        np.testing.assert_array_equal(seen["gate"], passed)
+    for actions, seen in episodes.play(np.random.default_rng(seed), batch, ALL):
+        np.testing.assert_allclose(seen["strength"][:, 0], np.array(strike.POKES)[actions] / 9)
+        passed = (episodes.coordinates(batch) >= np.arange(1, gates + 1) * 0.3 / gates).sum(axis=1)
+        np.testing.assert_array_equal(seen["gate"][:, 0], passed)
         read.append(passed)
     assert np.min(read) < gates / 2 and np.max(read) == gates  # Near and far gates are read, whatever the pokes were.
 
 
-@pytest.mark.parametrize("domain_name, task_name", TASKS)
-def test_observations_tell_nothing_but_the_poke_and_the_gate(seed, domain_name, task_name):
+@episodes.features_and_pixels
+def test_observations_tell_nothing_but_the_poke_and_the_gate(seed, task):
     """Observations follow from these two, for all pucks and all histories, though the puck moves."""
-    rng = np.random.default_rng(seed)
     pucks = np.tile(ALL, 2)
-    batch = suite.load_batch(domain_name, task_name, len(pucks), {"random": seed})
-    batch.reset(hidden=pucks)
+    batch = suite.load_batch("strike", task, len(pucks), {"random": seed})
     followed = episodes.Followed()
-    for _ in range(batch.task.rules.step_limit - 1):
-        actions = rng.integers(3, size=len(pucks))
-        observation = batch.step(actions).observation
-        gates = np.clip(np.floor(_positions(batch) / 0.03), 0, 10)
+    for actions, observation in episodes.play(np.random.default_rng(seed), batch, pucks):
+        gates = np.clip(np.floor(episodes.coordinates(batch)[:, 0] / 0.03), 0, 10)
         followed.add(zip(actions, gates, strict=True), observation)
     assert followed.num_different() > 25  # Of three pokes and eleven gates.
 
 
 def test_strikes_are_equally_likely_and_so_are_the_pucks(seed):
-    """Each puck's share of 100 000 episodes is what its probability makes likely."""
-    count = 100_000
-    drawn = episodes.drawn("strike", np.full(count, seed), np.arange(count))
-    expected = np.full(len(ALL), 1 / len(ALL))
-    chance.assert_drawn(np.bincount(drawn, minlength=len(ALL)), expected)
-    answers = suite.load_task("strike", "features").answers(ALL)
-    assert np.bincount(answers).tolist() == [len(ALL) // 7] * 7
+    drawn, answers = episodes.drawn_with_answers("strike", seed)
+    chance.assert_drawn(np.bincount(drawn, minlength=len(ALL)), np.full(len(ALL), 1 / len(ALL)))
+    chance.assert_drawn(np.bincount(answers, minlength=7), [1 / 7] * 7)

@@ -10,7 +10,6 @@ import pytest
 from physexp import suite
 from physexp.suite.domains import strings
 
-TASKS = [("strings", "features"), ("strings", "pixels")]
 LEAST, GREATEST = strings.SLACKS
 
 
@@ -29,70 +28,53 @@ def _moved(slacks: np.ndarray, clamped: int, pulled: int) -> np.ndarray:
     return np.linalg.matrix_power(joined, 2)[pulled] > 0
 
 
-class Player:
-    """Plays random interactions in a batch and follows the clamp."""
-
-    def __init__(self, rng, batch, slacks):
-        self._rng, self._batch, self._slacks = rng, batch, slacks
-        self.first = batch.reset(hidden=slacks).observation
-        self.clamped = np.full(len(slacks), -1)
-
-    def step(self):
-        """Returns the observation, the pulled pucks, and the pucks that should be away, bool [N, 3]."""
-        actions = self._rng.integers(6, size=len(self.clamped))
-        moved = actions - 3
-        self.clamped = np.where(moved < 0, self.clamped, np.where(self.clamped == moved, -1, moved))
+def _play(rng, batch, slacks):
+    """Plays; yields what is pulled, clamped and should be away, bool [N, 3] each, and what is observed."""
+    clamped = np.full(len(slacks), -1)
+    for actions, seen in episodes.play(rng, batch, slacks):
+        clamped = np.where(actions < 3, clamped, np.where(clamped == actions - 3, -1, actions - 3))
         away = [
-            _moved(slacks, clamped, action) if action < 3 else np.zeros(3, bool)
-            for slacks, clamped, action in zip(self._slacks, self.clamped, actions, strict=True)
+            _moved(bands, clamp, action) if action < 3 else np.zeros(3, bool)
+            for bands, clamp, action in zip(slacks, clamped, actions, strict=True)
         ]
-        return self._batch.step(actions).observation, actions[:, None] == np.arange(3), np.array(away)
+        yield actions[:, None] == np.arange(3), clamped[:, None] == np.arange(3), np.array(away), seen
 
 
 @pytest.mark.parametrize("control_timestep", [0.1, 0.11, 0.25])
 def test_a_pull_moves_all_joined_pucks_past_no_clamp(seed, control_timestep):
     rng = np.random.default_rng(seed)
-    drawn = episodes.drawn("strings", *rng.integers(2**31, size=(2, 100)))
-    slacks = np.concatenate([np.repeat(_extremes(), 8, axis=0), drawn])
-    kwargs = {"random": seed, "control_timestep": control_timestep, "time_limit": 60 * control_timestep}
-    player = Player(rng, suite.load_batch("strings", "features", len(slacks), kwargs), slacks)
-    assert not any(values.any() for values in player.first.values())
-    for _ in range(50):
-        seen, pulled, away = player.step()
-        np.testing.assert_array_equal(seen["pulled"], pulled)
-        np.testing.assert_array_equal(seen["clamped"], player.clamped[:, None] == np.arange(3))
-        np.testing.assert_array_equal(seen["away"], away)
+    drawn = episodes.drawn("strings", *rng.integers(2**31, size=(2, 60)))
+    slacks = np.concatenate([np.repeat(_extremes(), 5, axis=0), drawn])
+    kwargs = {"random": seed, "control_timestep": control_timestep, "time_limit": 50 * control_timestep}
+    batch = suite.load_batch("strings", "features", len(slacks), kwargs)
+    assert not any(values.any() for values in batch.reset(hidden=slacks).observation.values())
+    for *expected, seen in _play(rng, batch, slacks):
+        for name, values in zip(("pulled", "clamped", "away"), expected, strict=True):
+            np.testing.assert_array_equal(seen[name], values)
 
 
-@pytest.mark.parametrize("domain_name, task_name", TASKS)
-def test_observations_tell_nothing_but_what_is_pulled_clamped_and_away(seed, domain_name, task_name):
+@episodes.features_and_pixels
+def test_observations_tell_nothing_but_what_is_pulled_clamped_and_away(seed, task):
     """Observations follow from these three, for all slacks and all histories."""
-    rng = np.random.default_rng(seed)
-    slacks = np.repeat(
-        _extremes(), 12, axis=0
-    )  # So many that each of the 31 is seen but in one run of a hundred million.
-    player = Player(rng, suite.load_batch(domain_name, task_name, len(slacks), {"random": seed}), slacks)
+    slacks = np.repeat(_extremes(), 12, axis=0)  # So many that all 31 are seen but in one run of a hundred million.
+    batch = suite.load_batch("strings", task, len(slacks), {"random": seed})
     followed = episodes.Followed()
-    for _ in range(19):
-        observation, pulled, away = player.step()
-        followed.add(map(tuple, np.column_stack([pulled, away, player.clamped])), observation)
+    for *expected, observation in _play(np.random.default_rng(seed), batch, slacks):
+        followed.add(map(tuple, np.hstack(expected)), observation)
     # Nothing pulled, with each clamp or none: 4. Each pulled without a clamp, and others with it or not: 3 * 4; clamped
     # itself: 3; or past another's clamp, and the third with it or not: 3 * 2 * 2.
     assert followed.num_different() == 4 + 12 + 3 + 12
 
 
-def test_graphs_follow_the_prior_and_slacks_are_within_their_range(seed):
-    """Each graph's share of 100 000 episodes is what its probability makes likely."""
-    count = 100_000
-    for difficulty in (1, 2, 3.5):
-        slacks = episodes.drawn("strings", np.full(count, seed), np.arange(count), difficulty=difficulty)
-        graphs = suite.load_task("strings", "features").answers(slacks)
-        bands = np.array([0, 1, 1, 2, 1, 2, 2, 3])  # Bits of the labels' numbers.
-        expected = difficulty ** (3 - bands) / (1 + difficulty) ** 3
-        np.testing.assert_allclose(strings.prior(difficulty), expected)
-        chance.assert_drawn(np.bincount(graphs, minlength=8), expected)
-        drawn = slacks[slacks > 0]
-        assert LEAST <= drawn.min() < LEAST + 1e-5 and GREATEST - 1e-5 < drawn.max() < GREATEST
+@pytest.mark.parametrize("difficulty", [1, 2, 3.5])
+def test_graphs_follow_the_prior_and_slacks_are_within_their_range(seed, difficulty):
+    slacks, graphs = episodes.drawn_with_answers("strings", seed, difficulty=difficulty)
+    bands = np.array([0, 1, 1, 2, 1, 2, 2, 3])  # Bits of the labels' numbers.
+    expected = difficulty ** (3 - bands) / (1 + difficulty) ** 3
+    np.testing.assert_allclose(strings.prior(difficulty), expected)
+    chance.assert_drawn(np.bincount(graphs, minlength=8), expected)
+    drawn = slacks[slacks > 0]
+    assert LEAST <= drawn.min() < LEAST + 1e-5 and GREATEST - 1e-5 < drawn.max() < GREATEST
 
 
 def test_answers_are_named_after_the_pairs_that_are_joined():

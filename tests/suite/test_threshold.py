@@ -7,9 +7,7 @@ import pytest
 
 from physexp import suite
 from physexp.suite.domains import threshold
-from physexp.suite.engine import snapshots
 
-TASKS = [("threshold", "features"), ("threshold", "pixels")]
 LEVELS = threshold.LEVEL_SPACING * np.arange(1, threshold.NUM_LEVELS + 1)  # N
 
 
@@ -28,9 +26,7 @@ def test_a_push_moves_the_block_if_and_only_if_its_force_is_above_friction(seed,
     batch = suite.load_batch("threshold", "features", len(frictions), kwargs)
     first = batch.reset(hidden=frictions).observation
     assert (first["slid"] == 0).all() and (first["strength"] == 0).all()
-    for _ in range(batch.task.rules.step_limit - 1):
-        pushes = rng.integers(threshold.NUM_LEVELS, size=len(frictions))
-        seen = batch.step(pushes).observation
+    for pushes, seen in episodes.play(rng, batch, frictions):
         np.testing.assert_array_equal(seen["slid"][:, 0] == 1, LEVELS[pushes] > frictions)
         np.testing.assert_array_equal(seen["strength"][:, 0], ((pushes + 1) / threshold.NUM_LEVELS).astype(np.float32))
 
@@ -43,35 +39,26 @@ def test_a_block_pushed_in_vain_for_a_whole_episode_stays_on_its_stop():
     batch.reset(hidden=frictions)
     for _ in range(batch.task.rules.step_limit - 1):
         assert (batch.step(labels - 1).observation["slid"] == 0).all()
-    for environment in range(len(labels)):
-        assert abs(float(snapshots.view(batch, "qpos", environment)[0])) < 0.4 * threshold.TRAVEL
+    assert np.abs(episodes.coordinates(batch)).max() < 0.4 * threshold.TRAVEL
 
 
-@pytest.mark.parametrize("domain_name, task_name", TASKS)
-def test_observations_tell_nothing_but_the_push_and_whether_the_block_slid(seed, domain_name, task_name):
+@episodes.features_and_pixels
+def test_observations_tell_nothing_but_the_push_and_whether_the_block_slid(seed, task):
     """Observations follow from these two, for all frictions and all histories."""
-    rng = np.random.default_rng(seed)
     frictions = _edges_of_intervals()
-    batch = suite.load_batch(domain_name, task_name, len(frictions), {"random": seed})
+    batch = suite.load_batch("threshold", task, len(frictions), {"random": seed})
     followed = episodes.Followed()
-    batch.reset(hidden=frictions)
-    for _ in range(batch.task.rules.step_limit - 1):
-        pushes = rng.integers(threshold.NUM_LEVELS, size=len(frictions))
-        observation = batch.step(pushes).observation
+    for pushes, observation in episodes.play(np.random.default_rng(seed), batch, frictions):
         followed.add(zip(pushes, LEVELS[pushes] > frictions, strict=True), observation)
     assert followed.num_different() > 1.5 * threshold.NUM_LEVELS
 
 
-def test_labels_follow_the_prior_and_frictions_keep_away_from_the_levels(seed):
-    """Each label's share of 100 000 episodes is what its probability makes likely."""
-    count = 100_000
-    for difficulty in (1.0, 2.0, 5.0):
-        frictions = episodes.drawn("threshold", np.full(count, seed), np.arange(count), difficulty=difficulty)
-        labels = suite.load_task("threshold", "features").answers(frictions)
-        # Beta(1, d) has the distribution function 1 - (1 - x)^d.
-        edges = 1 - (1 - np.arange(threshold.NUM_LEVELS + 1) / threshold.NUM_LEVELS) ** difficulty
-        expected = np.diff(edges)
-        chance.assert_drawn(np.bincount(labels, minlength=threshold.NUM_LEVELS), expected)
-        distances = np.abs(frictions[:, None] - np.concatenate([[0.0], LEVELS])).min(axis=1)
-        assert distances.min() >= threshold.MARGIN * threshold.LEVEL_SPACING - 1e-9
-        assert (LEVELS[labels] > frictions).all() and (LEVELS[labels] - threshold.LEVEL_SPACING < frictions).all()
+@pytest.mark.parametrize("difficulty", [1.0, 2.0, 5.0])
+def test_labels_follow_the_prior_and_frictions_keep_away_from_the_levels(seed, difficulty):
+    frictions, labels = episodes.drawn_with_answers("threshold", seed, difficulty=difficulty)
+    # Beta(1, d) has the distribution function 1 - (1 - x)^d.
+    edges = 1 - (1 - np.arange(threshold.NUM_LEVELS + 1) / threshold.NUM_LEVELS) ** difficulty
+    chance.assert_drawn(np.bincount(labels, minlength=threshold.NUM_LEVELS), np.diff(edges))
+    distances = np.abs(frictions[:, None] - np.concatenate([[0.0], LEVELS])).min(axis=1)
+    assert distances.min() >= threshold.MARGIN * threshold.LEVEL_SPACING - 1e-9
+    assert (LEVELS[labels] > frictions).all() and (LEVELS[labels] - threshold.LEVEL_SPACING < frictions).all()

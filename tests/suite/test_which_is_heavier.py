@@ -2,7 +2,7 @@
 
 import copy
 
-from chance import P_VALUE
+import chance
 import mujoco
 import numpy as np
 import pytest
@@ -72,7 +72,7 @@ def test_the_masses_of_an_episode_are_independent(seed, difficulty):
     # The largest of four independent masses has the product of their distribution functions, F and G three times.
     largest = _draw(seed, difficulty, 5000).max(axis=1)
     heavy, light = stats.beta(difficulty, 1), stats.beta(1, difficulty)
-    assert stats.kstest(largest, lambda x: heavy.cdf(x) * light.cdf(x) ** 3).pvalue > P_VALUE
+    assert stats.kstest(largest, lambda x: heavy.cdf(x) * light.cdf(x) ** 3).pvalue > chance.P_VALUE
 
 
 @pytest.mark.parametrize("difficulty", [1, 1e300])
@@ -80,6 +80,7 @@ def test_exactly_one_block_is_heaviest_and_it_is_the_answer(seed, difficulty):
     masses = _draw(seed, difficulty, 20_000)
     assert ((masses >= 0) & (masses <= 1)).all()
     assert ((masses == masses.max(axis=1, keepdims=True)).sum(axis=1) == 1).all()
+    chance.assert_drawn(np.bincount(masses.argmax(axis=1), minlength=4), [1 / 4] * 4)
     env = suite.load("which_is_heavier", "features", task_kwargs={"random": seed, "difficulty": difficulty})
     for expected in masses[:50]:
         env.reset()

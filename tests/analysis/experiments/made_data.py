@@ -5,7 +5,6 @@ true; in each of the others the claims that it names are false. Agents of a cond
 """
 
 import functools
-import math
 
 import numpy as np
 import pandas
@@ -33,25 +32,15 @@ _POINTS = 100  # Of a learning curve.
 _BUDGET = 4_000_000  # Environment steps of a learning curve.
 
 
-def told(config, training_seed, **values):
-    """The columns that identify an agent, and others."""
-    return pandas.DataFrame(
-        {
-            "condition": config.label,
-            "domain": config.domain,
-            "task": config.task,
-            "difficulty": np.float32(config.task_kwargs.get("difficulty", math.nan)),
-            "discount": np.float32(config.agent.discount),
-            "training_seed": training_seed,
-            "algorithm": config.agent.title,
-            **values,
-        }
-    )
-
-
 def of_agents(configs, num_agents, make):
     """The rows that `make(config, seed)` returns for each agent, as values of columns."""
-    frames = [told(config, seed, **make(config, seed)) for config in configs for seed in range(num_agents)]
+    frames = [
+        pandas.DataFrame(
+            {"condition": config.label, "task": config.task, "player": config.player} | make(config, seed)
+        ).assign(training_seed=seed)
+        for config in configs
+        for seed in range(num_agents)
+    ]
     return pandas.concat(frames, ignore_index=True)
 
 
@@ -74,7 +63,7 @@ def curves(num_agents, generator, configs, plateaus, learned_at, chance=0.2, spr
     frames = np.linspace(_BUDGET / _POINTS, _BUDGET, _POINTS)
 
     def rows(config, seed):
-        key = (config.label, config.agent.title)
+        key = (config.label, config.player)
         plateau = plateaus[key] + generator.normal(0, 0.004 * spread)
         middle = learned_at[key] * np.exp(generator.normal(0, 0.05))
         rising = chance + (plateau - chance) * special.expit((frames - middle) / 100_000)
@@ -100,12 +89,9 @@ def learning_towers(num_agents, generator, plateau=0.985, fist=1e6, direct=2e6):
 
 
 def two_learners(num_agents, generator, ppo=5e5, a3c=2e6, seconds_of_a_ppo_frame=0.001):
-    at = {
-        (config.label, config.agent.title): {"ppo": ppo, "a3c": a3c}[config.agent.title] for config in learning.LEARNERS
-    }
+    at = {(config.label, config.player): {"ppo": ppo, "a3c": a3c}[config.player] for config in learning.LEARNERS}
     frame = curves(num_agents, generator, learning.LEARNERS, dict.fromkeys(at, 0.97), at)
-    seconds = frame.seconds.where(frame.algorithm == "a3c", seconds_of_a_ppo_frame * frame.frames)
-    return frame.assign(seconds=seconds, condition=frame.condition + " " + frame.algorithm.str.upper())
+    return frame.assign(seconds=frame.seconds.where(frame.player == "a3c", seconds_of_a_ppo_frame * frame.frames))
 
 
 def scores(num_agents, generator, middles, seconds_of_a_frame=0.0005):
@@ -127,12 +113,8 @@ def scores(num_agents, generator, middles, seconds_of_a_frame=0.0005):
 def reaching(num_agents, generator, near=0.5, direct=1.0):
     """Actuators; `near` and `direct` are their environment steps in multiples of those of a distant fist."""
     needed = {efficiency.NEAR: near, efficiency.FAR: 1.0, efficiency.DIRECT: direct}
-    frames = []
-    for kind, players in efficiency.REACHING.items():
-        for player, config in players.items():
-            frame = scores(num_agents, generator, {config: 20_000 * needed[player]})
-            frames.append(frame.assign(condition=kind, algorithm=player))
-    return pandas.concat(frames, ignore_index=True)
+    frame = scores(num_agents, generator, {config: 20_000 * needed[config.player] for config in efficiency.REACHING})
+    return frame.assign(condition=frame.task.str.rpartition("_")[2])
 
 
 def few_steps(
@@ -158,12 +140,12 @@ def few_steps(
     factors = {"F": fist, "D": direct}
     learners = {"a3c": a3c, "ppo": a3c, "a3c_paper": a3c * papers}
     middles = {
-        config: most.get(config.agent.title, most["belief"])[config.label]
-        * learners.get(config.agent.title, belief * factors.get(config.label[0], 1.0))
+        config: most.get(config.player, most["belief"])[config.label]
+        * learners.get(config.player, belief * factors.get(config.label[0], 1.0))
         for config in efficiency.CONDITIONS
     }
     rows = scores(num_agents, generator, middles, frame).assign(calibration_error=error)
-    rows.loc[rows.algorithm.str.startswith("belief"), "score"] *= learned
+    rows.loc[rows.player.str.startswith("belief"), "score"] *= learned
     final = of_agents(
         efficiency.CONDITIONS,
         num_agents,
@@ -172,13 +154,13 @@ def few_steps(
             "error": 0.001,
         },
     )
-    return efficiency.Learned(rows, final)
+    return rows.merge(final)
 
 
 def variants(num_agents, generator, **factors):
     """Variants of the belief learner by title: the environment steps of each, in multiples of the whole one's."""
     factors = {"belief_no_replay": 3, "belief_last_step": 2, "belief_lstm": 2, "belief_revealed": 0.7} | factors
-    middles = {config: 10_000 * factors.get(config.agent.title, 1) for config in efficiency.ABLATED}
+    middles = {config: 10_000 * factors.get(config.player, 1) for config in efficiency.ABLATED}
     return scores(num_agents, generator, middles)
 
 
@@ -194,14 +176,19 @@ def pokes(num_agents, generator, means=(5.0, 3.0, 2.0), spread=0.5, long=0.0):
         drawn[: round(long * _EPISODES)] = generator.integers(30, 90, round(long * _EPISODES))
         return {"interactions": drawn}
 
-    return of_agents(interactions.FEATURES, num_agents, rows)
+    return of_agents(conditions.FEATURES, num_agents, rows)
 
 
 def patience(num_agents, generator, patient=1.5):
-    """Interactions under both discounts; `patient` is the ratio of their means."""
-    eager = pokes(num_agents, generator).assign(discount=0.95)
-    others = pokes(num_agents, generator, means=tuple(patient * mean for mean in (5.0, 3.0, 2.0)))
-    return pandas.concat([eager, others.assign(discount=0.99)], ignore_index=True)
+    """Mean interactions of agents under both discounts; `patient` is the ratio of their means."""
+    means = dict(zip(conditions.DIFFICULTIES, (5.0, 3.0, 2.0), strict=True))
+
+    def rows(config, seed):
+        factor = patient if config.player == interactions.PATIENT else 1.0
+        pokes = factor * means[config.task_kwargs["difficulty"]] + generator.normal(0, 0.02)
+        return {"interactions": [pokes], "ideal_interactions": 3.0}
+
+    return of_agents(interactions.PATIENCE, num_agents, rows)
 
 
 def slopes(num_agents, generator, slope=-4.0, odd_one=None, seen=0.8, lost=1 / _EPISODES):
@@ -230,20 +217,20 @@ def second_pokes(num_agents, generator, noisy=0.6, exact=0.0, widest=0.3, slope=
 
     All pokes have these slopes on the mass gap, with noise and without.
     """
-    agents, count = [], 2 * _EPISODES  # Repeated pokes are rare.
-    for seed in range(num_agents):
-        gaps = generator.random(count)
-        for readings, again, steep in ((mass_gaps.EXACT, exact, exact_slope), (mass_gaps.NOISY, noisy, slope)):
-            repeated = (gaps < widest) & (generator.random(count) < again - 0.02 * generator.random())
-            values = {
-                "readings": readings,
-                "mass_gap": gaps,
-                "again": repeated.astype(int),
-                "interactions": 4 + steep * (gaps - 0.5) + generator.normal(0, 1, count),
-                "share": share + generator.normal(0, 0.01, count) if readings == mass_gaps.NOISY else np.nan,
-            }
-            agents.append(told(mass_gaps.READINGS[readings], seed, **values))
-    return pandas.concat(agents, ignore_index=True)
+    count = 2 * _EPISODES  # Repeated pokes are rare.
+    gaps = generator.random((num_agents, count))
+
+    def rows(config, seed):
+        again, steep = (noisy, slope) if config.player == mass_gaps.NOISY else (exact, exact_slope)
+        repeated = (gaps[seed] < widest) & (generator.random(count) < again - 0.02 * generator.random())
+        return {
+            "mass_gap": gaps[seed],
+            "again": repeated.astype(int),
+            "interactions": 4 + steep * (gaps[seed] - 0.5) + generator.normal(0, 1, count),
+            "share": share + generator.normal(0, 0.01, count),
+        }
+
+    return of_agents(mass_gaps.READINGS, num_agents, rows)
 
 
 def randomized(configs, num_agents, generator, gain=0.15, ratio=1.0, lost=0.0, blocks=1.0):
@@ -257,10 +244,11 @@ def randomized(configs, num_agents, generator, gain=0.15, ratio=1.0, lost=0.0, b
             "interactions": [length * ratio * np.exp(generator.normal(0, 0.02)), length],
             "blocks": [2 * blocks * np.exp(generator.normal(0, 0.01)), 2.0],
             "timeouts": [1 / 3, lost + 0.001 * generator.random()],
+            "ideal_interactions": 4.0,
+            "ideal_accuracy": 1.0,
         }
 
-    ideals = {config.label: {"mean_interactions": 4.0, "accuracy": 1.0} for config in configs}
-    return interactions.Played(of_agents(configs, num_agents, rows), ideals, 0.25)
+    return of_agents(configs, num_agents, rows)
 
 
 # Towers.
@@ -272,23 +260,22 @@ def waiting_fists(num_agents, generator, slowdown=10.0, gain=0.07, loss=0.0, los
     `slowdown` is the ratio of interactions at the finest to the usual step, 10 for equal time; `gain` is that in right
     answers if a step ends at the median time to the answer in training; `loss` grows towards the finest step.
     """
-    steps, count, num_lost = np.array(control_steps.TIMESTEPS), 101, round(lost * 101)
+    steps = np.array(list(control_steps.TRIALS))
+    fineness = np.log(steps[-1] / steps) / np.log(steps[-1] / steps[0])  # From 1 to 0.
 
     def rows(config, seed):
-        base, offset = 16 * np.exp(generator.normal(0, 0.03)), generator.normal(0, 0.01)
-        fineness = np.log(steps[-1] / steps) / np.log(steps[-1] / steps[0])  # From 1 to 0.
-        spread = np.exp(generator.normal(0, 0.1, (len(steps), count + num_lost)))
-        lengths = (base * slowdown ** fineness[:, None] * spread).round()
-        usual = np.median(lengths[-1]) * steps[-1]
+        lengths = round(16 * np.exp(generator.normal(0, 0.03))) * slowdown**fineness
+        usual = lengths[-1] * steps[-1]
         is_off = abs(usual / steps - (usual / steps).round()) > 1e-3
-        success = 0.98 - gain * is_off - loss * fineness + offset
-        is_right = np.arange(count + num_lost) < (success[:, None] * count).round()
         return {
-            "step": np.repeat(steps, count + num_lost),
-            "interactions": lengths.astype(int).ravel(),
-            "time": (lengths * steps[:, None]).ravel(),
-            "reward": np.where(is_right, 1, -1).ravel(),
-            "label": np.tile(np.where(np.arange(count + num_lost) < count, 0, -1), len(steps)),
+            "step": steps,
+            "episodes": 100,
+            "timeouts": round(100 * lost),
+            "right": 0.98 - gain * is_off - loss * fineness + generator.normal(0, 0.01),
+            "interactions": lengths,
+            "time": lengths * steps,
+            "low": 0.9 * lengths * steps,
+            "high": 1.1 * lengths * steps,
         }
 
     return of_agents(control_steps.FISTS, num_agents, rows)
@@ -300,24 +287,26 @@ def timed_fists(num_agents, generator, fine=0.99, power=0.0, rule=0.6, too_many=
     The time to the answer is proportional to a `power` of the step. The pairs are of the shortest and longest step, and
     of agents trained with many lengths and with one.
     """
-    shortest, *_, longest = control_steps.STEPS
-    rows, friction = [], []
-    for seed in range(num_agents):
-        for player, at_friction in zip((control_steps.MANY, control_steps.ONE), slippery, strict=True):
-            friction.append((player, seed, at_friction + generator.normal(0, 0.003)))
-            for step in control_steps.STEPS:
-                right = 0.8 if player == control_steps.ONE else fine if step == shortest else 0.99
-                share = {shortest: too_many[0], longest: too_many[1]}.get(step, 0.5)
-                values = np.array([right, 0.35 * (step / 0.1) ** power, share]) + generator.normal(0, 0.003, 3)
-                rows.append((player, seed, step, *values))
-    agents = pandas.DataFrame(rows, columns=["player", "training_seed", "step", "right", "time", "too_many"])
     steps = np.array(list(control_steps.STEPS))
-    rules = {"right": np.where(steps < 0.1, rule, 1.0), "interactions": 4, "time": 4 * steps}
-    return control_steps.Timed(
-        agents.assign(interactions=agents.time / agents.step),
-        pandas.DataFrame(friction, columns=["player", "training_seed", "right"]),
-        pandas.DataFrame(rules, index=steps),
-    )
+    shares = np.select([steps == control_steps.SHORTEST, steps == control_steps.LONGEST], too_many, 0.5)
+
+    def rows(config, seed):
+        is_many = config.player == control_steps.MANY
+        time = 0.35 * (steps / 0.1) ** power + generator.normal(0, 0.003, len(steps))
+        right = np.where(steps == control_steps.SHORTEST, fine, 0.99) if is_many else 0.8
+        return {
+            "step": steps,
+            "right": right + generator.normal(0, 0.003, len(steps)),
+            "time": time,
+            "interactions": time / steps,
+            "too_many": shares + generator.normal(0, 0.003, len(steps)),
+            "slippery": slippery[0 if is_many else 1] + generator.normal(0, 0.003),
+        }
+
+    rules = {"condition": "F-F", "player": control_steps.WAITS, "training_seed": -1, "step": steps}
+    rules |= {"right": np.where(steps < 0.1, rule, 1.0), "interactions": 4, "time": 4 * steps}
+    agents = of_agents(control_steps.PLAYERS, num_agents, rows)
+    return pandas.concat([agents, pandas.DataFrame(rules)], ignore_index=True)
 
 
 def other_towers(num_agents, generator, varied=0.985, held_out=0.95, usual=0.5, rule=1.0, share=0.97):
@@ -332,7 +321,7 @@ def other_towers(num_agents, generator, varied=0.985, held_out=0.95, usual=0.5, 
     rows = []
     for config in conditions.TOWERS:
         for player, tests in right.items():
-            is_agent = player in generalization.CONDITIONS
+            is_agent = player in (generalization.USUAL, generalization.VARIED)
             if is_agent or config.label[-1] == "F":
                 for seed in range(num_agents) if is_agent else [-1]:
                     for test, value in tests.items():
@@ -355,7 +344,8 @@ def strategy(config, columns, num_agents, generator, share=0.98, **values):
             **columns(generator, **values),
         },
     )
-    return strategies.Played(episodes, {2: 0.5, 3: 0.5})
+    episodes.attrs["ideal"] = {2: 0.5, 3: 0.5}
+    return episodes
 
 
 def _weighings(generator, alone=1.0):
@@ -385,17 +375,18 @@ def _aimings(generator, asked=0.01, friction=0.8):
 
 def shares(num_agents, generator, **of_learners):
     """Shares of the ideal's return in all domains, by the learner's title."""
-    agents = of_agents(
+    return of_agents(
         laboratory.CONDITIONS,
         num_agents,
         lambda config, seed: {
-            "share": [of_learners.get(config.agent.title, 0.98) + generator.normal(0, 0.002)],
+            "share": [of_learners.get(config.player, 0.98) + generator.normal(0, 0.002)],
             "frames": config.agent.frames,
             "minutes": 5.0,
+            "value": 0.8,
+            "at_once": -0.5,
+            "random_value": 0.4,
         },
     )
-    untrained = {"value": 0.8, "at_once": -0.5, "random_value": 0.4}
-    return laboratory.Earned(agents, {task.label: untrained for task in laboratory.TASKS})
 
 
 def gap_to_ideal(num_agents, generator, share=0.985):
@@ -414,8 +405,9 @@ def gap_to_ideal(num_agents, generator, share=0.985):
         for objective in ("time", "return")
         for resolution in (0.0, 0.001, 0.003, 0.01)
     ]
-    towers = {config.task: resolutions for config in conditions.TOWERS}
-    return ideal_gap.Gap(of_agents(ideal_gap.CONDITIONS, num_agents, rows), towers)
+    frame = of_agents(ideal_gap.CONDITIONS, num_agents, rows)
+    frame.attrs["towers"] = {"D-F": resolutions, "F-F": resolutions}
+    return frame
 
 
 _weighing = functools.partial(strategy, strategies.WEIGHING, _weighings)

@@ -152,10 +152,10 @@ def test_agents_that_never_learn_are_not_taken_for_quick_ones():
 
 
 def test_slow_agents_that_never_arrive_give_the_upper_end_of_a_ratio():
-    frame = made_data.few_steps(10, generator()).curves
-    quick, slow = (efficiency.runs(frame, "10-F", learner) for learner in ("belief", "a3c"))
+    frame = made_data.few_steps(10, generator())
+    quick, slow = (claims.rows(frame, condition="10-F", player=learner) for learner in ("belief", "a3c"))
     whole = efficiency.ratio_of_steps(quick, slow)
-    cut = [run[run.frames < run.frames.max() / 4] for run in slow]
+    cut = slow[slow.frames < slow.frames.max() / 4]
     part = efficiency.ratio_of_steps(quick, cut)
     assert np.isinf(efficiency.reached(cut)).all() and 0 < whole.low < whole.high < part.high
     assert part.low == 0 and part.p_value(1e-9, "greater") == 1
@@ -192,7 +192,8 @@ def test_a_level_is_reached_at_the_crossing_of_the_mean_of_2000_episodes(row):
 def test_accuracy_and_interactions_leave_timeouts_out():
     rows = pandas.DataFrame({"label": [0, 1, -1], "reward": [1.0, -1.0, -1.0], "interactions": [2, 4, 99]})
     rows = rows.assign(condition="F-F", training_seed=0, interaction="learned")
-    (row,) = interactions.per_agent(rows).to_dict("records")
+    ideals = {"F-F": {"accuracy": 1.0, "mean_interactions": 3.0}}
+    (row,) = interactions.per_agent(rows, ideals).to_dict("records")
     assert (row["accuracy"], row["interactions"], row["timeouts"]) == (0.5, 3, pytest.approx(1 / 3))
 
 

@@ -1,6 +1,5 @@
 """Every experiment draws a figure that can be read: named axes, also in grey, the same from the same data."""
 
-import dataclasses
 import functools
 import io
 import itertools
@@ -14,7 +13,7 @@ import numpy as np
 import pytest
 
 from physexp.analysis.data import plots
-from physexp.analysis.experiments import EXPERIMENTS, NAMES, conditions, efficiency, ideal_gap, interactions
+from physexp.analysis.experiments import EXPERIMENTS, NAMES, conditions
 
 _SVG = "{http://www.w3.org/2000/svg}"
 LABELS = [config.label for config in (*conditions.HEAVIER, *conditions.TOWERS)]
@@ -82,15 +81,6 @@ def test_a_figure_changes_no_settings_and_opens_no_window():
     assert not pyplot.get_fignums() and dict(matplotlib.rcParams) == before
 
 
-def only(data, condition):
-    """The part of an experiment's data that is of one condition."""
-    if isinstance(data, efficiency.Learned):
-        return efficiency.Learned(only(data.curves, condition), only(data.final, condition))
-    if isinstance(data, ideal_gap.Gap | interactions.Played):
-        return dataclasses.replace(data, agents=only(data.agents, condition))
-    return data[data.condition == condition]
-
-
 PARTS = [
     *((name, "3-F") for name in ("population", "individual", "random_heavier", "data_efficiency")),
     *((name, "F-P") for name in ("learning_towers", "waiting", "ideal_gap")),
@@ -99,7 +89,8 @@ PARTS = [
 
 @pytest.mark.parametrize("name, condition", PARTS)
 def test_one_agent_of_one_condition_is_enough_to_draw(name, condition):
-    figure = EXPERIMENTS[name].figure(only(made(name, num_agents=1), condition))
+    frame = made(name, num_agents=1)
+    figure = EXPERIMENTS[name].figure(frame[frame.condition == condition])
     assert not set().union(*map(ticks, figure.axes)) & (shown_names(LABELS) - shown_names([condition]))
     assert texts(plots.svg(figure))
 

@@ -49,7 +49,6 @@ def test_an_experiment_reads_complete_episodes(rehearsed):
     assert frame.notna().all(axis=None)
     assert frame.groupby("condition").length.sum().min() >= 10_000
     assert set(frame.condition) == {one.label for one in CONDITIONS}
-    assert not rehearsed[0].has_played(base.RANDOM, CONDITIONS[0])
     with pytest.raises(ValueError, match="holds no episodes of this experiment; `physexp reproduce EXPERIMENT` makes"):
         rehearsed[0].episodes([base.RANDOM], CONDITIONS)
 

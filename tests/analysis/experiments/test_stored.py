@@ -47,7 +47,9 @@ def test_a_domain_new_in_the_laboratory_is_solved_and_others_are_kept(results):
     known = {task.label: {"value": 0.5, "at_once": -0.5, "random_value": 0.25} for task in others}
     path = results.path / "ideal" / "laboratory.json"
     write(path, known)
-    with pytest.raises(ValueError, match=f"laboratory.json lacks {new.label}; `physexp reproduce laboratory` adds"):
+    with pytest.raises(
+        ValueError, match=f"no ideal of {new.label} of this experiment; `physexp reproduce EXPERIMENT` makes"
+    ):
         laboratory.load(results)
     told = []
     laboratory.prepare(results, told.append)
@@ -62,12 +64,12 @@ def test_a_missing_ideal_of_a_learning_curve_is_solved(name, results, monkeypatc
     pushes = conditions.towers("direct", "features")
     monkeypatch.setattr(conditions, "TOWERS", (pushes,))
     mine = conditions.with_belief(pushes, answers_revealed=True).id
-    for table in ("runs", "curves"):
-        rows = results_lib.read(RESULTS, table, filters=[("condition", "==", mine), ("training_seed", "==", 0)])
-        results_lib.append(results.path, table, rows)
+    for table in ("runs", "curves", "evaluations", "episodes"):
+        filters = [("condition", "==", mine), ("training_seed", "==", 0)]
+        filters += [("trial", "==", "evaluation")] if table in ("evaluations", "episodes") else []
+        results_lib.append(results.path, table, results_lib.read(RESULTS, table, filters=filters))
     EXPERIMENTS[name].prepare(results, print)
     frame = EXPERIMENTS[name].load(results)
-    frame = getattr(frame, "curves", frame)
     assert set(frame.condition) == {"D-F"}
     assert 0.95 < frame.score.iloc[-1] < 1.01
 
@@ -86,14 +88,20 @@ def test_a_rule_that_counts_steps_is_wrong_in_finer_time(results, monkeypatch):
     assert made["wait"] * 0.05 < 0.17 < made["wait"] * 0.1
 
 
-def test_an_agent_that_lacks_a_test_is_left_out():
-    frame, experiment = made_data.made("generalization"), EXPERIMENTS["generalization"]
-    is_first = (frame.player == generalization.VARIED) & (frame.training_seed == 0)
-    is_missing = is_first & (frame.test == "varied")
-    assert is_missing.any()
-    half_played, others = (experiment.test(frame[~left_out]) for left_out in (is_missing, is_first))
-    assert [claim.estimate for claim in half_played] == [claim.estimate for claim in others]
-    assert len(others) == len(experiment.test(frame))
+def test_an_agent_that_lacks_a_test_is_left_out(results):
+    (agent,) = (
+        each for each in generalization.CONDITIONS if each.label == "F-F" and each.player == generalization.VARIED
+    )
+    shutil.copytree(RESULTS / "generalization", results.path / "generalization")
+    for seed in range(2):
+        filters = [("condition", "==", agent.id), ("training_seed", "==", seed)]
+        for trial in list(generalization.TRIALS.values())[seed:]:
+            for table in ("evaluations", "episodes"):
+                rows = results_lib.read(RESULTS, table, filters=[*filters, ("trial", "==", trial.name)])
+                results_lib.append(results.path, table, rows)
+    rows = generalization.load(results)
+    assert rows[rows.player == generalization.VARIED].training_seed.tolist() == [0] * len(generalization.TRIALS)
+    assert {generalization.RULE, generalization.LOOKUP} <= set(rows.player)
 
 
 def test_damaged_episodes_are_an_error_and_not_a_missing_agent(results):

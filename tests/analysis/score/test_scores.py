@@ -30,7 +30,7 @@ def test_the_ideal_scores_1_in_every_episode(asked):
     found = play("ideal", asked)
     # Its returns are interpolated, to a few parts in ten thousand, in the one domain whose states are no finite set.
     np.testing.assert_allclose(found.scores, 1, atol=1e-3)
-    metrics = found.metrics(0)
+    metrics = found.metrics
     assert metrics["mean_interactions"] == pytest.approx(metrics["ideal_interactions"])
     assert metrics["bits_per_interaction"] == pytest.approx(metrics["ideal_bits_per_interaction"])
     assert metrics["gains"] == pytest.approx(metrics["ideal_gains"], abs=1e-12)
@@ -40,17 +40,18 @@ def test_the_ideal_scores_1_in_every_episode(asked):
 @pytest.mark.parametrize("asked", FEATURES, ids=lambda asked: asked.name)
 def test_the_floor_is_the_better_of_the_likeliest_answer_and_of_no_answer(asked):
     at_once, silent = play("at_once", asked, 2), play("silent", asked, 2)
+    floor, answer, ideal = (at_once.metrics[name] for name in ("floor", "at_once", "ideal"))
     never = -(asked.discount ** (asked.step_limit - 1))
-    assert at_once.floor == silent.floor == max(at_once.at_once, never)
-    np.testing.assert_allclose(silent.raw, (never - silent.floor) / (silent.ideal - silent.floor), atol=1e-12)
+    assert floor == silent.metrics["floor"] == max(answer, never)
+    assert silent.metrics["raw_score"] == pytest.approx((never - floor) / (ideal - floor))
     # An answer at once is worth what the likeliest label is, whatever turns out to be right.
-    np.testing.assert_allclose(at_once.scores, (at_once.at_once - at_once.floor) / (at_once.ideal - at_once.floor))
+    np.testing.assert_allclose(at_once.scores, (answer - floor) / (ideal - floor))
 
 
 @pytest.mark.parametrize("task", ["direct_features", "fist_features"])
 def test_a_rule_that_reads_every_bit_of_a_tower_scores_1(task):
     found = play("rule", protocol.question("towers", task), 8)
-    np.testing.assert_allclose([found.scores, found.raw], 1, atol=0.01)
+    np.testing.assert_allclose([*found.scores, found.metrics["raw_score"]], 1, atol=0.01)
 
 
 def test_the_scores_of_guesses_are_those_of_their_chances():
@@ -59,7 +60,7 @@ def test_the_scores_of_guesses_are_those_of_their_chances():
     # One of eight levels is right: an answer is worth 2/8 - 1; none in 15 steps, -0.95^14; and the ideal pushes thrice.
     ideal, floor = 0.95**3, -(0.95**14)
     np.testing.assert_allclose(found.scores, (-0.75 - floor) / (ideal - floor))
-    assert found.metrics(0)["mistakes"]["early"] == pytest.approx((ideal + 0.75) / (ideal - floor))
+    assert found.metrics["mistakes"]["early"] == pytest.approx((ideal + 0.75) / (ideal - floor))
 
 
 @pytest.fixture(scope="module")
@@ -71,7 +72,7 @@ def of_random(tmp_path_factory):
 
 @pytest.mark.parametrize("asked", FEATURES, ids=lambda asked: asked.name)
 def test_score_and_mistakes_sum_to_1_and_score_and_luck_to_the_raw_score(asked):
-    metrics = play("random", asked, 4).metrics(0)
+    metrics = play("random", asked, 4).metrics
     assert metrics["score"] + sum(metrics["mistakes"].values()) == pytest.approx(1, abs=1e-9)
     assert metrics["score"] + metrics["luck"] == pytest.approx(metrics["raw_score"], abs=1e-9)
     assert min(metrics["mistakes"].values()) > -1e-9 and metrics["score"] < 1

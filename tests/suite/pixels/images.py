@@ -4,7 +4,7 @@ import functools
 import itertools
 import re
 
-from episodes import SEED, assert_same
+from episodes import SEED
 import numpy as np
 import pytest
 
@@ -48,14 +48,6 @@ def load_single(domain_name, task_name, number=0):
     single = load_shared(domain_name, task_name, suite.environment_seed(SEED, number))
     single.task.next_episode = 0
     return single
-
-
-def start_both(domain_name, task_name, size):
-    """A batch and its single environments, in their first episodes."""
-    batch = load_shared(domain_name, task_name, SEED, size)
-    singles = [load_single(domain_name, task_name, i) for i in range(size)]
-    assert_same(batch.reset(episode=0), [single.reset() for single in singles])
-    return batch, singles
 
 
 def play_episode(environment, actions) -> np.ndarray:
