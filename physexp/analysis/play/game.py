@@ -1,6 +1,7 @@
 """A person's game in a terminal, beside the ideal experimenter and a trained agent on the same instances."""
 
 from collections.abc import Callable, Mapping
+import contextlib
 import dataclasses
 import shutil
 from typing import Any
@@ -17,16 +18,11 @@ _QUIT, _HELP = "q", "?"
 
 @dataclasses.dataclass
 class Score:
-    """Score of a player.
-
-    Attributes:
-      episodes, right: number of episodes, and of right answers.
-      total: sum of the discounted returns.
-    """
+    """Score of a player."""
 
     episodes: int = 0
     right: int = 0
-    total: float = 0.0
+    total: float = 0.0  # The sum of the discounted returns.
 
     def add(self, length: int, reward: float, discount: float) -> None:
         """Adds an episode of `length` actions."""
@@ -36,6 +32,42 @@ class Score:
 
     def __str__(self) -> str:
         return f"{self.right} of {self.episodes} right, mean return {self.total / max(1, self.episodes):.3f}"
+
+
+class _Quit(Exception):  # noqa: N818
+    """The player has quit."""
+
+
+class _Person(core.Actor):
+    """Asks a person, who sees drawings of the observations."""
+
+    def __init__(self, task, rules: str, read: Callable[[str], str], show: Callable[[str], None]):
+        self._task, self._rules, self._read, self._show = task, rules, read, show
+
+    def observe_first(self, timestep):
+        """Does nothing: the drawing comes with the question."""
+
+    def select_action(self, observation):
+        """Returns the action that the person types; raises _Quit if it is none."""
+        self._show(terminal.drawing(observation, self._task.observer.readings, *shutil.get_terminal_size()))
+        count = self._task.rules.num_actions
+        while True:
+            try:
+                text = self._read("action: ").strip()
+            except EOFError:
+                text = _QUIT
+            if text == _QUIT:
+                raise _Quit
+            if text.isdecimal() and len(text) < 10 and int(text) < count:
+                return int(text)
+            refusal = f"{text[:40]!r} is no action; " if text else ""
+            asked = f"{refusal}type a number from 0 to {count - 1}, {_HELP} or {_QUIT}"
+            self._show(self._rules if text == _HELP else asked)
+
+    def observe(self, action, next_timestep):
+        if next_timestep.last():
+            verdict = "Right!" if next_timestep.reward > 0 else "Wrong."
+            self._show(f"{verdict} The answer: {self._task.label_names[self._task.correct_answer]}.")
 
 
 def play(
@@ -68,17 +100,22 @@ def play(
     rules = _rules(environment)
     show(rules)
     others, discount = _others(domain, task, kwargs, show)
-    scores = {"you": Score(), **{name: Score() for name in others}}
+    scores = {name: Score() for name in ("you", *others)}
+    you = environment_loop.EnvironmentLoop(environment, _Person(environment.task, rules, read, show), observers)
+    # The others play in an environment of their own, with the same instances.
+    again = suite.load(domain, task, task_kwargs={**kwargs, "random": environment.task.options.random})
     while True:
-        outcome = _play_episode(environment, rules, observers, read, show)
-        if outcome is None:
+        try:
+            played = {"you": you.run_episode()}
+        except _Quit:
             return scores
-        scores["you"].add(*outcome, discount)
         for name, actor in others.items():
-            length, reward = _replay(environment, domain, task, kwargs, actor)
-            scores[name].add(length, reward, discount)
-            count = f"{length - 1} interaction{'' if length == 2 else 's'}"
-            show(f"  the {name} was {'right' if reward > 0 else 'wrong'} after {count}")
+            again.task.next_episode = environment.task.episode
+            played[name] = its = environment_loop.EnvironmentLoop(again, actor).run_episode()
+            verdict, count = "right" if its["episode_return"] > 0 else "wrong", its["episode_length"] - 1
+            show(f"  the {name} was {verdict} after {count} interaction{'' if count == 1 else 's'}")
+        for name, its in played.items():
+            scores[name].add(its["episode_length"], its["episode_return"], discount)
         show("\n".join(f"{name:20} {score}" for name, score in scores.items()) + "\n")
 
 
@@ -93,7 +130,8 @@ def _viewers(environment: suite.Environment, domain, task, kwargs) -> list[envir
 def _others(domain: str, task: str, kwargs: dict[str, Any], show) -> tuple[dict[str, core.Actor], float]:
     """Returns the players to compare with, and the discount of the returns."""
     others: dict[str, core.Actor] = {}
-    discount = domains.find(domain).discount
+    facts = domains.find(domain)
+    discount, ideal = facts.discount, facts.ideal_with(kwargs)
     try:
         network, config, _ = finding.shipped_agent(domain, task, kwargs)
     except ValueError:
@@ -102,84 +140,20 @@ def _others(domain: str, task: str, kwargs: dict[str, Any], show) -> tuple[dict[
     else:
         discount = config.agent.discount
         others["trained agent"] = acting.RecurrentActor(network)
-    ideal = _ideal(domain, task, kwargs, discount)
     if ideal is not None:
-        others["ideal experimenter"] = ideal
+        with contextlib.suppress(ValueError):  # If it cannot play.
+            others["ideal experimenter"] = ideal(task, kwargs, discount).actor()
     return others, discount
-
-
-def _ideal(domain: str, task: str, kwargs: dict[str, Any], discount: float) -> core.Actor | None:
-    """Returns the ideal experimenter, or None if none can play."""
-    find = domains.find(domain).ideal_with(kwargs)
-    try:
-        return None if find is None else find(task, kwargs, discount).actor()
-    except ValueError:
-        return None
 
 
 def _rules(environment: suite.Environment) -> str:
     """Returns the question, a legend of the drawings, the rewards and the actions."""
     task = environment.task
-    actions = [f"{number:3}  {name}" for number, name in enumerate(task.action_names)]
-    return "\n".join(
-        [
-            task.question,
-            "",
-            terminal.legend(environment.observation_spec(), task.observer.readings),
-            "",
-            f"The right answer is worth 1, a wrong one or none in {task.rules.step_limit} steps -1. Each interaction",
-            f"before it multiplies that by {task.discount:g}. Type a number:",
-            "",
-            *actions,
-            f"  {_HELP}  show this again",
-            f"  {_QUIT}  quit",
-            "",
-        ]
+    legend = terminal.legend(environment.observation_spec(), task.observer.readings)
+    actions = "\n".join(f"{number:3}  {name}" for number, name in enumerate(task.action_names))
+    return (
+        f"{task.question}\n\n{legend}\n\n"
+        f"The right answer is worth 1, a wrong one or none in {task.rules.step_limit} steps -1. Each interaction\n"
+        f"before it multiplies that by {task.discount:g}. Type a number:\n\n"
+        f"{actions}\n  {_HELP}  show this again\n  {_QUIT}  quit\n"
     )
-
-
-def _play_episode(environment: suite.Environment, rules: str, observers, read, show) -> tuple[int, float] | None:
-    """Plays one episode; returns its length and reward, or None if the player quits."""
-    timestep, length = environment.reset(), 0
-    for observer in observers:
-        observer.observe_first(environment, timestep)
-    while not timestep.last():
-        show(terminal.drawing(timestep.observation, environment.task.observer.readings, *shutil.get_terminal_size()))
-        action = _ask(environment, rules, read, show)
-        if action is None:
-            return None
-        timestep, length = environment.step(action), length + 1
-        for observer in observers:
-            observer.observe(environment, timestep, action)
-    verdict = "Right!" if timestep.reward > 0 else "Wrong."
-    show(f"{verdict} The answer: {environment.task.label_names[environment.task.correct_answer]}.")
-    return length, float(timestep.reward)
-
-
-def _ask(environment: suite.Environment, rules: str, read, show) -> int | None:
-    """Returns the number of an action; None to quit."""
-    count = environment.action_spec().num_values
-    while True:
-        try:
-            text = read("action: ").strip()
-        except EOFError:
-            return None
-        if text == _QUIT:
-            return None
-        if text == _HELP:
-            show(rules)
-            continue
-        if text.isdecimal() and len(text) < 10 and int(text) < count:
-            return int(text)
-        refusal = f"{text[:40]!r} is no action; " if text else ""
-        show(f"{refusal}type a number from 0 to {count - 1}, {_HELP} or {_QUIT}")
-
-
-def _replay(environment: suite.Environment, domain, task, kwargs, actor: core.Actor) -> tuple[int, float]:
-    """Returns length and return of another player on the current instance."""
-    seed = environment.task.options.random
-    again = suite.load(domain, task, task_kwargs={**kwargs, "random": seed})
-    again.task.next_episode = environment.task.episode
-    metrics = environment_loop.EnvironmentLoop(again, actor).run_episode()
-    again.close()
-    return metrics["episode_length"], metrics["episode_return"]

@@ -19,12 +19,7 @@ _OTHER_LINES = 3  # Of the terminal, below an image.
 
 
 def legend(observation: Collection[str], readings: Readings) -> str:
-    """Returns a legend of the drawings of an observation.
-
-    Args:
-      observation: names of the arrays.
-      readings: readings of the task.
-    """
+    """Returns a legend of the drawings of an observation, whose arrays have these names, in a task with readings."""
     seen = [reading for reading in readings_lib.shown(readings) if reading.name in observation]
     sentences = ["You see what the agent sees, an image."] if set(observation) - set(readings) else []
     places = [reading for reading in seen if reading.is_position]
@@ -32,19 +27,13 @@ def legend(observation: Collection[str], readings: Readings) -> str:
         sentences.append(_legend_of_places(places))
     for reading in seen:
         if not reading.is_position:
-            unit = f", in {_shown_unit(reading.unit)}" if reading.unit else ""
+            unit = f", in {'cm' if reading.unit == 'm' else reading.unit}" if reading.unit else ""
             sentences.append(f"You see {readings_lib.spoken(reading.name)}: {readings[reading.name].meaning}{unit}.")
     return "\n".join(sentences)
 
 
 def drawing(observation: Mapping[str, np.ndarray], readings: Readings, columns: int = 80, lines: int = 24) -> str:
-    """Returns an observation as text: things from the side, values as bars, and images in coloured half blocks.
-
-    Args:
-      observation: arrays by name.
-      readings: readings of the task.
-      columns, lines: size of the terminal.
-    """
+    """Returns an observation as text: things from the side, values as bars, and images in coloured half blocks."""
     seen = [reading for reading in readings_lib.shown(readings) if reading.name in observation]
     places = [reading for reading in seen if reading.is_position]
     rows = _rows([reading for reading in seen if not reading.is_position], observation, columns)
@@ -55,21 +44,13 @@ def drawing(observation: Mapping[str, np.ndarray], readings: Readings, columns: 
     return "\n".join([*parts, *rows])
 
 
-def _shown_unit(unit: str) -> str:
-    """Returns the unit of displayed values."""
-    return "cm" if unit == "m" else unit
-
-
 def _legend_of_places(places: Sequence[readings_lib.Shown]) -> str:
     symbols = _symbols(places)
     numbered = {thing.rpartition("_")[0] for thing, symbol in symbols.items() if symbol.isdecimal()}
-    digits = f", the digits are the {' and '.join(map(_plural, sorted(numbered)))}" if numbered else ""
+    plurals = " and ".join(f"{readings_lib.spoken(name)}s" for name in sorted(numbered))
+    digits = f", the digits are the {plurals}" if numbered else ""
     others = [f" {s} is the {readings_lib.spoken(thing)}." for thing, s in symbols.items() if not s.isdecimal()]
     return f"You see the room from the side: +x is to the right, +y away from you{digits}.{''.join(others)}"
-
-
-def _plural(name: str) -> str:
-    return f"{readings_lib.spoken(name)}s"
 
 
 def _symbols(places: Sequence[readings_lib.Shown]) -> dict[str, str]:
@@ -102,12 +83,10 @@ def _rows(seen: Sequence[readings_lib.Shown], observation, columns: int) -> list
     """Returns a line for each value: its name, a bar if its bounds are known and it has a unit, and the number."""
     found = []
     for reading in seen:
-        values = reading.values(observation[reading.name])[0]
-        for name, of_thing in zip(reading.names, values, strict=True):
-            for number, (component, value) in enumerate(zip(reading.components, of_thing, strict=True)):
-                largest = None if reading.limits is None else np.abs(reading.limits[number]).max()
-                label = _label(reading, name, component, len(seen) > 1)
-                found.append((label, float(value), largest, reading.unit))
+        limits = [0.0] * len(reading.components) if reading.limits is None else np.abs(reading.limits).max(axis=1)
+        for name, of_thing in zip(reading.names, reading.values(observation[reading.name])[0], strict=True):
+            for component, value, largest in zip(reading.components, of_thing, limits, strict=True):
+                found.append((_label(reading, name, component, len(seen) > 1), float(value), largest, reading.unit))
     width = max((len(label) for label, *_ in found), default=0)
     room = max(1, min(_LONGEST_BAR, columns - width - 11))
     return [
@@ -125,7 +104,7 @@ def _label(reading: readings_lib.Shown, name: str, component: str, are_several: 
     return f"{name} {component}".rstrip()
 
 
-def _bar(value: float, largest: float | None, unit: str, room: int) -> str:
+def _bar(value: float, largest: float, unit: str, room: int) -> str:
     """Returns a bar of `#` for positive and `-` for negative values; nothing without a unit or bounds."""
     if not unit or not largest:
         return ""
@@ -146,12 +125,9 @@ def _image(pixels: np.ndarray, columns: int, lines: int) -> str:
         needed, best = (f"{side} by {side // 2 + _OTHER_LINES}" for side in (_SMALLEST_IMAGE, len(pixels)))
         size_now = f"{columns} columns by {lines} lines"
         return f"(the terminal has {size_now}, too small for an image: it needs {needed}, and {best} is best)"
-    text = []
-    small = _shrunk(pixels, size)
+    small, text = _shrunk(pixels, size), []
     for upper, lower in zip(small[::2], small[1::2], strict=True):
-        cells = (
-            f"\x1b[38;2;{a[0]};{a[1]};{a[2]};48;2;{b[0]};{b[1]};{b[2]}m▀" for a, b in zip(upper, lower, strict=True)
-        )
+        cells = ("\x1b[38;2;{};{};{};48;2;{};{};{}m▀".format(*a, *b) for a, b in zip(upper, lower, strict=True))
         text.append("".join(cells) + "\x1b[0m")
     return "\n".join(text)
 
