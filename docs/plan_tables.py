@@ -21,7 +21,7 @@ def changes() -> str:
 def section(experiment: base.Experiment) -> str:
     """Returns the part of the plan on an experiment."""
     agents = [
-        (each.id, f"{each.agent.frames:,}", f"0 to {conditions.SEEDS[conditions.observations(each)] - 1}")
+        (each.id, f"{each.agent.frames:,}", f"0 to {conditions.SEEDS[each.observations] - 1}")
         for each in experiment.conditions
     ]
     written = claims.table()[experiment.name]["written"]

@@ -1,6 +1,7 @@
 """The parts of an experiment: its conditions, trials, stored results, claims and figure."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+import contextlib
 import dataclasses
 import json
 from pathlib import Path
@@ -80,20 +81,12 @@ class Results:
         rows = self.load("evaluations", ["condition", "trial", "training_seed"])
         return set(rows.itertuples(index=False, name=None))
 
-    def has_played(self, trial: Trial, condition: conditions_lib.Condition) -> bool:
-        """Returns whether an agent of a condition has played a trial."""
-        return bool(self._seeds([trial], condition))
-
-    def has_finished(self, condition: conditions_lib.Condition) -> bool:
-        """Returns whether an agent of a condition has been trained."""
-        return bool(len(self.load("runs", ["run"], [("condition", "==", condition.id)])))
-
     def episodes(
         self, trials: Sequence[Trial], wanted: Sequence[conditions_lib.Condition], columns: Sequence[str] = ()
     ) -> pandas.DataFrame:
         """Returns the episodes of agents that have played all of some trials, with the label of their condition.
 
-        `columns` are wanted beside those that identify the condition and the trial, as `records.completed` takes them.
+        `columns` are wanted beside those that identify the agent and the trial, as `records.completed` takes them.
 
         Raises:
           ValueError: if there are none.
@@ -107,35 +100,61 @@ class Results:
             for trial in trials:
                 rows = results_lib.read(self.path, "episodes", records.STORED, [*of_seeds, ("trial", "==", trial.name)])
                 frame = records.completed(rows, condition, [*always, *columns], trial.interaction, trial.task_kwargs)
-                frames.append(frame.assign(condition=condition.label))
-        if not frames:
-            raise self.lacks("episodes")
-        return pandas.concat(frames, ignore_index=True)
+                frames.append(frame.assign(condition=condition.label, player=condition.player, trial=trial.name))
+        return self._joined(frames, "episodes")
 
     def agents(
-        self, trial: Trial, wanted: Sequence[conditions_lib.Condition], columns: Sequence[str]
-    ) -> Iterator[tuple[conditions_lib.Condition, int, pandas.DataFrame]]:
-        """Yields the condition, training seed and episodes of each agent that has played a trial; see `episodes`."""
-        for condition in wanted:
-            if self.has_played(trial, condition):
-                for seed, episodes in self.episodes([trial], [condition], columns).groupby("training_seed"):
-                    yield condition, seed, episodes
+        self, trials: Sequence[Trial], wanted: Sequence[conditions_lib.Condition], columns: Sequence[str]
+    ) -> Iterator[tuple[dict[str, Any], conditions_lib.Condition, pandas.DataFrame]]:
+        """Yields the episodes of each agent that has played all of some trials, trial by trial; see `episodes`.
 
-    def curves(self, wanted: Sequence[conditions_lib.Condition]) -> pandas.DataFrame:
-        """Returns the learning curves of all runs of some conditions, with the label of their condition in `condition`.
+        Before them come the names `condition`, `player`, `training_seed` and `trial`, and the condition itself.
+        """
+        for condition in wanted:
+            if self._seeds(trials, condition):
+                keys = ["condition", "player", "training_seed", "trial"]
+                for names, episodes in self.episodes(trials, [condition], columns).groupby(keys):
+                    yield dict(zip(keys, names, strict=True)), condition, episodes
+
+    def frame(self, rows: Iterable[Mapping[str, Any]]) -> pandas.DataFrame:
+        """Returns rows of agents as a DataFrame.
 
         Raises:
           ValueError: if there are none.
         """
+        if not (rows := list(rows)):
+            raise self.lacks("episodes")
+        return pandas.DataFrame(rows)
+
+    def curves(self, wanted: Sequence[conditions_lib.Condition]) -> pandas.DataFrame:
+        """Returns the learning curves of all runs of some conditions, with the labels and players of these.
+
+        Raises:
+          ValueError: if there are none.
+        """
+        finished = set(self.load("runs", ["condition"]).condition)
         frames = []
         for condition in wanted:
-            if self.has_finished(condition):
+            if condition.id in finished:
                 filters = [("condition", "==", condition.id)]
                 rows = results_lib.read(self.path, "curves", ["training_seed", *records.METRICS], filters)
-                named = {"task": condition.task, "algorithm": condition.agent.title, "condition": condition.label}
-                frames.append(records.curves(rows).assign(**named))
+                names = {"task": condition.task, "player": condition.player, "condition": condition.label}
+                frames.append(records.curves(rows).assign(**names))
+        return self._joined(frames, "finished runs")
+
+    def with_player(self, frame: pandas.DataFrame, players: Iterable[str]) -> pandas.DataFrame:
+        """Returns the rows of the conditions in which there is one of these players.
+
+        Raises:
+          ValueError: if there are none.
+        """
+        there = frame.condition[frame.player.isin(players)]
+        return self._joined([frame[frame.condition.isin(there)]] if len(there) else [], "finished runs")
+
+    def _joined(self, frames: list[pandas.DataFrame], kind: str) -> pandas.DataFrame:
+        """Returns the frames as one, or raises ValueError if there are none; `kind` are their rows in words."""
         if not frames:
-            raise self.lacks("finished runs")
+            raise self.lacks(kind)
         return pandas.concat(frames, ignore_index=True)
 
     def _seeds(self, trials: Sequence[Trial], condition: conditions_lib.Condition) -> list[int]:
@@ -144,22 +163,33 @@ class Results:
         played = [set(rows.training_seed[rows.trial == trial.name]) for trial in trials]
         return sorted(int(seed) for seed in set.intersection(*played))
 
+    def made(self, name: str, otherwise: Any = None) -> Any:
+        """Returns what `keep` has stored under a name, or else another value.
 
-def keep_made(path: Path, made: Any) -> None:
-    """Writes the outcome of an experiment's preparation into a JSON file, for `read_made`."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    files.write_atomically(path, (json.dumps(made, indent=1) + "\n").encode())
+        Raises:
+          ValueError: if there is neither, or the file is damaged.
+        """
+        path = self._path_of_made(name)
+        if path.exists():
+            return files.read_json(path)
+        if otherwise is None:
+            raise self.lacks(f"{name}.json")
+        return otherwise
 
+    def keep(self, name: str, made: Any) -> None:
+        """Stores what an experiment has prepared, in a JSON file."""
+        path = self._path_of_made(name)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        files.write_atomically(path, (json.dumps(made, indent=1) + "\n").encode())
 
-def read_made(path: Path, experiment: str) -> Any:
-    """Returns the results that the preparation of an experiment stored in a JSON file.
+    def make(self, name: str, report: Callable[[str], None], words: str, compute: Callable[[], Any]) -> None:
+        """Stores what a slow function returns, unless that is there; `report` is told the words before."""
+        if not self._path_of_made(name).exists():
+            report(words)
+            self.keep(name, compute())
 
-    Raises:
-      ValueError: if the file is missing or damaged.
-    """
-    if not path.exists():
-        raise ValueError(f"{path} is missing; `physexp reproduce {experiment}` makes it")
-    return files.read_json(path)
+    def _path_of_made(self, name: str) -> Path:
+        return self.path / f"{name}.json"
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -176,7 +206,7 @@ class Experiment:
       trials: the episodes that each agent plays.
       prepare: computes slow results that need no agent, stores them with the results, and reports lines of progress;
         None without such results.
-      load: reads the data from the results.
+      load: reads the data from the results: a DataFrame with a row for each episode, agent or step of a learning curve.
       statistics: the estimates of the claims from the data, by the ids of the claims.
       draw: draws a matplotlib figure of the data.
       table: returns a header and rows of words, shown below the figure; None for none.
@@ -197,7 +227,12 @@ class Experiment:
 
     def test(self, data) -> list[claims_lib.Tested]:
         """Returns the claims under each of their conditions that has data."""
-        return claims_lib.test(self.claims, self.statistics, data)
+        found = []
+        for claim in self.claims:
+            for condition in claim.on:
+                with contextlib.suppress(claims_lib.NoRows):
+                    found.append(claim.tested(condition, self.statistics[claim.id](data, condition)))
+        return found
 
     def figure(self, data) -> Any:
         """Draws the figure in the style of all figures."""

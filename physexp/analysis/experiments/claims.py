@@ -18,8 +18,8 @@ HOLDS, FAILS, UNDECIDED = "holds", "fails", "undecided"
 OURS = "ours"
 _LEVEL = 0.05  # Of significance.
 
-Statistic = Callable[[Any, str], estimates.Estimate | None]
-"""Returns the estimate from an experiment's data under a condition, None without data."""
+Statistic = Callable[[Any, str], estimates.Estimate]
+"""Returns the estimate from an experiment's data, a DataFrame, under a condition; raises `NoRows` without data."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -113,36 +113,41 @@ def named(condition: str) -> str:
     return condition.partition(",")[0]
 
 
-def of_rows(statistic: Callable[[Any], estimates.Estimate | None]) -> Statistic:
-    """Returns the statistic that has an estimate from the rows of a condition, in a DataFrame with that column."""
-
-    def of_condition(frame: Any, condition: str) -> estimates.Estimate | None:
-        rows = frame[frame.condition == named(condition)]
-        return statistic(rows) if len(rows) else None
-
-    return of_condition
+class NoRows(LookupError):
+    """Data without the rows that a statistic needs: the claim is not tested there."""
 
 
-def of_all(statistic: Callable[[Any], estimates.Estimate | None]) -> Statistic:
-    """Returns the statistic that has an estimate from all data, for an experiment with one condition, or over all."""
-    return lambda data, condition: statistic(data)
+def rows(frame: Any, **values: Any) -> Any:
+    """Returns the rows of a DataFrame with these values of columns.
 
-
-def share_of_timeouts(rows: Any) -> estimates.Estimate:
-    """Returns the share of episodes without an answer, mean of agents."""
-    return estimates.mean_share((rows.label < 0).groupby(rows.training_seed).mean())
-
-
-def test(claims: Sequence[Claim], statistics: Mapping[str, Statistic], data: Any) -> list[Tested]:
-    """Returns the claims under each of their conditions that has data.
-
-    Args:
-      claims: the claims.
-      statistics: by their ids.
-      data: the first argument of the statistics.
+    Raises:
+      NoRows: if there are none.
     """
-    found = [(claim, condition, statistics[claim.id](data, condition)) for claim in claims for condition in claim.on]
-    return [claim.tested(condition, estimate) for claim, condition, estimate in found if estimate is not None]
+    for column, value in values.items():
+        frame = frame[frame[column] == value]
+    if frame.empty:
+        raise NoRows(values)
+    return frame
+
+
+def by_agent(rows: Any, along: str, column: str) -> Any:
+    """Returns the values of a column in a row for each agent and a column for each value of `along`."""
+    return rows.pivot(index="training_seed", columns=along, values=column)
+
+
+def of_rows(statistic: Callable[[Any], estimates.Estimate]) -> Statistic:
+    """Returns the statistic that has an estimate from the rows of a condition."""
+    return lambda frame, condition: statistic(rows(frame, condition=named(condition)))
+
+
+def of_all(statistic: Callable[[Any], estimates.Estimate]) -> Statistic:
+    """Returns the statistic that has an estimate from all data, for an experiment with one condition, or over all."""
+    return lambda frame, condition: statistic(frame)
+
+
+def mean_of_agents(value: Callable[[Any], Any], middle: Callable[[Any], estimates.Estimate]) -> Statistic:
+    """Returns the statistic that takes the mean of a value of each row by agent, and the middle of these."""
+    return of_rows(lambda its: middle(value(its).groupby(its.training_seed).mean()))
 
 
 def corrected(found: Sequence[Tested]) -> list[str]:

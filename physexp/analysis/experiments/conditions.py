@@ -19,22 +19,53 @@ PATIENT_DISCOUNT = 0.99  # Waiting costs little.
 SEEDS = {"features": 10, "pixels": 5}  # Agents trained in each condition.
 
 
+@dataclasses.dataclass(frozen=True, kw_only=True)
 class Condition(config_lib.TrainConfig):
-    """Agents that are trained alike but for their seeds: the configuration of the first run, with the seed 0."""
+    """Agents that are trained alike but for their seeds: the configuration of the first run, with the seed 0.
+
+    Attributes:
+      player: the name of these agents in an experiment; by default the title of their learner.
+    """
+
+    player: str = ""
+
+    def __post_init__(self):
+        super().__post_init__()
+        object.__setattr__(self, "player", self.player or self.agent.title)
 
     @property
     def id(self) -> str:
         """The name of the runs without their seeds; stored rows carry it."""
         return records.condition_id(self)
 
+    @property
+    def observations(self) -> str:
+        """The kind of observations, `features` or `pixels`."""
+        (kind,) = suite.tags(self.domain, self.task) & set(OBSERVATIONS)
+        return kind
+
+    @property
+    def chance(self) -> float:
+        """The share of right answers of an agent that answers at random."""
+        return 1 / self.load_task().num_labels
+
+    def ideal(self) -> Any:
+        """Returns the ideal experimenter, a `Solution`; with noise or variation, a policy that knows of them."""
+        find = domains.find(self.domain).ideal
+        assert find is not None
+        return find(self.task, self.task_kwargs, self.agent.discount)
+
     def run(self, seed: int, frames: int | None = None) -> config_lib.TrainConfig:
         """Returns the configuration of one run; `frames` replaces the budget in a rehearsal."""
         agent = self.agent.replace(seed=seed, frames=frames or self.agent.frames)
         return config_lib.TrainConfig(domain=self.domain, task=self.task, task_kwargs=self.task_kwargs, agent=agent)
 
-    def changed(self, agent: agent_config.AgentConfig | None = None, **task_kwargs: Any) -> "Condition":
-        """Returns a condition of the same task with another learner, or with further options of the task."""
-        return dataclasses.replace(self, agent=agent or self.agent, task_kwargs={**self.task_kwargs, **task_kwargs})
+    def changed(
+        self, agent: agent_config.AgentConfig | None = None, player: str = "", **task_kwargs: Any
+    ) -> "Condition":
+        """Returns a condition of the same task with another learner or name, or with further options of the task."""
+        task_kwargs = {**self.task_kwargs, **task_kwargs}
+        return dataclasses.replace(self, agent=agent or self.agent, player=player, task_kwargs=task_kwargs)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -79,14 +110,6 @@ _TIMED_FRAMES = 200_000  # Of the belief learner with the fist from features, wi
 _VARIED_FRAMES_PER_UPDATE = 16
 
 
-def label(domain: str, task: str, **task_kwargs: Any) -> str:
-    """Returns the label of a task: 10-F is difficulty 10 from features, D-P direct actuation from pixels.
-
-    In domains without labels, it is domain and task.
-    """
-    return domains.find(domain).label(task, task_kwargs)
-
-
 def heavier(
     difficulty: float, observations: str, frames: int, discount: float = which_is_heavier.DOMAIN.discount
 ) -> Condition:
@@ -112,12 +135,20 @@ HEAVIER = tuple(
 )
 """A3C at the paper's gamma of 0.95."""
 
+FEATURES = HEAVIER[: len(DIFFICULTIES)]
+
 PATIENT = tuple(
     heavier(beta, "features", _BUDGETS[f"{beta:g}-F"].patient, discount=PATIENT_DISCOUNT) for beta in DIFFICULTIES
 )
 """A3C at the paper's gamma of 0.99."""
 
 TOWERS = tuple(towers(actuator, kind) for actuator in ACTUATORS for kind in OBSERVATIONS)
+
+
+def by_actuator(observations: str) -> list[str]:
+    """Returns the labels of Towers with the fist and with direct actuation."""
+    return [towers(actuator, observations).label for actuator in ("fist", "direct")]
+
 
 BY_LABEL = {condition.label: condition for condition in (*HEAVIER, *TOWERS)}
 """A3C on the paper's tasks, by their labels."""
@@ -166,50 +197,22 @@ def with_each_learner(tasks: Sequence[Condition]) -> tuple[Condition, ...]:
     )
 
 
-def with_variation(condition: Condition) -> Condition:
-    """Returns a condition of Towers with full variation, and the belief learner's budget for that."""
+def with_variation(condition: Condition, player: str) -> Condition:
+    """Returns a condition of Towers with full variation, a name, and the belief learner's budget for that."""
     agent = condition.agent.replace(frames=_BUDGETS[condition.label].varied)
-    if observations(condition) == "pixels":
+    if condition.observations == "pixels":
         agent = agent.replace(frames_per_update=_VARIED_FRAMES_PER_UPDATE)
-    return condition.changed(agent, variation=1.0)
+    return condition.changed(agent, player, variation=1.0)
 
 
-def with_step_variation(condition: Condition) -> Condition:
+def with_step_variation(condition: Condition, player: str) -> Condition:
     """Returns a condition of Towers with control steps from half to one and a half times as long as usual."""
-    return condition.changed(condition.agent.replace(frames=_TIMED_FRAMES), step_variation=0.5)
+    return condition.changed(condition.agent.replace(frames=_TIMED_FRAMES), player, step_variation=0.5)
 
 
-def with_noise(condition: Condition, noise: float) -> Condition:
+def with_noise(condition: Condition, player: str, noise: float) -> Condition:
     """Returns a condition with noise of a standard deviation, m, and the belief learner's budget for that."""
-    return condition.changed(condition.agent.replace(frames=_NOISY_FRAMES), noise=noise)
-
-
-def observations(condition: config_lib.TrainConfig) -> str:
-    """Returns the kind of observations of a condition, `features` or `pixels`."""
-    (kind,) = suite.tags(condition.domain, condition.task) & set(OBSERVATIONS)
-    return kind
-
-
-def ideal(condition: Condition) -> Any:
-    """Returns the ideal experimenter of a condition, a `Solution`: no agent that is trained so can earn more.
-
-    Raises:
-      ValueError: if none is known.
-    """
-    find = domains.find(condition.domain).ideal_with(condition.task_kwargs)
-    if find is None:
-        raise ValueError(f"no ideal experimenter of {condition.id} is known")
-    return find(condition.task, condition.task_kwargs, condition.agent.discount)
-
-
-def heavier_ideal(difficulty: float, discount: float = which_is_heavier.DOMAIN.discount) -> Any:
-    """Returns the ideal experimenter of Which is Heavier at a difficulty and a discount, a `Solution`."""
-    return ideal(heavier(difficulty, "features", 1, discount))
-
-
-def chance(domain: str, task: str) -> float:
-    """Returns the share of right answers of an agent that answers at random."""
-    return 1 / suite.load_task(domain, task).num_labels
+    return condition.changed(condition.agent.replace(frames=_NOISY_FRAMES), player, noise=noise)
 
 
 def spelled_out(text: str) -> str:

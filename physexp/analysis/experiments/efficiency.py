@@ -4,7 +4,6 @@ Also the parts of the belief learner (ablations), and the way of the fist to the
 """
 
 from collections.abc import Callable, Mapping, Sequence
-import dataclasses
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,6 @@ import numpy as np
 from physexp.agents.belief import config as belief
 from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, curves, ideal_towers
-from physexp.analysis.training import records
 
 TASKS = tuple(conditions.BY_LABEL.values())
 LEVEL = 0.95  # Of the ideal's return, for features; of right answers, for pixels.
@@ -50,215 +48,149 @@ NEAR, FAR, DIRECT = "fist at the tower", "fist", "direct pushes"
 _DISTANCE = 0.16  # m, of the fist from the tower's axis, which leaves 1 cm between them; usually it is 0.32 m.
 
 
-def _actuated(actuator: str, kind: str, **task_kwargs: Any) -> conditions.Condition:
-    return conditions.with_belief(conditions.towers(actuator, kind)).changed(**task_kwargs)
+def _reaching(kind: str) -> tuple[conditions.Condition, ...]:
+    fist, direct = (conditions.with_belief(conditions.towers(actuator, kind)) for actuator in ("fist", "direct"))
+    near = fist.changed(player=NEAR, fist_distance=_DISTANCE)
+    return near, fist.changed(player=FAR), direct.changed(player=DIRECT)
 
 
-REACHING = {
-    kind: {
-        NEAR: _actuated("fist", kind, fist_distance=_DISTANCE),
-        FAR: _actuated("fist", kind),
-        DIRECT: _actuated("direct", kind),
-    }
-    for kind in conditions.OBSERVATIONS
-}
-"""The agents of `reaching`, by observations and actuator."""
+REACHING = tuple(condition for kind in conditions.OBSERVATIONS for condition in _reaching(kind))
 
 
-@dataclasses.dataclass(frozen=True)
-class Learned:
-    """Agents in training and afterwards.
-
-    Attributes:
-      curves: learning curves with a `score`, as `load_curves` returns them.
-      final: a row for each evaluated agent, as `evaluated` returns them.
-    """
-
-    curves: Any
-    final: Any
-
-
-def load_curves(results: base.Results, configs: Sequence[conditions.Condition]):
+def load_curves(results: base.Results, wanted: Sequence[conditions.Condition]):
     """Returns learning curves with a `score`: the share of the ideal's return, from pixels that of right answers.
 
     It is the score of the greedy episodes for learners that play some greedily, else of all, with drawn actions.
     """
-    frame = results.curves(configs)
+    frame = results.curves(wanted)
     returns, right = (
         frame.get(greedy, default=frame[drawn] * np.nan).fillna(frame[drawn])
         for greedy, drawn in (("greedy_return", "episode_return"), ("greedy_success_rate", "success_rate"))
     )
-    labels = frame.condition.unique()
-    units = {
-        label: 1.0 if sees_pixels(label) else ideal_towers.ideal_return(conditions.BY_LABEL[label], results)
-        for label in labels
-    }
+    tasks = [conditions.BY_LABEL[label] for label in frame.condition.unique()]
+    units = {task.label: 1.0 if sees_pixels(task.label) else ideal_towers.ideal_return(task, results) for task in tasks}
     return frame.assign(score=returns.where(~frame.condition.map(sees_pixels), right) / frame.condition.map(units))
 
 
 def evaluated(
-    results: base.Results, configs: Sequence[conditions.Condition], ideals: Mapping[str, float] | None = None
+    results: base.Results, wanted: Sequence[conditions.Condition], ideal: Callable[[conditions.Condition], float]
 ):
-    """Returns a row for each evaluated agent: its `share` of the ideal's return, and the standard `error` of that.
-
-    `ideals` are the ideal's returns by condition; by default they are looked up.
-    """
-    import pandas
-
-    rows = []
-    known = dict(ideals or {})
-    for config, seed, episodes in results.agents(base.EVALUATION, configs, ["reward", "length"]):
-        if config.label not in known:
-            known[config.label] = ideal_towers.ideal_return(conditions.BY_LABEL[config.label], results)
-        shares = records.discounted_return(episodes) / known[config.label]
-        error = shares.std(ddof=1) / np.sqrt(len(shares))
-        rows.append((config.label, config.agent.title, seed, shares.mean(), error))
-    return pandas.DataFrame(rows, columns=["condition", "algorithm", "training_seed", "share", "error"])
+    """Returns a row for each evaluated agent, with `ideal_towers.share`; `ideal` returns that of a condition."""
+    agents = results.agents([base.EVALUATION], wanted, ["reward", "length"])
+    return results.frame(names | ideal_towers.share(its, ideal(condition)) for names, condition, its in agents)
 
 
-def load_efficiency(results: base.Results) -> Learned:
-    """Returns all learners in training and afterwards."""
-    return Learned(load_curves(results, CONDITIONS), evaluated(results, CONDITIONS))
+def load_efficiency(results: base.Results):
+    """Returns the learning curves of all learners, each row with the `share` and `error` of the agent's evaluation."""
+    frame = load_curves(results, CONDITIONS)
+    return frame.merge(evaluated(results, CONDITIONS, lambda task: ideal_towers.ideal_return(task, results)), "left")
 
 
 def load_ablations(results: base.Results):
-    """Returns learning curves of all variants; see `load_curves`.
-
-    Raises:
-      ValueError: if no variant has been trained.
-    """
-    frame = load_curves(results, ABLATED)
-    if set(frame.algorithm) <= {"belief"}:
-        raise results.lacks("finished runs")
-    return frame
+    """Returns learning curves of all variants in the tasks in which some have been trained; see `load_curves`."""
+    return results.with_player(load_curves(results, ABLATED), set(VARIANTS) - {"belief"})
 
 
 def load_reaching(results: base.Results):
     """Returns learning curves, with the `score` in shares of right greedy answers.
 
-    The `condition` is the kind of observations, and the `algorithm` is the actuator.
-
-    Raises:
-      ValueError: if no agent was trained with a fist that starts at the tower.
+    The `condition` is the kind of observations; it is left out if no fist that starts at the tower was trained.
     """
-    import pandas
-
-    frames = []
-    for kind, players in REACHING.items():
-        if results.has_finished(players[NEAR]):
-            for player, config in players.items():
-                if results.has_finished(config):
-                    frame = results.curves([config])
-                    frames.append(frame.assign(condition=kind, algorithm=player, score=frame.greedy_success_rate))
-    if not frames:
-        raise results.lacks("finished runs")
-    return pandas.concat(frames, ignore_index=True)
+    frame = results.curves(REACHING)
+    kinds = frame.task.str.rpartition("_")[2]
+    return results.with_player(frame.assign(condition=kinds, score=frame.greedy_success_rate), [NEAR])
 
 
 def sees_pixels(label: str) -> bool:
     """Returns whether agents observe pixels in a condition of the paper."""
-    return label in conditions.BY_LABEL and conditions.observations(conditions.BY_LABEL[label]) == "pixels"
+    return label in conditions.BY_LABEL and conditions.BY_LABEL[label].observations == "pixels"
 
 
-def middle(label: str) -> Callable[..., estimates.Estimate]:
-    """Returns the estimator of the middle of agents.
+def middle(rows, values) -> estimates.Estimate:
+    """Returns the middle of values of agents, of which these are the rows.
 
     From pixels it is their mean: five agents are too few for an interval of the median at the corrected level.
     """
-    return estimates.mean if sees_pixels(label) else estimates.median
+    return (estimates.mean if sees_pixels(rows.condition.iloc[0]) else estimates.median)(values)
 
 
-def runs(frame, label: str, learner: str) -> list:
-    """Returns the rows of each agent of a condition with a learner, named by its title."""
-    return curves.runs(frame[(frame.condition == label) & (frame.algorithm == learner)])
+def reached(rows, along: str = "frames") -> np.ndarray:
+    """Returns the position on a column at which each agent first reaches `LEVEL`; infinity if it does not."""
+    return curves.reached(rows, LEVEL, along, "score")
 
 
-def reached(runs: Sequence, along: str = "frames") -> np.ndarray:
-    """Returns the position on a column at which runs first reach `LEVEL`; infinity if they do not."""
-    return np.array([curves.first_reached(run, LEVEL, along, "score") for run in runs])
+def ratio_of_steps(quick, slow) -> estimates.Estimate:
+    """Returns the ratio of the environment steps to `LEVEL` of some agents to those of others, from their rows.
 
-
-def ratio_of_steps(quick: Sequence, slow: Sequence) -> estimates.Estimate | None:
-    """Returns the ratio of the environment steps to `LEVEL` of some runs to those of others, None without either.
-
-    A run of the quick ones that never reaches it counts as infinitely slow, so the ratio is unknown. A slow run that
-    never reaches it counts with all its training, which is less than it needs: the ratio is then an upper bound.
+    An agent of the quick ones that never reaches it counts as infinitely slow, so the ratio is unknown. A slow agent
+    that never reaches it counts with all its training, which is less than it needs: the ratio is then an upper bound.
     """
-    if not quick or not slow:
-        return None
-    needed = reached(slow)
-    ratio = estimates.ratio_of_means(reached(quick), np.minimum(needed, [run.frames.max() for run in slow]))
+    needed, trained = reached(slow), slow.groupby("training_seed").frames.max().to_numpy()
+    ratio = estimates.ratio_of_means(reached(quick), np.minimum(needed, trained))
     return ratio if np.isfinite(needed).all() else estimates.at_most(ratio)
 
 
-def _ratio(quick: str, slow: str) -> claims.Statistic:
-    """Returns the statistic that compares two learners in a condition."""
+def _ratio(*players: str) -> claims.Statistic:
+    """Returns the statistic that compares two players in a condition."""
 
-    def ratio(data, label: str) -> estimates.Estimate | None:
-        frame = data.curves if isinstance(data, Learned) else data
-        return ratio_of_steps(runs(frame, label, quick), runs(frame, label, slow))
+    def ratio(frame, condition: str) -> estimates.Estimate:
+        return ratio_of_steps(*(claims.rows(frame, condition=condition, player=player) for player in players))
 
     return ratio
 
 
-def _learner(condition: str) -> str:
-    return "belief_revealed" if condition.endswith("answers revealed") else "belief"
+def _fist_over_direct(frame, kind: str) -> estimates.Estimate:
+    names = conditions.by_actuator(kind)
+    return ratio_of_steps(*(claims.rows(frame, condition=name, player="belief") for name in names))
 
 
-def _steps(learner: str) -> claims.Statistic:
-    def steps(data: Learned, label: str) -> estimates.Estimate | None:
-        its = runs(data.curves, label, learner)
-        estimate = estimates.geometric_mean if sees_pixels(label) else estimates.median
-        return estimate(reached(its)) if its else None
+def _of_belief(statistic: Callable[[Any], estimates.Estimate], player: str = "belief") -> claims.Statistic:
+    """Returns the statistic of the rows of the belief learner, with answers revealed if the condition says so."""
 
-    return steps
+    def estimated(frame, condition: str) -> estimates.Estimate:
+        its = "belief_revealed" if condition.endswith("answers revealed") else player
+        return statistic(claims.rows(frame, condition=claims.named(condition), player=its))
 
-
-def _of_runs(value: Callable[[Any], float]) -> claims.Statistic:
-    """Returns the median over agents of a value of their learning curves."""
-
-    def statistic(data: Learned, condition: str) -> estimates.Estimate | None:
-        its = runs(data.curves, claims.named(condition), _learner(condition))
-        return estimates.median([value(run) for run in its]) if its else None
-
-    return statistic
+    return estimated
 
 
-def _agents(data: Learned, condition: str):
-    final = data.final
-    return final[(final.condition == claims.named(condition)) & (final.algorithm == _learner(condition))]
+def _steps(rows) -> estimates.Estimate:
+    estimate = estimates.geometric_mean if sees_pixels(rows.condition.iloc[0]) else estimates.median
+    return estimate(reached(rows))
 
 
-def _share(data: Learned, condition: str) -> estimates.Estimate | None:
-    agents = _agents(data, condition)
-    return middle(claims.named(condition))(agents.share) if len(agents) else None
+def _calibration(rows) -> estimates.Estimate:
+    return estimates.median(rows.sort_values("frames").groupby("training_seed").calibration_error.nth(-1))
 
 
-def _worst(data: Learned, condition: str) -> estimates.Estimate | None:
-    agents = _agents(data, condition)
-    if not len(agents):
-        return None
+def _agents(rows):
+    """Returns a row for each agent that has been evaluated."""
+    return claims.rows(rows.dropna(subset=["share"]).drop_duplicates("training_seed"))
+
+
+def _share(rows) -> estimates.Estimate:
+    return middle(rows, _agents(rows).share)
+
+
+def _worst(rows) -> estimates.Estimate:
+    agents = _agents(rows)
     worst = agents.loc[agents.share.idxmin()]
     return estimates.normal(worst.share, worst.error)
-
-
-def _fist_over_direct(data: Learned, kind: str) -> estimates.Estimate | None:
-    labels = (conditions.label("towers", f"{actuator}_{kind}") for actuator in ("fist", "direct"))
-    return ratio_of_steps(*(runs(data.curves, label, "belief") for label in labels))
 
 
 def _draw_scores(axes, frame, label: str, names: Mapping[str, str], along: str = "frames") -> None:
     """Draws the score of each learner in a condition, with a legend of their names by title."""
     for number, (learner, name) in enumerate(names.items()):
-        if its := runs(frame, label, learner):
+        its = frame[(frame.condition == label) & (frame.player == learner)]
+        if len(its):
             curves.draw_range(axes, its, number, name, along)
     axes.set(xscale="log", ylim=(_FLOOR, 1.05))
 
 
-def _draw_efficiency(data: Learned):
+def _draw_efficiency(frame):
     """Draws a row for each task, features left and pixels right, each against frames and against minutes."""
-    shown = [task for task in TASKS if (data.curves.condition == task.label).any()]
-    kinds = [kind for kind in conditions.OBSERVATIONS if kind in map(conditions.observations, shown)]
+    shown = [task for task in TASKS if (frame.condition == task.label).any()]
+    kinds = [kind for kind in conditions.OBSERVATIONS if kind in {task.observations for task in shown}]
     rows = list(dict.fromkeys(task.label.split("-")[0] for task in shown))
     figure, panels = plots.new(
         rows=len(rows), columns=2 * len(kinds), width=2.0, height=1.5, sharex="col", sharey=True, squeeze=False
@@ -268,11 +200,11 @@ def _draw_efficiency(data: Learned):
     handles: dict[str, Any] = {}
     lowest: dict[int, Any] = {}  # Of each column.
     for task in shown:
-        row, column = rows.index(task.label.split("-")[0]), 2 * kinds.index(conditions.observations(task))
+        row, column = rows.index(task.label.split("-")[0]), 2 * kinds.index(task.observations)
         for place, along in enumerate(curves.AXES, column):
             axes = lowest[place] = panels[row, place]
             axes.set_axis_on()
-            _draw_scores(axes, data.curves, task.label, LEARNERS, along)
+            _draw_scores(axes, frame, task.label, LEARNERS, along)
             plots.reference(axes, LEVEL, "")
             handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
         score = "right answers" if sees_pixels(task.label) else "share of the ideal"
@@ -284,29 +216,30 @@ def _draw_efficiency(data: Learned):
     return figure
 
 
-def _draw_ablations(frame):
-    """Draws a panel for each task."""
+def _draw_panels(frame, names: Mapping[str, str], level: float, text: str, **size: Any):
+    """Draws a panel for each condition, and a line with a text at a level."""
     shown = list(frame.condition.unique())
-    figure, panels = plots.new(columns=len(shown), width=3.2, height=2.4, sharey=True, squeeze=False)
+    figure, panels = plots.new(columns=len(shown), sharey=True, squeeze=False, **size)
     for axes, label in zip(panels[0], shown, strict=True):
-        _draw_scores(axes, frame, label, {title: words for title, (words, _) in VARIANTS.items()})
-        plots.reference(axes, LEVEL, "")
+        _draw_scores(axes, frame, label, names)
+        plots.reference(axes, level, text)
         axes.set(title=conditions.spelled_out(label), xlabel=curves.AXES["frames"][1])
-    panels[0, 0].set_ylabel("share of the ideal")
-    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    return figure, panels[0, 0]
+
+
+def _draw_ablations(frame):
+    names = {title: words for title, (words, _) in VARIANTS.items()}
+    figure, first = _draw_panels(frame, names, LEVEL, "", width=3.2, height=2.4)
+    first.set_ylabel("share of the ideal")
+    figure.legend(*first.get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure
 
 
 def _draw_reaching(frame):
-    """Draws a panel for each kind of observation."""
-    kinds = list(frame.condition.unique())
-    figure, panels = plots.new(columns=len(kinds), width=3.0, height=2.3, sharey=True, squeeze=False)
-    for axes, kind in zip(panels[0], kinds, strict=True):
-        _draw_scores(axes, frame, kind, {player: player for player in (NEAR, FAR, DIRECT)})
-        plots.reference(axes, conditions.chance("towers", conditions.TOWERS[0].task), "chance")
-        axes.set(title=kind, xlabel=curves.AXES["frames"][1])
-    panels[0, 0].set(ylabel="share of right answers", ylim=(0, 1.02))
-    panels[0, 0].legend(loc="upper left")
+    names = {player: player for player in (NEAR, FAR, DIRECT)}
+    figure, first = _draw_panels(frame, names, conditions.TOWERS[0].chance, "chance", width=3.0, height=2.3)
+    first.set(ylabel="share of right answers", ylim=(0, 1.02))
+    first.legend(loc="upper left")
     return figure
 
 
@@ -318,12 +251,12 @@ EXPERIMENTS = {
         prepare=ideal_towers.prepare,
         load=load_efficiency,
         statistics={
-            "few_steps": _steps("belief"),
-            "few_steps_revealed": _steps("belief_revealed"),
-            "minutes": _of_runs(lambda run: curves.first_reached(run, LEVEL, "seconds", "score")),
-            "calibrated": _of_runs(lambda run: run.sort_values("frames").calibration_error.iloc[-1]),
-            "near_optimum": _share,
-            "none_far": _worst,
+            "few_steps": _of_belief(_steps),
+            "few_steps_revealed": _of_belief(_steps, "belief_revealed"),
+            "minutes": _of_belief(lambda rows: estimates.median(reached(rows, "seconds"))),
+            "calibrated": _of_belief(_calibration),
+            "near_optimum": _of_belief(_share),
+            "none_far": _of_belief(_worst),
             "fewer_steps": _ratio("belief", "a3c"),
             "many_episodes": _ratio("a3c", "a3c_paper"),
             "fist_is_faster": _fist_over_direct,
@@ -332,7 +265,7 @@ EXPERIMENTS = {
     ),
     "reaching": base.Experiment(
         **claims.described("reaching"),
-        conditions=tuple(config for players in REACHING.values() for config in players.values()),
+        conditions=REACHING,
         load=load_reaching,
         statistics={"near_over_far": _ratio(NEAR, FAR), "near_over_direct": _ratio(NEAR, DIRECT)},
         draw=_draw_reaching,

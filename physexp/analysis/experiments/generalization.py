@@ -1,10 +1,12 @@
 """Generalization: agents in towers that differ from those of their training. Ours."""
 
 from collections.abc import Callable
+import functools
 import textwrap
 from typing import Any
 
 import numpy as np
+import pandas
 
 from physexp.analysis import domains
 from physexp.analysis.data import estimates, plots
@@ -20,11 +22,10 @@ _WORDS = {
     RULE: "rule: cubes whose distance changes are not glued",
     LOOKUP: "observer of 1 mm: the nearest of 16",
 }
-CONDITIONS = {
-    USUAL: tuple(conditions.with_belief(task) for task in conditions.TOWERS),
-    VARIED: tuple(conditions.with_variation(conditions.with_belief(task)) for task in conditions.TOWERS),
-}
-"""The agents, by their training."""
+CONDITIONS = (
+    *(conditions.with_belief(task).changed(player=USUAL) for task in conditions.TOWERS),
+    *(conditions.with_variation(conditions.with_belief(task), VARIED) for task in conditions.TOWERS),
+)
 
 _NUM_EPISODES = 2000  # Of each test.
 _NUM_ACTORS = 100  # Of the rule and the lookup, side by side.
@@ -46,25 +47,27 @@ TRIALS = {
     "steps of 0.15 s": make_trial("steps0.15", variation=1.0, control_timestep=0.15),
 }
 """The tests, by their names."""
-HELD_OUT = tuple(TRIALS)[2:]
+HELD_OUT = list(TRIALS)[2:]
 """The tests outside the range of all training."""
 
 
 def prepare(results: base.Results, report: Callable[[str], None]) -> None:
-    """Plays the tests that the rule and the lookup have not played yet; `report` is told which of them plays."""
+    """Lets the rule and the lookup play the tasks that they have not played yet; `report` is told which."""
     for task in conditions.TOWERS:
-        path = _path(results, task.task)
-        rows = base.read_made(path, "generalization") if path.exists() else []
-        done = {(row["player"], row["test"]) for row in rows}
-        for player, make in domains.find(task.domain).baselines.get(task.task, {}).items():
-            missing = [test for test in TRIALS if (player, test) not in done]
-            if missing:
-                report(f"{player} plays {task.task}")
-            for test in missing:
-                rewards, lengths = play(make, task, TRIALS[test])
-                earned = float((rewards * task.agent.discount ** (lengths - 1)).mean())
-                rows.append({"player": player, "test": test, "right": int((rewards > 0).sum()), "return": earned})
-                base.keep_made(path, rows)
+        if players := domains.find(task.domain).baselines.get(task.task):
+            make = functools.partial(_played, task, players)
+            results.make(f"generalization/{task.task}", report, f"{' and '.join(players)} play {task.task}", make)
+
+
+def _played(task: conditions.Condition, players) -> list[dict[str, Any]]:
+    """Returns the number of right answers and the mean return of each player in each test."""
+    rows = []
+    for player, make in players.items():
+        for test, trial in TRIALS.items():
+            rewards, lengths = play(make, task, trial)
+            earned = float((rewards * task.agent.discount ** (lengths - 1)).mean())
+            rows.append({"player": player, "test": test, "right": int((rewards > 0).sum()), "return": earned})
+    return rows
 
 
 def play(make: Callable[[], Any], task: conditions.Condition, trial: base.Trial) -> tuple[np.ndarray, np.ndarray]:
@@ -73,62 +76,40 @@ def play(make: Callable[[], Any], task: conditions.Condition, trial: base.Trial)
     return rollouts.play(actors, task.domain, task.task, trial.task_kwargs, rounds, playing.SEED)
 
 
-def _path(results: base.Results, task: str):
-    return results.path / "generalization" / f"{task}.json"
-
-
 def load(results: base.Results):
     """Returns a row for each condition, player, training_seed (-1 without training) and test.
 
-    The values are `right`, the share of right answers, and `return`, the mean discounted one.
-
-    Raises:
-      ValueError: if no agent has played.
+    The values are `right`, the share of right answers, and `return`, the mean discounted one. Agents are left out until
+    they have played all tests.
     """
-    import pandas
-
-    rows: list[dict[str, Any]] = []
-    for player, configs in CONDITIONS.items():
-        for test, trial in TRIALS.items():
-            for config, seed, its in results.agents(trial, configs, ["reward", "length"]):
-                values = {"right": (its.reward > 0).mean(), "return": records.discounted_return(its).mean()}
-                names = {"condition": config.label, "player": player, "training_seed": seed, "test": test}
-                rows.append(names | values)
-    if not rows:
-        raise results.lacks("episodes")
-    frames = [pandas.DataFrame(rows)]
+    tests = {trial.name: test for test, trial in TRIALS.items()}
+    agents = results.frame(
+        names | {"right": (its.reward > 0).mean(), "return": records.discounted_return(its).mean()}
+        for names, _, its in results.agents(list(TRIALS.values()), CONDITIONS, ["reward", "length"])
+    )
+    frames = [agents.assign(test=agents.trial.map(tests))]
     for task in conditions.TOWERS:
-        if (frames[0].condition == task.label).any() and domains.find(task.domain).baselines.get(task.task):
-            frame = pandas.DataFrame(base.read_made(_path(results, task.task), "generalization"))
+        if (agents.condition == task.label).any() and task.task in domains.find(task.domain).baselines:
+            frame = pandas.DataFrame(results.made(f"generalization/{task.task}"))
             frames.append(frame.assign(condition=task.label, training_seed=-1, right=frame.right / _NUM_EPISODES))
     return pandas.concat(frames, ignore_index=True)
 
 
 def _by_test(rows, player: str, column: str = "right"):
-    """Returns a row for each agent with all tests, and a column for each test."""
-    table = rows[rows.player == player].pivot(index="training_seed", columns="test", values=column)
-    return table.reindex(columns=list(TRIALS)).dropna()
+    return claims.by_agent(claims.rows(rows, player=player), "test", column)
 
 
-def _middle(rows, values) -> estimates.Estimate | None:
-    return efficiency.middle(rows.condition.iloc[0])(values) if len(values) else None
+def _gain(rows) -> estimates.Estimate:
+    return estimates.difference_of_pairs(*(_by_test(rows, player)["varied"] for player in (VARIED, USUAL)))
 
 
-def _gain(rows) -> estimates.Estimate | None:
-    varied, usual = (_by_test(rows, player)["varied"] for player in (VARIED, USUAL))
-    return estimates.difference_of_pairs(varied, usual) if len(varied) and len(usual) else None
+def _worst_of_rule(rows) -> estimates.Estimate:
+    return estimates.proportion(round(_by_test(rows, RULE).min(axis=None) * _NUM_EPISODES), _NUM_EPISODES)
 
 
-def _worst_of_rule(rows) -> estimates.Estimate | None:
-    rule = _by_test(rows, RULE)
-    if not len(rule):
-        return None
-    return estimates.proportion(round(float(rule.min(axis=1).iloc[0]) * _NUM_EPISODES), _NUM_EPISODES)
-
-
-def _share_of_rule(rows) -> estimates.Estimate | None:
+def _share_of_rule(rows) -> estimates.Estimate:
     varied, rule = (_by_test(rows, player, "return")["varied"] for player in (VARIED, RULE))
-    return estimates.median(varied / rule.iloc[0]) if len(varied) and len(rule) else None
+    return estimates.median(varied / rule.iloc[0])
 
 
 def draw(frame):
@@ -137,16 +118,17 @@ def draw(frame):
     figure, panels = plots.new(rows=len(names), width=6.4, height=2.1, sharex=True, squeeze=False)
     places = np.arange(len(TRIALS))
     for axes, name in zip(panels[:, 0], names, strict=True):
+        players = dict(list(frame[frame.condition == name].groupby("player")))
         for number, (player, words) in enumerate(_WORDS.items()):
-            table = _by_test(frame[frame.condition == name], player)
-            if not len(table):
+            if player not in players:
                 continue
+            right = claims.by_agent(players[player], "test", "right")[list(TRIALS)]
             style = dict(color=plots.COLORS[number + 1], marker=plots.MARKERS[number], markersize=4)
-            middle = table.median()
-            spread = np.abs(table.agg(["min", "max"]) - middle).to_numpy() if len(table) > 1 else None
+            middle = right.median()
+            spread = np.abs(right.agg(["min", "max"]) - middle).to_numpy() if len(right) > 1 else None
             shift = (number - 1.5) * 0.12
             axes.errorbar(places + shift, middle, yerr=spread, linestyle="none", capsize=2, label=words, **style)
-        plots.reference(axes, conditions.chance("towers", conditions.TOWERS[0].task), "chance")
+        plots.reference(axes, conditions.TOWERS[0].chance, "chance")
         axes.set(title=conditions.spelled_out(name), ylabel="share of right answers", ylim=(0, 1.05))
         axes.axvline(1.5, color=plots.GREY, linewidth=0.6)
     panels[-1, 0].set_xticks(places, [textwrap.fill(test, 9) for test in TRIALS])
@@ -158,13 +140,15 @@ def draw(frame):
 EXPERIMENTS = {
     "generalization": base.Experiment(
         **claims.described("generalization"),
-        conditions=tuple(config for configs in CONDITIONS.values() for config in configs),
+        conditions=CONDITIONS,
         trials=tuple(TRIALS.values()),
         prepare=prepare,
         load=load,
         statistics={
-            "unseen": claims.of_rows(lambda rows: _middle(rows, _by_test(rows, VARIED)["varied"])),
-            "held_out": claims.of_rows(lambda rows: _middle(rows, _by_test(rows, VARIED)[list(HELD_OUT)].min(axis=1))),
+            "unseen": claims.of_rows(lambda rows: efficiency.middle(rows, _by_test(rows, VARIED)["varied"])),
+            "held_out": claims.of_rows(
+                lambda rows: efficiency.middle(rows, _by_test(rows, VARIED)[HELD_OUT].min(axis=1))
+            ),
             "by_heart": claims.of_rows(_gain),
             "rule": claims.of_rows(_worst_of_rule),
             "near_rule": claims.of_rows(_share_of_rule),

@@ -1,10 +1,14 @@
-"""The ideal experimenters of Towers, computed once and stored with the results."""
+"""The ideal experimenters of Towers, computed once and stored with the results; shares of an ideal's return."""
 
 from collections.abc import Callable
+import functools
+
+import numpy as np
 
 from physexp.analysis.domains import towers
 from physexp.analysis.experiments import base, conditions
 from physexp.analysis.ideal import search
+from physexp.analysis.training import records
 
 # The resolution of the observer: metres for features, differing pixels for images.
 RESOLUTIONS = {"features": (0.0, 0.001, 0.003, 0.01, 0.03), "pixels": (0.0, 10.0, 30.0, 100.0)}
@@ -12,41 +16,36 @@ RESOLUTIONS = {"features": (0.0, 0.001, 0.003, 0.01, 0.03), "pixels": (0.0, 10.0
 
 def prepare(results: base.Results, report: Callable[[str], None]) -> None:
     """Computes the ideal experimenters of all tasks that are not there yet; `report` is told their names."""
-    for condition in conditions.TOWERS:
-        path = _path(results, condition.task)
-        if not path.exists():
-            report(f"searching for the ideal experimenter of {condition.task}")
-            resolutions = RESOLUTIONS[conditions.observations(condition)]
-            rows = search.curve(towers.hypotheses(condition.task), resolutions, condition.agent.discount)
-            base.keep_made(path, rows)
+    for task in conditions.TOWERS:
+        words = f"searching for the ideal experimenter of {task.task}"
+        results.make(_name(task), report, words, functools.partial(_solve, task))
 
 
-def read(results: base.Results) -> dict[str, list[dict]]:
-    """Returns the summaries of `search.curve` by task.
-
-    Raises:
-      ValueError: if they have not been computed.
-    """
-    return {each.task: base.read_made(_path(results, each.task), "ideal_gap") for each in conditions.TOWERS}
+def _solve(task: conditions.Condition) -> list[dict]:
+    return search.curve(towers.hypotheses(task.task), RESOLUTIONS[task.observations], task.agent.discount)
 
 
-def best(rows: list[dict]) -> dict:
+def _name(task: conditions.Condition) -> str:
+    return f"ideal/towers-{task.task}"
+
+
+def curve(task: conditions.Condition, results: base.Results) -> list[dict]:
+    """Returns the stored summaries of `search.curve` of a task."""
+    return results.made(_name(task))
+
+
+def best(task: conditions.Condition, results: base.Results) -> dict:
     """Returns the summary of the observer that distinguishes every bit."""
-    (found,) = (row for row in rows if (row["resolution"], row["objective"]) == (0.0, "return"))
+    (found,) = (row for row in curve(task, results) if (row["resolution"], row["objective"]) == (0.0, "return"))
     return found
 
 
-def summaries(results: base.Results) -> dict[str, dict]:
-    """Returns the summary of the observer that distinguishes every bit, by the label of a condition."""
-    return {conditions.label("towers", task): best(rows) for task, rows in read(results).items()}
-
-
 def ideal_return(task: conditions.Condition, results: base.Results) -> float:
-    """Returns the ideal experimenter's return in a task of the paper, stored or computed."""
-    if task in conditions.TOWERS:
-        return best(base.read_made(_path(results, task.task), "ideal_gap"))["value"]
-    return conditions.ideal(task).value
+    """Returns the ideal experimenter's return in a task, stored or computed."""
+    return best(task, results)["value"] if task.domain == "towers" else task.ideal().value
 
 
-def _path(results: base.Results, task: str):
-    return results.path / "ideal" / f"towers-{task}.json"
+def share(episodes, ideal: float) -> dict[str, float]:
+    """Returns an agent's mean return as a `share` of the ideal's, and the standard `error` of that."""
+    shares = records.discounted_return(episodes) / ideal
+    return {"share": shares.mean(), "error": shares.std(ddof=1) / np.sqrt(len(shares))}

@@ -1,10 +1,10 @@
 """The laboratory: the return of each learner in every domain, as a share of the ideal's. Ours."""
 
-from collections.abc import Callable, Mapping
-import dataclasses
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import pandas
 
 from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, efficiency
@@ -15,71 +15,49 @@ LEARNERS = {"a3c": "A3C", "ppo": "PPO", "belief": "belief", "belief_revealed": "
 
 CONDITIONS = conditions.with_each_learner(TASKS)
 _FLOOR = -0.1  # Of the figure; smaller shares are drawn there.
-_UNTRAINED = ("value", "at_once", "random_value")
-
-
-@dataclasses.dataclass(frozen=True)
-class Earned:
-    """Returns of agents and of others.
-
-    Attributes:
-      agents: a row for each agent, as `efficiency.evaluated` returns them, with the `frames` and `minutes` of training.
-      untrained: the returns of the ideal, of an answer at once and of random interactions, by condition.
-    """
-
-    agents: Any
-    untrained: Mapping[str, Mapping[str, float]]
-
-    def of(self, label: str, learner: str):
-        """Returns the agents of a learner in a condition."""
-        return self.agents[(self.agents.condition == label) & (self.agents.algorithm == learner)]
+_STORED = "ideal/laboratory"
+_UNTRAINED = ["value", "at_once", "random_value"]
 
 
 def prepare(results: base.Results, report: Callable[[str], None]) -> None:
     """Computes the returns without learning in each domain that is not there yet; `report` is told their names."""
-    path = _path(results)
-    found = base.read_made(path, "laboratory") if path.exists() else {}
+    found = results.made(_STORED, {})
     for task in TASKS:
         if task.label not in found:
             report(f"searching for the ideal experimenter of {task.task_name}")
-            summary = conditions.ideal(task).summary()
+            summary = task.ideal().summary()
             found[task.label] = {name: summary[name] for name in _UNTRAINED}
-            base.keep_made(path, found)
+            results.keep(_STORED, found)
 
 
-def _path(results: base.Results):
-    return results.path / "ideal" / "laboratory.json"
+def load(results: base.Results):
+    """Returns a row for each agent that has been trained and evaluated: see `efficiency.evaluated`.
 
-
-def load(results: base.Results) -> Earned:
-    """Returns the returns of all agents that have been trained and evaluated."""
-    untrained = base.read_made(_path(results), "laboratory")
+    With the `frames` and `minutes` of its training, and the returns in its task of the ideal, `value`, of an answer
+    `at_once`, and of random interactions, `random_value`.
+    """
+    untrained = results.made(_STORED)
     if missing := [task.label for task in TASKS if task.label not in untrained]:
-        raise ValueError(f"{_path(results)} lacks {', '.join(missing)}; `physexp reproduce laboratory` adds that")
-    frame = efficiency.evaluated(results, CONDITIONS, {label: row["value"] for label, row in untrained.items()})
-    rows = results.curves(CONDITIONS).groupby(["condition", "algorithm", "training_seed"])
-    ends = rows[["frames", "seconds"]].max().reset_index()
-    return Earned(frame.merge(ends.assign(minutes=ends.seconds / 60).drop(columns="seconds")), untrained)
+        raise results.lacks(f"ideal of {', '.join(missing)}")
+    frame = efficiency.evaluated(results, CONDITIONS, lambda task: untrained[task.label]["value"])
+    runs = results.curves(CONDITIONS).groupby(["condition", "player", "training_seed"])[["frames", "seconds"]].max()
+    frame = frame.merge(runs.assign(minutes=runs.seconds / 60).reset_index())
+    return frame.join(pandas.DataFrame.from_dict(untrained, "index", columns=_UNTRAINED), on="condition")
 
 
-def _share(learner: str) -> claims.Statistic:
-    def share(earned: Earned, label: str) -> estimates.Estimate | None:
-        agents = earned.of(label, learner)
-        return estimates.median(agents.share) if len(agents) else None
-
-    return share
+def _share(player: str) -> claims.Statistic:
+    return claims.of_rows(lambda agents: estimates.median(claims.rows(agents, player=player).share))
 
 
-def table(earned: Earned) -> list[tuple[str, ...]]:
+def table(frame) -> list[tuple[str, ...]]:
     """Returns a header and a row for each domain: the median share of each learner, and its training."""
     header = ("task", "ideal's return", "answer at once", "random interactions", *LEARNERS.values())
     rows = [tuple(name.replace("\n", " ") for name in header)]
-    for task in TASKS:
-        cells = [_cell(earned.of(task.label, learner)) for learner in LEARNERS]
-        if any(cells):
-            row = earned.untrained[task.label]
-            shares = (f"{row[name] / row['value']:.2f}" for name in ("at_once", "random_value"))
-            rows.append((_title(task), f"{row['value']:.4f}", *shares, *cells))
+    for label, agents in frame.groupby("condition", sort=False):
+        value, *others = agents[_UNTRAINED].iloc[0]
+        shares = (f"{other / value:.2f}" for other in others)
+        cells = (_cell(agents[agents.player == learner]) for learner in LEARNERS)
+        rows.append((_title(label), f"{value:.4f}", *shares, *cells))
     return rows
 
 
@@ -92,21 +70,21 @@ def _cell(agents) -> str:
     return f"{share:.3f} ({count} {noun}, {frames / 1000:,.0f} K steps, {minutes:.1f} min)"
 
 
-def draw(earned: Earned):
+def draw(frame):
     """Draws a panel for each domain: every agent's share of the ideal's return, and that of random interactions."""
-    shown = [task for task in TASKS if (earned.agents.condition == task.label).any()]
-    num_columns = min(4, len(shown))
-    grid: dict[str, Any] = dict(columns=num_columns, rows=-(-len(shown) // num_columns), width=1.9, height=2.0)
+    by_task = dict(list(frame.groupby("condition", sort=False)))
+    num_columns = min(4, len(by_task))
+    grid: dict[str, Any] = dict(columns=num_columns, rows=-(-len(by_task) // num_columns), width=1.9, height=2.0)
     figure, panels = plots.new(**grid, sharex=True, sharey=True, squeeze=False)
-    for axes in panels.flat[len(shown) :]:
+    for axes in panels.flat[len(by_task) :]:
         axes.set_axis_off()
-    for axes, task in zip(panels.flat, shown, strict=False):
-        row = earned.untrained[task.label]
+    for axes, (label, agents) in zip(panels.flat, by_task.items(), strict=False):
+        value, _, random_value = agents[_UNTRAINED].iloc[0]
         plots.reference(axes, 1.0, "")
-        axes.axhline(max(_FLOOR, row["random_value"] / row["value"]), color="0.85", linewidth=3, zorder=-1)
+        axes.axhline(max(_FLOOR, random_value / value), color="0.85", linewidth=3, zorder=-1)
         for number, learner in enumerate(LEARNERS):
-            _draw_shares(axes, number, earned.of(task.label, learner).share.clip(lower=_FLOOR))
-        axes.set(title=_title(task), ylim=(_FLOOR - 0.03, 1.08), xlim=(-0.5, len(LEARNERS) - 0.5))
+            _draw_shares(axes, number, agents.share[agents.player == learner].clip(lower=_FLOOR))
+        axes.set(title=_title(label), ylim=(_FLOOR - 0.03, 1.08), xlim=(-0.5, len(LEARNERS) - 0.5))
         axes.set_xticks(range(len(LEARNERS)), list(LEARNERS.values()), rotation=90)
     for axes in panels[:, 0]:
         axes.set_ylabel("share of the ideal's return")
@@ -126,9 +104,10 @@ def _draw_shares(axes, number: int, shares) -> None:
         axes.plot([number - 0.3, number + 0.3], [shares.median()] * 2, color=color, linewidth=1.6)
 
 
-def _title(task) -> str:
+def _title(label: str) -> str:
     """Returns a task's name in words, without the observations, as `towers direct`."""
-    return task.task_name.replace("/", "_").removesuffix("_features").replace("_", " ")
+    (name,) = (task.task_name for task in TASKS if task.label == label)
+    return name.replace("/", "_").removesuffix("_features").replace("_", " ")
 
 
 EXPERIMENTS = {

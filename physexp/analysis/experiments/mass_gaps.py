@@ -9,9 +9,9 @@ import math
 from typing import Any
 
 import numpy as np
+import pandas
 from scipy import stats
 
-from physexp.analysis import domains
 from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, curves
 from physexp.analysis.training import records
@@ -24,15 +24,11 @@ _FEWEST = 20  # Episodes in a bin that is drawn.
 _EDGES = np.linspace(0, 1, 11)
 _GAPS = (_EDGES[1:] + _EDGES[:-1]) / 2  # The middles of the bins.
 
-EXACT, NOISY = "exact", "noisy"
 _NOISE = 0.03  # m, of each reading.
-_TASK = conditions.BY_LABEL["5-F"]
-READINGS = {
-    EXACT: conditions.with_belief(_TASK),
-    NOISY: conditions.with_noise(conditions.with_belief(_TASK), _NOISE),
-}
+EXACT, NOISY = "exact readings", f"readings with noise of {1000 * _NOISE:g} mm"
+_BELIEF = conditions.with_belief(conditions.BY_LABEL["5-F"])
+READINGS = (_BELIEF.changed(player=EXACT), conditions.with_noise(_BELIEF, NOISY, _NOISE))
 """The agents of `noise`, by the readings in training and test."""
-_WORDS = {EXACT: "exact readings", NOISY: f"readings with noise of {1000 * _NOISE:g} mm"}
 
 
 def with_blocks(episodes):
@@ -59,14 +55,13 @@ def slope(x: np.ndarray, y: np.ndarray) -> float:
 
 def load_gaps(results: base.Results):
     """Returns the mass gaps of the first episodes of seed 0, as the task draws them."""
-    import pandas
-
     del results  # They need none.
     seeds, episodes = np.zeros(_EPISODES, np.int64), np.arange(_EPISODES)
-    frames = []
-    for difficulty in conditions.DIFFICULTIES:
-        masses = which_is_heavier.draw_masses(seeds, episodes, difficulty)
-        frames.append(pandas.DataFrame({"difficulty": difficulty, "mass_gap": which_is_heavier.mass_gaps(masses)}))
+    drawn = {beta: which_is_heavier.draw_masses(seeds, episodes, beta) for beta in conditions.DIFFICULTIES}
+    frames = [
+        pandas.DataFrame({"difficulty": beta, "mass_gap": which_is_heavier.mass_gaps(masses)})
+        for beta, masses in drawn.items()
+    ]
     return pandas.concat(frames, ignore_index=True)
 
 
@@ -106,11 +101,9 @@ def _answered(rows) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
     return [tuple(agent[["mass_gap", "interactions", "blocks"]].to_numpy(float).T) for _, agent in agents]
 
 
-def _correlation_of_pokes(frame, condition: str) -> estimates.Estimate | None:
-    rows = frame[frame.condition == claims.named(condition)]
+def _correlation_of_pokes(frame, condition: str) -> estimates.Estimate:
+    rows = claims.rows(frame, condition=claims.named(condition))
     found = [estimates.correlation(gaps, pokes) for gaps, pokes, _ in _answered(rows)]
-    if not found:
-        return None
     if condition.endswith("each agent"):
         return max(found, key=lambda estimate: estimate.high)
     return estimates.mean([estimate.value for estimate in found])
@@ -123,11 +116,11 @@ def _share_of_blocks(rows) -> estimates.Estimate:
 
 def _draw_individual(frame):
     """Draws an agent of each difficulty: episodes, trend, spread, and the ideal experimenter's mean."""
-    present = [beta for beta in conditions.DIFFICULTIES if (frame.difficulty == beta).any()]
-    figure, panels = plots.new(columns=len(present), width=2.3, height=2.3, sharey=True, squeeze=False)
+    shown = [each for each in conditions.PATIENT if (frame.condition == each.label).any()]
+    figure, panels = plots.new(columns=len(shown), width=2.3, height=2.3, sharey=True, squeeze=False)
     red, blue = plots.COLORS[2], plots.COLORS[1]
-    for axes, beta in zip(panels[0], present, strict=True):
-        gaps, pokes, _ = _answered(frame[frame.difficulty == beta])[0]
+    for axes, each in zip(panels[0], shown, strict=True):
+        gaps, pokes, _ = _answered(frame[frame.condition == each.label])[0]
         spread = np.random.default_rng(0).uniform(-0.3, 0.3, len(pokes[:_DOTS]))  # Dots of whole numbers coincide.
         style: dict[str, Any] = dict(s=1, color="black", alpha=0.25, linewidths=0, rasterized=True)
         axes.scatter(gaps[:_DOTS], pokes[:_DOTS] + spread, **style)
@@ -136,66 +129,51 @@ def _draw_individual(frame):
         axes.errorbar(_GAPS, means, deviations, label="mean and standard deviation", **style)
         trend, ends = slope(gaps, pokes), np.array([0.0, 1.0])
         axes.plot(ends, pokes.mean() + trend * (ends - gaps.mean()), color=red, label="OLS")
-        axes.plot(_GAPS, _ideal_pokes(beta), color=blue, linestyle=plots.DASHES[1], label="ideal")
-        axes.set(xlabel="mass gap", title=f"β = {beta:g}: slope {trend:.2f}", xlim=(0, 1), ylim=(0, 15))
+        axes.plot(_GAPS, _ideal_pokes(each), color=blue, linestyle=plots.DASHES[1], label="ideal")
+        title = f"β = {each.task_kwargs['difficulty']:g}: slope {trend:.2f}"
+        axes.set(xlabel="mass gap", title=title, xlim=(0, 1), ylim=(0, 15))
     panels[0, 0].set_ylabel("pokes before the answer")
     panels[0, -1].legend(loc="upper right", fontsize=6)
     return figure
 
 
-def _ideal_pokes(beta: float) -> np.ndarray:
+def _ideal_pokes(condition: conditions.Condition) -> np.ndarray:
     """Returns the ideal experimenter's mean pokes in each bin of mass gaps."""
-    masses = which_is_heavier.draw_masses(np.full(50_000, 1), np.arange(50_000), beta)
-    pokes, _ = conditions.heavier_ideal(beta, conditions.PATIENT_DISCOUNT).play(masses)
+    difficulty = condition.task_kwargs["difficulty"]
+    masses = which_is_heavier.draw_masses(np.full(50_000, 1), np.arange(50_000), difficulty)
+    pokes, _ = condition.ideal().play(masses)
     return by_gap(which_is_heavier.mass_gaps(masses), pokes, fewest=1)
 
 
 # The same with noise.
 
 
+_KNOWING = "noise/5-F"  # Stored.
+
+
 def prepare_noise(results: base.Results, report: Callable[[str], None]) -> None:
     """Computes the return of an experimenter that knows of the noise, if it is not there yet."""
-    if not _noise_path(results).exists():
-        report("an experimenter that knows of the noise plays")
-        task = READINGS[NOISY]
-        find = domains.find(task.domain).ideal
-        assert find is not None
-        value = find(task.task, task.task_kwargs, task.agent.discount).value
-        base.keep_made(_noise_path(results), {"value": value})
-
-
-def _noise_path(results: base.Results):
-    return results.path / "noise" / f"{READINGS[NOISY].label}.json"
+    words = "an experimenter that knows of the noise plays"
+    results.make(_KNOWING, report, words, lambda: {"value": READINGS[1].ideal().value})
 
 
 def load_noise(results: base.Results):
-    """Returns episodes with their `readings`, and the number of repeated pokes, `again`.
+    """Returns episodes with the number of repeated pokes, `again`; the player is EXACT or NOISY.
 
-    The `share` is that of the return of an experimenter that knows of the noise; NaN with exact readings.
+    The `share` of NOISY is that of the return of an experimenter that knows of the noise.
 
     Raises:
       ValueError: if no agent has played with noise.
     """
-    import pandas
-
-    if not results.has_played(base.EVALUATION, READINGS[NOISY]):
-        raise results.lacks("episodes")
-    frames = []
-    for readings, config in READINGS.items():
-        if results.has_played(base.EVALUATION, config):
-            columns = ["mass_gap", "interactions", "label", "actions", "reward", "length"]
-            frame = with_blocks(results.episodes([base.EVALUATION], [config], columns))
-            value = base.read_made(_noise_path(results), "noise")["value"] if readings == NOISY else math.nan
-            share = (records.discounted_return(frame) / value).astype(float)
-            frames.append(frame.assign(readings=readings, again=frame.interactions - frame.blocks, share=share))
-    return pandas.concat(frames, ignore_index=True)
+    columns = ["mass_gap", "interactions", "label", "actions", "reward", "length"]
+    frame = with_blocks(results.with_player(results.episodes([base.EVALUATION], READINGS, columns), [NOISY]))
+    share = (records.discounted_return(frame) / results.made(_KNOWING)["value"]).astype(float)
+    return frame.assign(again=frame.interactions - frame.blocks, share=share)
 
 
-def _by_agent(statistic: Callable[[Any], float], readings: str, frame):
+def _by_agent(statistic: Callable[[Any], float], player: str, frame):
     """Returns a statistic of the episodes of each agent with some readings, by seed."""
-    import pandas
-
-    agents = frame[frame.readings == readings].groupby("training_seed")
+    agents = claims.rows(frame, player=player).groupby("training_seed")
     return pandas.Series({seed: statistic(agent) for seed, agent in agents}, dtype=float)
 
 
@@ -206,12 +184,9 @@ def _with_noise(statistic: Callable[[Any], float], middle: Callable = estimates.
 
 def _noisy_less_exact(statistic: Callable[[Any], float]) -> claims.Statistic:
     """Returns the difference that noise makes to a statistic, over the seeds with both readings."""
-
-    def difference(frame) -> estimates.Estimate | None:
-        noisy, exact = (_by_agent(statistic, readings, frame) for readings in (NOISY, EXACT))
-        return estimates.difference_of_pairs(noisy, exact) if len(noisy) and len(exact) else None
-
-    return claims.of_all(difference)
+    return claims.of_rows(
+        lambda frame: estimates.difference_of_pairs(*(_by_agent(statistic, each, frame) for each in (NOISY, EXACT)))
+    )
 
 
 def _correlation(agent) -> float:
@@ -233,14 +208,13 @@ def _draw_noise(frame):
     figure, panels = plots.new(columns=2, width=3.0, height=2.3)
     words = {"again": "pokes of blocks poked before", "interactions": "pokes before the answer"}
     for axes, (column, label) in zip(panels, words.items(), strict=True):
-        for number, readings in enumerate(_WORDS):
-            agents = frame[frame.readings == readings].groupby("training_seed")
+        for number, (readings, its) in enumerate(frame.groupby("player")):
+            agents = its.groupby("training_seed")
             lines = [by_gap(agent.mass_gap.to_numpy(), agent[column].to_numpy()) for _, agent in agents]
-            if lines:
-                curves.draw_spread(axes, _GAPS, lines, number, _WORDS[readings])
+            curves.draw_spread(axes, _GAPS, lines, number, readings)
         axes.set(xlabel="mass gap", ylabel=label, xlim=(0, 1), ylim=(0, None))
     panels[0].legend()
-    figure.suptitle(plots.seeds(frame[frame.readings == NOISY]), fontsize=7, x=0.99, ha="right")
+    figure.suptitle(plots.seeds(frame[frame.player == NOISY]), fontsize=7, x=0.99, ha="right")
     return figure
 
 
@@ -258,14 +232,14 @@ EXPERIMENTS = {
         load=load_individual,
         statistics={
             "longer_if_small": _correlation_of_pokes,
-            "no_timeouts": claims.of_rows(claims.share_of_timeouts),
+            "no_timeouts": claims.mean_of_agents(lambda rows: rows.label < 0, estimates.mean_share),
             "further_blocks": claims.of_rows(_share_of_blocks),
         },
         draw=_draw_individual,
     ),
     "noise": base.Experiment(
         **claims.described("noise"),
-        conditions=tuple(READINGS.values()),
+        conditions=READINGS,
         trials=(base.EVALUATION,),
         prepare=prepare_noise,
         load=load_noise,

@@ -4,8 +4,7 @@ An agent may come near the optimal return without them. In Strike the distance o
 from `m sqrt(mu)` alone: a strike that stops at D needs the impulse `m sqrt(2 mu g D)`.
 """
 
-from collections.abc import Callable, Mapping
-import dataclasses
+from collections.abc import Callable
 import functools
 from typing import Any
 
@@ -13,7 +12,7 @@ import numpy as np
 from scipy import stats
 
 from physexp.analysis.data import estimates, plots
-from physexp.analysis.experiments import base, claims, conditions
+from physexp.analysis.experiments import base, claims, conditions, curves
 from physexp.analysis.training import records
 from physexp.suite.domains import balance, sealed_box, strike, strings
 
@@ -26,65 +25,46 @@ _SIDES = np.array(list(balance.PLACES.values()))
 _PROPERTIES = {"asked": "m √μ", "mass": "m", "friction": "μ"}
 
 
-@dataclasses.dataclass(frozen=True)
-class Played:
-    """Episodes of agents.
-
-    Attributes:
-      episodes: the episodes with the behaviour in them, and the `share` of the ideal's value that each returned.
-      ideal: the ideal's share of episodes for each number of interactions.
-    """
-
-    episodes: Any
-    ideal: Mapping[int, float]
-
-
-def _near_optimum(episodes) -> estimates.Estimate:
-    return estimates.median(episodes.groupby("training_seed").share.mean())
-
-
 def _experiment(
     name: str,
     condition: conditions.Condition,
     columns: tuple[str, ...],
     behaviour: Callable[[Any], Any],
-    statistics: dict[str, Callable[[Any], estimates.Estimate]],
+    statistics: dict[str, claims.Statistic],
     draw: Callable[[Any, Any], None],
 ) -> base.Experiment:
-    """Returns an experiment on one condition; `behaviour` adds columns to its episodes, for `statistics` and `draw`."""
+    """Returns an experiment on one condition; `behaviour` adds columns to its episodes, for `statistics` and `draw`.
 
-    def load(results: base.Results) -> Played:
+    The episodes have the `share` of the ideal's value that each returned, and the attribute `ideal`: the ideal's share
+    of episodes for each number of interactions.
+    """
+
+    def load(results: base.Results):
         episodes = results.episodes([base.EVALUATION], [condition], ["reward", "length", "interactions", *columns])
-        ideal = conditions.ideal(condition)
-        share = records.discounted_return(episodes) / ideal.value
-        return Played(behaviour(episodes.assign(share=share)), ideal.figures()["histogram"])
-
-    def of_episodes(statistic: Callable[[Any], estimates.Estimate]) -> claims.Statistic:
-        return claims.of_all(lambda played: statistic(played.episodes))
+        ideal = condition.ideal()
+        frame = behaviour(episodes.assign(share=records.discounted_return(episodes) / ideal.value))
+        frame.attrs["ideal"] = ideal.figures()["histogram"]
+        return frame
 
     return base.Experiment(
         **claims.described(name),
         conditions=(condition,),
         trials=(base.EVALUATION,),
         load=load,
-        statistics={id: of_episodes(each) for id, each in {**statistics, "near_optimum": _near_optimum}.items()},
-        draw=lambda played: _draw(played, draw),
+        statistics=statistics | {"near_optimum": claims.mean_of_agents(lambda rows: rows.share, estimates.median)},
+        draw=functools.partial(_draw, draw),
     )
 
 
-def _draw(played: Played, draw_behaviour: Callable[[Any, Any], None]):
+def _draw(draw_behaviour: Callable[[Any, Any], None], episodes):
     """Draws the interactions before the answer beside the ideal's, and the behaviour."""
     figure, (left, right) = plots.new(columns=2, width=3.0, height=2.3)
-    taken = played.episodes.interactions
-    longest = max(len(played.ideal), int(taken.max()) + 1)
-    shares = np.bincount(taken, minlength=longest) / len(taken)
-    left.bar(np.arange(longest), shares, color=plots.COLORS[1], width=0.8, alpha=0.75, label="agents")
-    ideal = [played.ideal.get(number, 0.0) for number in range(longest)]
-    left.stairs(ideal, np.arange(longest + 1) - 0.5, color=plots.GREY, linewidth=1.3, label="ideal")
+    taken, ideal = episodes.interactions, episodes.attrs["ideal"]
+    curves.draw_histogram(left, taken, ideal, max(len(ideal), int(taken.max()) + 1), plots.COLORS[1])
     left.set(xlabel="interactions before the answer", ylabel="share of episodes")
     left.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2)
-    draw_behaviour(right, played.episodes)
-    figure.suptitle(plots.seeds(played.episodes), fontsize=7, x=0.99, ha="right")
+    draw_behaviour(right, episodes)
+    figure.suptitle(plots.seeds(episodes), fontsize=7, x=0.99, ha="right")
     return figure
 
 
@@ -106,10 +86,6 @@ def first_weighing(actions) -> int:
 
 def _with_first(frame):
     return frame.assign(first=[first_weighing(actions) for actions in frame.actions])
-
-
-def _one_against_one(frame) -> estimates.Estimate:
-    return estimates.mean_share((frame["first"] == 1).groupby(frame.training_seed).mean())
 
 
 def _draw_first(axes, frame) -> None:
@@ -137,10 +113,6 @@ def _with_clamps(frame):
     return frame.assign(clamps=clamped, together=hangs_together(frame.answer.to_numpy()))
 
 
-def _only_if_needed(frame) -> estimates.Estimate:
-    return estimates.mean_share((frame.clamps == frame.together).groupby(frame.training_seed).mean())
-
-
 def _draw_clamps(axes, frame) -> None:
     shares = frame.groupby("answer").clamps.mean().reindex(range(strings.NUM_GRAPHS), fill_value=0.0)
     colors = [plots.COLORS[2] if both else plots.GREY for both in hangs_together(shares.index.to_numpy())]
@@ -154,13 +126,9 @@ def _draw_clamps(axes, frame) -> None:
 # Shaking in Sealed Box: contents that are harder to identify need more interactions.
 
 
-def ideal_interactions() -> np.ndarray:
-    """Returns the interactions of the ideal experimenter with each content, int64 [H]."""
-    return conditions.ideal(SHAKING).outcomes()[0]
-
-
 def _with_ideal(frame):
-    return frame.assign(ideal=ideal_interactions()[frame.content])
+    """Returns the episodes with the interactions of the ideal experimenter, `ideal`."""
+    return frame.assign(ideal=SHAKING.ideal().outcomes()[0][frame.content])
 
 
 def _taken(frame):
@@ -201,7 +169,7 @@ def shares_left(pucks, actions) -> dict[str, np.ndarray]:
     frictions = np.array([friction for _, friction, _ in strike.PUCKS])
     masses, _ = strike.properties(np.arange(len(frictions)), strike.Options().goal_distance)
     mass, friction = np.log(masses), np.log(frictions)
-    known, solution = {"asked": mass + friction / 2, "mass": mass, "friction": friction}, conditions.ideal(AIMING)
+    known, solution = {"asked": mass + friction / 2, "mass": mass, "friction": friction}, AIMING.ideal()
 
     @functools.cache
     def left(puck: int, taken: tuple[int, ...]) -> list[int]:
@@ -229,6 +197,14 @@ def _draw_left(axes, frame) -> None:
     axes.set(xlabel="logarithm of", ylabel="spread left, share of the prior's", ylim=(0, 1.05))
 
 
+_one_against_one = claims.mean_of_agents(lambda rows: rows["first"] == 1, estimates.mean_share)
+_only_if_needed = claims.mean_of_agents(lambda rows: rows.clamps == rows.together, estimates.mean_share)
+_aims = {
+    "goal_is_known": claims.of_rows(lambda rows: estimates.mean(_spreads(rows, "asked"))),
+    "rest_is_unknown": claims.of_rows(lambda rows: estimates.mean(_spreads(rows, "friction"))),
+}
+_longer_if_hard = claims.of_rows(_rank_correlation)
+
 EXPERIMENTS = {
     "weighing": _experiment(
         "weighing", WEIGHING, ("actions",), _with_first, {"one_against_one": _one_against_one}, _draw_first
@@ -237,17 +213,7 @@ EXPERIMENTS = {
         "clamping", CLAMPING, ("actions", "answer"), _with_clamps, {"only_if_needed": _only_if_needed}, _draw_clamps
     ),
     "shaking": _experiment(
-        "shaking", SHAKING, ("content",), _with_ideal, {"longer_if_hard": _rank_correlation}, _draw_contents
+        "shaking", SHAKING, ("content",), _with_ideal, {"longer_if_hard": _longer_if_hard}, _draw_contents
     ),
-    "aiming": _experiment(
-        "aiming",
-        AIMING,
-        ("actions", "puck"),
-        _with_left,
-        {
-            "goal_is_known": lambda frame: estimates.mean(_spreads(frame, "asked")),
-            "rest_is_unknown": lambda frame: estimates.mean(_spreads(frame, "friction")),
-        },
-        _draw_left,
-    ),
+    "aiming": _experiment("aiming", AIMING, ("actions", "puck"), _with_left, _aims, _draw_left),
 }

@@ -22,7 +22,7 @@ from pyarrow import parquet
 from physexp import suite
 from physexp.agents import files
 from physexp.analysis.data import results as results_lib
-from physexp.analysis.experiments import base, conditions
+from physexp.analysis.experiments import base
 from physexp.analysis.training import (
     callbacks,
     finding,
@@ -72,7 +72,7 @@ def jobs(
     trials: dict[config_lib.TrainConfig, dict[base.Trial, None]] = defaultdict(dict)
     for experiment in experiments:
         for condition in experiment.conditions:
-            kind = conditions.observations(condition)
+            kind = condition.observations
             for seed in range(num_seeds(kind) if kind in observations else 0):
                 trials[condition.run(seed, frames)] |= dict.fromkeys(experiment.trials)
     return [Job(config, tuple(trials[config])) for config in sorted(trials, key=lambda config: config.agent.seed)]
