@@ -8,11 +8,7 @@ from typing import Any
 
 
 def write_atomically(path: Path, content: bytes) -> None:
-    """Replaces a file: after a crash or on a full disk there is the old file or the new one, never a part.
-
-    Raises:
-      OSError: if the content cannot be written; the old file is untouched.
-    """
+    """Replaces a file: after a crash or on a full disk (OSError) there is the old file or the new one, never a part."""
     path = Path(path)
     temporary = path.with_name(f".{secrets.token_hex(8)}.tmp")
     try:
@@ -34,12 +30,7 @@ def remove_litter(folder: Path) -> None:
 
 
 def read_json(path: Path) -> Any:
-    """Returns the content of a JSON file.
-
-    Raises:
-      OSError: if it cannot be read.
-      ValueError: if it is not JSON.
-    """
+    """Returns the content of a JSON file; raises OSError if it cannot be read, and ValueError if it is not JSON."""
     try:
         return json.loads(Path(path).read_bytes())
     except (ValueError, RecursionError) as error:

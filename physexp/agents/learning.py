@@ -69,11 +69,7 @@ class Variables(Generic[Network]):
         return {name: value.to("cpu", copy=True) for name, value in self.tensors().items()}
 
     def restore(self, tensors: Mapping[str, torch.Tensor]) -> None:
-        """Restores everything from the tensors of `save`.
-
-        Raises:
-          ValueError: if the tensors do not fit or are not finite; nothing is changed then.
-        """
+        """Restores everything from the result of `save`; raises ValueError, and changes nothing, if it does not fit."""
         own = self.tensors()
         try:
             tensors_lib.check(tensors, own)
@@ -157,8 +153,7 @@ def clipped_gradients(
 ) -> tuple[list[torch.Tensor], float]:
     """Returns the gradient of a loss for each parameter, clipped to a global norm, and the norm before clipping.
 
-    Raises:
-      DivergedError: if the loss or the norm is not finite; it holds the arrays of the episodes.
+    Raises DivergedError, with the arrays of the episodes, if the loss or the norm is not finite.
     """
     network.zero_grad()
     loss.backward()

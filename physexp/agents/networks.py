@@ -50,11 +50,7 @@ class RecurrentNetwork(nn.Module, abc.ABC):
     torso: "PixelTorso | FeatureTorso"
 
     def __init__(self, observation_spec: Mapping[str, specs.Array], pixel_scale: float, feature_scale: float):
-        """Builds the torso, with weights from torch's global seed.
-
-        Raises:
-          ValueError: if observations are neither features nor one image.
-        """
+        """Builds the torso, with weights from torch's global seed, for features or one image; else ValueError."""
         super().__init__()
         self._observed = {name: tuple(array.shape) for name, array in observation_spec.items()}
         self.sees_images = any(spec.dtype == np.uint8 for spec in observation_spec.values())

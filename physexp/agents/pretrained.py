@@ -51,14 +51,9 @@ def names(folder: Path = FOLDER) -> list[str]:
 def load(
     domain: str, task: str, *, agent: str | None = None, folder: str | Path = FOLDER, **options: Any
 ) -> Pretrained:
-    """Loads a trained agent.
+    """Loads a trained agent from a folder; for the other arguments see `agents.load_pretrained`.
 
-    Args:
-      domain, task: what it plays.
-      agent: the learner that trained it, as `a3c`; None for the best agent.
-      folder: where the agents are.
-      options: the options that the task had in training. By default those of the only agent of the task, or of the one
-        whose card says that it is the task's default.
+    Without options it is the only agent of the task, or the one whose card says that it is the task's default.
 
     Raises:
       OSError: if its file cannot be read.
@@ -132,12 +127,9 @@ def _make(facts: Mapping[str, Any], seed: int = 0) -> networks.RecurrentNetwork:
 def save(network: networks.RecurrentNetwork, card: Mapping[str, Any], folder: Path = FOLDER) -> Path:
     """Writes a trained agent in place of the one that has its name, if there is one; returns the path of its file.
 
-    Frozen parameters that follow from the agent's seed are not stored but drawn again when the agent is loaded.
-
-    Args:
-      network: its network; floating-point weights are kept in half precision.
-      card: its provenance, with `domain`, `task`, `task_kwargs`, `seed` and `network` as `load` reads them.
-      folder: where the agents are; made when needed.
+    Floating-point weights are kept in half precision. Frozen parameters that follow from the agent's seed are not
+    stored but drawn again when the agent is loaded. The card has `domain`, `task`, `task_kwargs`, `seed` and `network`
+    as `load` reads them.
 
     Raises:
       OSError: if it cannot be written.

@@ -15,11 +15,7 @@ from physexp.agents import core, files
 
 
 def halved(variables: Mapping[str, torch.Tensor]) -> dict[str, torch.Tensor]:
-    """Returns variables with floating-point numbers in half precision.
-
-    Raises:
-      ValueError: if a number is not finite, or too large for half precision.
-    """
+    """Returns variables with floating-point numbers in half precision; raises ValueError if one is not finite then."""
     tensors = {name: value.half() if value.is_floating_point() else value for name, value in variables.items()}
     if wrong := not_finite(tensors):
         raise ValueError(f"weights are not finite in half precision ({wrong}); keep an agent that has not diverged")
@@ -41,9 +37,7 @@ def write(path: Path, tensors: Mapping[str, torch.Tensor], facts: Mapping[str, A
 def read(path: Path) -> tuple[dict[str, torch.Tensor], dict[str, Any]]:
     """Returns the tensors and the facts of a file.
 
-    Raises:
-      OSError: if it cannot be read.
-      DamagedError: if it is no such file, or differs from what was written.
+    Raises OSError if it cannot be read, and DamagedError if it is no such file or differs from what was written.
     """
     with _opened(path) as file:
         metadata = file.metadata() or {}
@@ -71,10 +65,9 @@ def _opened(path: Path) -> Iterator[Any]:
 
 
 def check(tensors: Mapping[str, torch.Tensor], like: Mapping[str, torch.Tensor]) -> None:
-    """Refuses tensors unless they are finite and have the names, shapes and kinds of others.
+    """Raises ValueError unless tensors are finite and have the names, shapes and kinds of others.
 
-    Raises:
-      ValueError: with a phrase that follows the tensors' name.
+    Its message follows the name of the tensors' file.
     """
     if differing := sorted(set(tensors) ^ set(like)):
         raise ValueError(f"does not fit the configuration: only one of them has {_listed(differing)}")

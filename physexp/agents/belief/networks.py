@@ -111,15 +111,9 @@ class BeliefNetwork(networks.RecurrentNetwork):
     def unroll(
         self, inputs: torch.Tensor, actions: torch.Tensor, dropout: float = 0.0
     ) -> tuple[torch.Tensor, torch.Tensor]:
-        """Computes the outputs of all members for whole episodes, padded to the longest.
+        """Computes the outputs of K members for encoded observations, [T, B, F], and actions taken, int64 [T, B].
 
-        Args:
-          inputs: encoded observations, [T, B, F].
-          actions: the actions taken then, int64 [T, B].
-          dropout: share of the memory's outputs that are dropped, drawn anew for each step.
-
-        Returns:
-          Logits of the beliefs of K members, [K, T, B, L], and the share x of each interaction, [K, T, B, I].
+        Returns the logits of beliefs, [K, T, B, L], and the share x of each interaction, [K, T, B, I].
         """
         logits, shares = self._all_members(self._histories(inputs, actions), dropout)
         return logits.transpose(1, 2), shares.transpose(1, 2)

@@ -25,8 +25,7 @@ class Replay:
     def __init__(self, num_rounds: int, longest: int, num_environments: int, num_inputs: int, dtype: type):
         """Makes room for rounds of episodes of at most `longest` actions, and for their inputs as numbers of a type.
 
-        Raises:
-          ValueError: if they would take more than half of the machine's memory.
+        Raises ValueError if they would take more than half of the machine's memory.
         """
         steps = num_rounds, longest, num_environments
         num_bytes = math.prod(steps) * num_inputs * np.dtype(dtype).itemsize
@@ -54,12 +53,7 @@ class Replay:
         self._answers[slot] = played.answers
 
     def restore(self, play: Callable[[int, acting.Choose], rounds.Round], num_rounds: int) -> None:
-        """Plays the rounds in `actions` again, for their inputs, rewards and answers.
-
-        Args:
-          play: plays the round of a number, and keeps its inputs.
-          num_rounds: how many rounds were played in all.
-        """
+        """Has `play`, which keeps inputs, play again the rounds in `actions`, the last of `num_rounds`."""
         actions = self.actions.numpy().astype(np.int64)
         for number in range(max(0, num_rounds - len(actions)), num_rounds):
             self.add(play(number, functools.partial(_again, actions[number % len(actions)])), number)
@@ -67,13 +61,10 @@ class Replay:
     def sample(
         self, generator: np.random.Generator, size: int, ensemble_size: int, num_rounds: int
     ) -> tuple[rounds.Round, torch.Tensor]:
-        """Draws episodes of the last of `num_rounds` rounds with replacement, equally many for each held-out member.
+        """Draws B episodes, `size`, of the last of `num_rounds` rounds, equally many for each of K held-out members.
 
-        Every K-th environment has the same one of K held-out members. `size` is a multiple of K, and there are at least
-        K environments.
-
-        Returns:
-          The episodes, B of them, and their held-out members, int64 [B], ascending.
+        Every K-th environment has the same held-out member; B is a multiple of K. Returns the episodes, drawn with
+        replacement, and their held-out members, int64 [B], ascending.
         """
         held_out = np.arange(size) * ensemble_size // size
         slots = generator.integers(min(num_rounds, len(self.actions)), size=size)
@@ -85,13 +76,12 @@ class Replay:
         steps, columns = np.nonzero(np.arange(longest)[:, None] < lengths)
         rewards = np.zeros((longest, size), np.float32)
         rewards[lengths - 1, np.arange(size)] = self._rewards[slots, environments]
-        inputs = torch.from_numpy(self._inputs[slots[columns], steps, environments[columns]])
         episodes = rounds.Round(
             actions.T[:longest].astype(np.int64).clip(min=0),
             rewards,
             lengths,
             self._answers[slots, environments],
-            inputs,
+            torch.from_numpy(self._inputs[slots[columns], steps, environments[columns]]),
         )
         return episodes, torch.from_numpy(held_out)
 
