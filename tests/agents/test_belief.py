@@ -332,7 +332,7 @@ class Revealing:
 
 @pytest.mark.parametrize("answers_revealed", [True, False])
 def test_right_labels_are_learned_from_only_if_they_are_revealed(answers_revealed):
-    config = SMALL.replace(answers_revealed=answers_revealed, seed=fresh_seed(), frames=150)
+    config = SMALL.replace(answers_revealed=answers_revealed, seed=fresh_seed(), frames=1, frames_per_update=16)
     agents = [
         make_agent(config),
         belief.Belief(lambda seed, size, threads: Revealing(load("which_is_heavier", "features", seed, size)), config),
