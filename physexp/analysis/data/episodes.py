@@ -114,10 +114,10 @@ class Episodes:
         episode: int,
         hidden: np.ndarray | None = None,
     ) -> "Episodes":
-        """Returns the episodes of a round.
+        """Returns the episodes of a round in N environments.
 
         Args:
-          played: one episode in each of N environments.
+          played: the round.
           num_interactions: the number of interactions of the task, whose labels follow them.
           seed: seeds of the environments, int64 [N].
           episode: the index of all episodes of the round.
@@ -142,13 +142,16 @@ class Episodes:
     @classmethod
     def joined(cls, parts: "Sequence[Episodes]") -> "Episodes":
         """Returns the episodes of all parts, one after the other."""
-        names = [field.name for field in dataclasses.fields(cls) if field.name != "actions"]
-        columns = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
-        return cls(**columns, actions=_stacked([part.actions for part in parts]))
+        longest = max(part.actions.shape[1] for part in parts)
+        columns = {name: [vars(part)[name] for part in parts] for name in vars(parts[0])}
+        columns["actions"] = [
+            np.pad(each, ((0, 0), (0, longest - each.shape[1])), constant_values=-1) for each in columns["actions"]
+        ]
+        return cls(**{name: np.concatenate(values) for name, values in columns.items()})
 
     def first(self, count: int) -> "Episodes":
         """Returns the first episodes."""
-        return Episodes(**{field.name: getattr(self, field.name)[:count] for field in dataclasses.fields(self)})
+        return Episodes(**{name: values[:count] for name, values in vars(self).items()})
 
     def actions_of(self, index: int) -> np.ndarray:
         """Returns the actions of one episode, int64 [length]."""
@@ -177,32 +180,13 @@ class Episodes:
         return self.interactions == self.length
 
     def table(self, schema: pyarrow.Schema, **others: Any) -> pyarrow.Table:
-        """Returns the columns that a schema selects, a row an episode.
+        """Returns the columns of a schema, a row an episode; `others` has those that this table lacks.
 
-        Args:
-          schema: names and types of the columns.
-          others: columns that this table lacks: an array of length N each, or one value for all rows.
+        Each of these is an array of length N, or one value for all rows.
         """
-        columns: dict[str, Any] = dict(vars(self))
-        is_played = np.arange(self.actions.shape[1]) < self.length[:, None]
-        columns["actions"] = lists(self.actions[is_played], self.length)
+        ends = np.cumsum([0, *self.length]).astype(np.int32)
+        lists = pyarrow.ListArray.from_arrays(ends, self.actions[self.actions >= 0])
+        columns: dict[str, Any] = {**vars(self), "actions": lists}
         for name, value in others.items():
             columns[name] = value if isinstance(value, (np.ndarray, pyarrow.Array)) else [value] * len(self)
         return pyarrow.table({name: columns[name] for name in schema.names}, schema)
-
-
-def lists(values: np.ndarray, lengths: np.ndarray) -> pyarrow.Array:
-    """Returns N lists: the first holds the first `lengths[0]` values, and so on."""
-    offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int32)
-    return pyarrow.ListArray.from_arrays(offsets, values)
-
-
-def _stacked(parts: Sequence[np.ndarray]) -> np.ndarray:
-    """Returns actions of several parts, int64 [N, T], where T is the longest of theirs."""
-    longest = max(part.shape[1] for part in parts)
-    found = np.full((sum(map(len, parts)), longest), -1)
-    start = 0
-    for part in parts:
-        found[start : start + len(part), : part.shape[1]] = part
-        start += len(part)
-    return found

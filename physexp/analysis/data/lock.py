@@ -14,18 +14,12 @@ _ATTEMPTS = 100  # Each but the first because another process has just ended, an
 def locked(folder: Path, busy: str) -> Iterator[Callable[[], bool]]:
     """Returns a context in which no other process holds the lock of a folder; the operating system ends it at a kill.
 
-    The folder is made if need be, and removed again if it is empty in the end.
-
-    Args:
-      folder: the folder.
-      busy: the error's message when another process holds the lock: one line.
-
-    Yields:
-      A function that returns whether the lock file is still in its place: somebody may remove it, or move the folder.
+    The folder is made if need be, and removed again if it is empty in the end. The context gives a function that
+    returns whether the lock file is still in its place: somebody may remove it, or move the folder.
 
     Raises:
       OSError: if the folder cannot be made or written to.
-      ValueError: if another process holds the lock, or the folder is a file or lies below one.
+      ValueError: if another process holds the lock (`busy` is the message), or the folder is a file or lies below one.
     """
     path = folder / ".lock"
     made = [parent for parent in (folder, *folder.parents) if not parent.exists()]

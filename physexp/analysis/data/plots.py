@@ -51,12 +51,7 @@ def literal(words: str) -> str:
 def new(columns: int = 1, rows: int = 1, width: float = 3.4, height: float = 2.6, **kwargs: Any):
     """Returns a figure and its axes, an array [rows, columns] if there are several.
 
-    Args:
-      columns: columns of axes.
-      rows: rows of axes.
-      width: of one pair of axes, inches.
-      height: of one pair of axes, inches.
-      **kwargs: for `Figure.subplots`.
+    Width and height are those of one pair of axes, inches; `kwargs` are for `Figure.subplots`.
     """
     figure = empty(width * columns, height * rows)
     return figure, figure.subplots(rows, columns, **kwargs)
@@ -92,11 +87,7 @@ def png(figure) -> bytes:
 
 
 def save(figure: Any, folder: Path, name: str) -> Path:
-    """Writes a figure as PNG; returns the path.
-
-    Raises:
-      OSError: if it cannot be written.
-    """
+    """Writes a figure as PNG; returns the path; raises OSError if it cannot."""
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{name}.png"
     files.write_atomically(path, png(figure))

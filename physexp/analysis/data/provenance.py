@@ -3,7 +3,6 @@
 import importlib.metadata
 from pathlib import Path
 import platform
-import shutil
 import subprocess
 import time
 from typing import Any
@@ -20,23 +19,19 @@ def commit() -> str:
 
     `unknown` outside a checkout of this project, and if git does not answer.
     """
-    if shutil.which("git") is None:
-        return "unknown"
-    source = Path(physexp.__file__)
-    git = ["git", "-C", str(source.parent)]
     try:
-        ours = subprocess.run(
-            [*git, "ls-files", "--error-unmatch", source.name], capture_output=True, timeout=_GIT_SECONDS
-        )
-        if ours.returncode:
-            return "unknown"
-        found = subprocess.run([*git, "rev-parse", "HEAD"], capture_output=True, encoding="utf-8", timeout=_GIT_SECONDS)
-        if found.returncode:
-            return "unknown"
-        changed = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", "."], timeout=_GIT_SECONDS).returncode
-    except subprocess.TimeoutExpired:  # On a slow network file system.
+        is_ours = _git("ls-files", "--error-unmatch", Path(physexp.__file__).name).returncode == 0
+        found, changed = _git("rev-parse", "HEAD"), _git("diff", "--quiet", "HEAD", "--", ".")
+    except (FileNotFoundError, subprocess.TimeoutExpired):  # No git, or a slow network file system.
         return "unknown"
-    return found.stdout.strip() + ("+" if changed else "")
+    if not is_ours or found.returncode:
+        return "unknown"
+    return found.stdout.strip() + ("+" if changed.returncode else "")
+
+
+def _git(*words: str) -> subprocess.CompletedProcess[str]:
+    folder = Path(physexp.__file__).parent
+    return subprocess.run(["git", "-C", folder, *words], capture_output=True, encoding="utf-8", timeout=_GIT_SECONDS)
 
 
 def shortened(commit: str) -> str:

@@ -32,13 +32,9 @@ def load(results: Path, table: str, columns: Sequence[str] | None = None, filter
 
     Args:
       results: the folder of the results.
-      table: `runs`, `curves`, `evaluations` or `episodes`.
-      columns: names of columns; all by default.
+      table: `runs`, `curves`, `evaluations` or `episodes`; raises FileNotFoundError if there is no such table.
+      columns: names of columns, all by default; raises ValueError for an unknown one and for a damaged file.
       filters: which rows; all by default.
-
-    Raises:
-      FileNotFoundError: if there is no such table.
-      ValueError: if a file is damaged, or a column is unknown; it names the folder.
     """
     return read(results, table, columns, filters).to_pandas()
 
@@ -63,13 +59,7 @@ def read(results: Path, table: str, columns: Sequence[str] | None = None, filter
 
 
 def append(results: Path, table: str, rows: pyarrow.Table) -> None:
-    """Adds rows of one run to the file of its condition, in place of rows that it has there of the same trial.
-
-    Either all of them are added, or none after a crash.
-
-    Raises:
-      OSError: if the file cannot be written.
-    """
+    """Adds rows of one run to the file of its condition, in place of those of the same trial: all of them or none."""
     key = {name: rows[name][0].as_py() for name in _KEYS if name in rows.column_names}
     path = results / TABLES / table / f"{key['condition']}.parquet"
     path.parent.mkdir(parents=True, exist_ok=True)
