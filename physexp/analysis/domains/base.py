@@ -35,8 +35,7 @@ class Ideal:
 
     def __init__(self, domain: str, solve: "Callable[..., ideal.Solution]", options: type = NoOptions):
         """Takes a function of a task, its `task_kwargs`, a discount, and the options by name."""
-        self.options = options
-        self._domain, self._solve = domain, solve
+        self.options, self._domain, self._solve = options, domain, solve
         self._solutions: dict[str, ideal.Solution] = {}
 
     def __call__(self, task: str, task_kwargs: Mapping[str, Any], discount: float, **options: Any) -> "ideal.Solution":
@@ -55,20 +54,22 @@ class Ideal:
         checks.check_fields(self.options(**options))
         question = repr((task, sorted(asked.items()), discount, sorted(options.items())))
         if question not in self._solutions:
-            self._solutions[question] = self._find(task, asked, discount, options)
+            find = self._solve_revealed if asked.get("reveal") else self._solve_hidden
+            self._solutions[question] = find(task, asked, discount, **options)
         return self._solutions[question]
 
-    def _find(self, task, task_kwargs, discount, options) -> "ideal.Solution":
-        if not task_kwargs.get("reveal"):
-            if variation := task_kwargs.get("step_variation"):
-                raise ValueError(
-                    f"step_variation is {variation}; give 0: the ideal experimenter needs control steps of equal length"
-                )
-            return self._solve(task, task_kwargs, discount, **options)
-        for name, value in options.items():
-            raise ValueError(f"{name} is {value}; leave it out with reveal: the answer is known from the start")
+    def _solve_hidden(self, task, task_kwargs, discount, **options) -> "ideal.Solution":
+        if variation := task_kwargs.get("step_variation"):
+            raise ValueError(
+                f"step_variation is {variation}; give 0: the ideal experimenter needs control steps of equal length"
+            )
+        return self._solve(task, task_kwargs, discount, **options)
+
+    def _solve_revealed(self, task, task_kwargs, discount, **options) -> "ideal.Solution":
         from physexp.analysis.ideal import revealed
 
+        for name, value in options.items():
+            raise ValueError(f"{name} is {value}; leave it out with reveal: the answer is known from the start")
         return revealed.Solution(self._domain, task, task_kwargs, discount)
 
 
@@ -128,8 +129,7 @@ def resting_domain(
     """Returns a domain whose apparatus rests between interactions, so that its ideal experimenter is exact.
 
     Args:
-      name: name of the domain.
-      **facts: attributes of `Domain`.
+      name, **facts: attributes of the domain.
       apparatus: returns the apparatus for the task's options.
       read: returns the reading in an observation of features.
     """
@@ -156,8 +156,7 @@ def search_domain(
     """Returns a domain with finitely many hidden properties, whose ideal experimenter is found by search.
 
     Args:
-      name: name of the domain.
-      **facts: attributes of `Domain`.
+      name, **facts: attributes of the domain.
       hypotheses: returns all values of the hidden property, [H, ...], and their probabilities, float64 [H].
       read_as: as for `hypotheses.Hypotheses`.
     """

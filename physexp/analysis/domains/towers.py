@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from physexp.agents import core
 
 _NAME = "towers"
-_NUM_LABELS = 5
+_NUM_PUSHES, _NUM_MOVES, _NUM_LABELS = 20, 4, 5  # Of a cube, of the fist; and answers.
 
 # Towers spend their time in simulation, not in learning: many small updates. Blocks move by their own size.
 _FEATURES = a3c.A3CConfig(
@@ -34,11 +34,11 @@ def _prior(num_interactions: int, label: float) -> tuple[float, ...]:
     return (0.0,) * num_interactions + (label,) * _NUM_LABELS
 
 
-_DIRECT = _prior(20, -1.0)
+_DIRECT = _prior(_NUM_PUSHES, -1.0)
 # Only hits teach labels. A fist that moves at random hits the tower ten times in a thousand frames; one that prefers
 # +x, where the tower is, forty times. Until labels are learned, the estimated values of moves are noise, and the fist
 # drifts off unless the divergence from this preference is penalized.
-_FIST = (1.0, *_prior(3, -2.0))
+_FIST = (1.0, *_prior(_NUM_MOVES - 1, -2.0))
 
 _A3C = {
     "direct_features": _FEATURES.replace(frames=1_000_000, initial_logits=_DIRECT),
@@ -141,8 +141,8 @@ _NUM_NUISANCES = 16
 _TOLERANCES = dict.fromkeys(("fist_features", "fist_pixels"), 0.05)
 _COARSE = 0.001  # m, the resolution of the baseline `lookup`.
 _RULES = {
-    "direct_features": (4, 14),  # Push cube 1 to +x, and cube 3 to +y.
-    "fist_features": (0,),  # Move the fist to +x, where the tower is.
+    "direct_features": ((4, 14), _NUM_PUSHES),  # Push cube 1 to +x, and cube 3 to +y.
+    "fist_features": ((0,), _NUM_MOVES),  # Move the fist to +x, where the tower is.
 }
 
 
@@ -150,14 +150,7 @@ def rule(task: str, noise: float = 0.0, wait: int | None = None, step_limit: flo
     """Returns an actor that takes cubes for glued while their distance has not changed; see `glue.GlueRule`."""
     from physexp.analysis.domains import glue
 
-    return glue.GlueRule(_RULES[task], _num_interactions(task), noise, wait, step_limit)
-
-
-@functools.cache
-def _num_interactions(task: str) -> int:  # Cached, since loading a task takes longer than playing an episode.
-    from physexp import suite
-
-    return suite.load_task(_NAME, task).num_interactions
+    return glue.GlueRule(*_RULES[task], noise, wait, step_limit)
 
 
 def _lookup(task: str) -> "core.Actor":

@@ -1,31 +1,15 @@
 """The interface of all ideal experimenters."""
 
 import abc
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 import dataclasses
 import math
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
 from physexp.agents import core
 from physexp.suite.engine import rules
-
-
-class Episode(Protocol):
-    """A recorded episode of T actions."""
-
-    @property
-    def hidden(self) -> np.ndarray:
-        """The hidden property, [...]."""
-
-    @property
-    def actions(self) -> np.ndarray:
-        """The actions, int64 [T]."""
-
-    @property
-    def observations(self) -> Mapping[str, np.ndarray]:
-        """The observations by name, before each action and at the end, [T + 1, ...]."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -77,16 +61,20 @@ class Solution(abc.ABC):
         """
 
     @abc.abstractmethod
-    def judge(self, episode: Episode) -> Judgement:
-        """Returns the best possible beliefs and the values of the actions; uses no observations.
+    def judge(self, hidden: np.ndarray, actions: np.ndarray) -> Judgement:
+        """Returns the best possible beliefs and the values of the actions in an episode.
+
+        Args:
+          hidden: the hidden property, [...].
+          actions: the actions that were taken, int64 [T].
 
         Raises:
           ValueError: if they are not known exactly.
         """
 
-    def beliefs(self, episode: Episode) -> np.ndarray:
-        """Returns the best possible beliefs at the start and after each action, float64 [T + 1, L]."""
-        return self.judge(episode).beliefs
+    def beliefs(self, hidden: np.ndarray, actions: np.ndarray) -> np.ndarray:
+        """Returns the best possible beliefs at the start and after each action, float64 [T + 1, L]; see `judge`."""
+        return self.judge(hidden, actions).beliefs
 
     @abc.abstractmethod
     def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -116,6 +104,36 @@ class Solution(abc.ABC):
     def summary(self) -> dict[str, Any]:
         """Returns the statistics of `figures` and further ones, usually `at_once` and `random_value`."""
         return {**self.figures(), "at_once": self.at_once, "random_value": self.random_value}
+
+
+class Player(core.EpisodicActor):
+    """Plays a policy that chooses by an information state, of any type."""
+
+    def __init__(
+        self,
+        begin: Callable[[Mapping[str, np.ndarray]], Any],
+        choose: Callable[[Any, int], int],
+        follow: Callable[[Any, int, Mapping[str, np.ndarray]], Any],
+    ):
+        """Takes the policy.
+
+        Args:
+          begin: returns the information state at the first observation.
+          choose: returns the action in an information state, given the number of actions before it.
+          follow: returns the information state after an interaction in another one, given the observation after it.
+        """
+        self._begin_with, self._choose_by, self._follow = begin, choose, follow
+
+    def _begin(self, timestep):
+        self._state, self._step = self._begin_with(timestep.observation), 0
+
+    def _choose(self, observation) -> int:
+        return self._choose_by(self._state, self._step)
+
+    def _note(self, action, next_timestep):
+        if not next_timestep.last():
+            self._state = self._follow(self._state, int(action), next_timestep.observation)
+            self._step += 1
 
 
 _Numbers = TypeVar("_Numbers", float, np.ndarray)

@@ -10,6 +10,7 @@ import math
 from typing import Any
 
 import numpy as np
+from scipy import stats
 
 from physexp import suite
 from physexp.agents import core
@@ -33,6 +34,8 @@ def made_certain(task_kwargs: Mapping[str, Any]) -> dict[str, Any]:
 class Solution(base.Solution):
     """A policy, its mean return in played episodes, and an upper bound on any experimenter's expected return."""
 
+    at_once = random_value = math.nan  # Not computed.
+
     def __init__(
         self,
         domain: str,
@@ -55,10 +58,20 @@ class Solution(base.Solution):
           ValueError: for an unknown task or a bad option.
         """
         suite.load_task(domain, task, task_kwargs)  # Refuses bad options before any episode.
-        self._played = (domain, task, dict(task_kwargs))
-        self.discount = discount
-        self._make_actor = make_actor
-        self._find_bounds = find_bounds
+        self._played, self.discount = (domain, task, task_kwargs), discount
+        self._make_actor, self._find_bounds = make_actor, find_bounds
+
+    @functools.cached_property
+    def _episodes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Final rewards and numbers of actions; the first episodes of all actors come first."""
+        actors = [self.actor() for _ in range(_NUM_ACTORS)]
+        rewards, lengths = rollouts.play(actors, *self._played, NUM_EPISODES // _NUM_ACTORS, SEED)
+        return rewards.ravel(), lengths.ravel()
+
+    @property
+    def _returns(self) -> np.ndarray:
+        rewards, lengths = self._episodes
+        return rewards * self.discount ** (lengths - 1)
 
     @functools.cached_property
     def _bounds(self) -> np.ndarray:
@@ -69,18 +82,6 @@ class Solution(base.Solution):
         """
         found = np.asarray(self._find_bounds(), float)
         return found if len(found) == 1 else self.value + found - self._returns[: len(found)]
-
-    @functools.cached_property
-    def _episodes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Final rewards and numbers of actions; the first episodes of all actors come first."""
-        actors = [self._make_actor() for _ in range(_NUM_ACTORS)]
-        rewards, lengths = rollouts.play(actors, *self._played, NUM_EPISODES // _NUM_ACTORS, SEED)
-        return rewards.ravel(), lengths.ravel()
-
-    @property
-    def _returns(self) -> np.ndarray:
-        rewards, lengths = self._episodes
-        return rewards * self.discount ** (lengths - 1)
 
     @property
     def value(self) -> float:
@@ -95,21 +96,16 @@ class Solution(base.Solution):
     def actor(self) -> core.Actor:
         return self._make_actor()
 
-    at_once = random_value = math.nan  # Not computed.
-
-    def judge(self, episode: base.Episode) -> base.Judgement:
+    def judge(self, hidden, actions):
         raise ValueError("beliefs and values of actions are only known without noise and variation")
 
-    def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def outcomes(self):
         rewards, lengths = self._episodes
         return lengths - 1, rewards > 0, np.full(len(rewards), 1 / len(rewards))
 
     def summary(self) -> dict[str, Any]:
         """Returns the statistics of `figures`, and the standard errors `value_error` and `bound_error`."""
-        value_error = _standard_error(self._returns)
-        bound_error = math.hypot(value_error, _standard_error(self._bounds)) if len(self._bounds) > 1 else 0.0
+        value_error, bound_error = float(stats.sem(self._returns)), 0.0
+        if len(self._bounds) > 1:
+            bound_error = math.hypot(value_error, stats.sem(self._bounds))
         return {**self.figures(), "value_error": value_error, "bound_error": bound_error}
-
-
-def _standard_error(values: np.ndarray) -> float:
-    return float(values.std(ddof=1)) / math.sqrt(len(values))

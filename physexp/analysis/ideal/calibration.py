@@ -20,13 +20,7 @@ class Responses:
     def __init__(
         self, domain_name: str, task_name: str, feature: str, task_kwargs: Mapping[str, Any], values: np.ndarray
     ):
-        """Builds the simulations.
-
-        Args:
-          domain_name, task_name, task_kwargs: as for `suite.load`; the hidden property is K values in [0, 1].
-          feature: name of the observation.
-          values: in [0, 1], float64 [G].
-        """
+        """Builds the simulations of a task, as for `suite.load`, for hidden values in [0, 1], float64 [G]."""
         self.task = suite.load_task(domain_name, task_name, {**task_kwargs, "random": 0})
         self.feature, self.values = feature, values
         self._hidden = np.repeat(values[:, None], self.task.num_interactions, axis=1)
@@ -34,11 +28,7 @@ class Responses:
         self._found: dict[tuple[bool, ...], np.ndarray] = {}
 
     def after(self, touched: tuple[bool, ...]) -> np.ndarray:
-        """Returns the reading for each of `values`, float64 [G].
-
-        Args:
-          touched: for each step since the first touch, whether the thing was touched.
-        """
+        """Returns the readings, float64 [G]; `touched` has, for each step since the first touch, whether it was one."""
         if touched not in self._found:
             self._batch.reset(hidden=self._hidden)
             for step, is_touch in enumerate(touched, start=1):
@@ -49,23 +39,21 @@ class Responses:
 
 
 def calibrate(
-    domain_name: str, task_name: str, feature: str, task_kwargs: Mapping[str, Any] | None = None
+    domain_name: str, task_name: str, feature: str, task_kwargs: Mapping[str, Any]
 ) -> Callable[[Mapping[str, np.ndarray], int], float]:
-    """Returns a function that reads a thing's hidden value, in (0, 1), from the observation after one interaction.
-
-    It takes the observation and the interaction; for the other arguments see `Responses`.
+    """Returns a function of an observation and the interaction before it: the touched thing's hidden value, in (0, 1).
 
     Raises:
       ValueError: if different values give the same reading.
     """
-    values = np.linspace(0, 1, _NODES)
-    responses = Responses(domain_name, task_name, feature, task_kwargs or {}, values)
+    responses = Responses(domain_name, task_name, feature, task_kwargs, np.linspace(0, 1, _NODES))
     readings = responses.after((True,))
-    order = np.argsort(readings)
-    if not (np.diff(readings) < 0).all() and not (np.diff(readings) > 0).all():
+    steps = np.diff(readings)
+    if not (steps < 0).all() and not (steps > 0).all():
         raise ValueError(
             f"control_timestep is {responses.task.options.control_timestep} s, after which things with different "
             "hidden values look the same; give a shorter one"
         )
-    inverse = interpolate.PchipInterpolator(readings[order], values[order], extrapolate=True)
+    order = np.argsort(readings)
+    inverse = interpolate.PchipInterpolator(readings[order], responses.values[order], extrapolate=True)
     return lambda observation, action: float(np.clip(inverse(observation[feature][action]), 1e-9, 1 - 1e-9))

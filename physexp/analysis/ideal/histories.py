@@ -6,6 +6,7 @@ The support of its belief is a set of hypotheses that it cannot distinguish; eac
 
 from collections.abc import Iterable, Sequence
 import dataclasses
+import functools
 import itertools
 
 import numpy as np
@@ -20,28 +21,26 @@ Partition = list[tuple[float, Support]]  # The parts of a support, and their pro
 def split(
     supports: Sequence[Support], indistinguishable: np.ndarray, prior: Sequence[float]
 ) -> dict[Support, Partition]:
-    """Returns the partition of each support.
+    """Returns the partition of each of some disjoint supports, which have n members together.
 
     Two hypotheses stay in one part if a chain of indistinguishable hypotheses joins them.
 
     Args:
-      supports: disjoint sets of hypotheses, n together.
-      indistinguishable: which of these, in increasing order, have looked alike so far, bool [n, n]; False for
-        hypotheses of different supports.
-      prior: the probabilities of all hypotheses.
+      supports, prior: the supports, and the probabilities of all hypotheses.
+      indistinguishable: which members, in increasing order, have looked alike so far, bool [n, n]; False for members
+        of different supports.
     """
     first, before = np.arange(len(indistinguishable)), None
     while before is None or not np.array_equal(first, before):
         first, before = np.where(indistinguishable, first, len(indistinguishable)).min(axis=1), first
-    home = {member: support for support in supports for member in support}
-    together: dict[int, list[int]] = {}
-    for member, number in zip(sorted(home), first.tolist(), strict=True):
-        together.setdefault(number, []).append(member)
-    totals = {support: sum(prior[member] for member in support) for support in supports}
-    found: dict[Support, Partition] = {support: [] for support in supports}
-    for members in together.values():
-        support = home[members[0]]
-        found[support].append((sum(prior[member] for member in members) / totals[support], tuple(members)))
+    numbers = dict(zip(sorted(itertools.chain(*supports)), first.tolist(), strict=True))
+    found: dict[Support, Partition] = {}
+    for support in supports:
+        groups: dict[int, list[int]] = {}
+        for member in support:
+            groups.setdefault(numbers[member], []).append(member)
+        total = sum(prior[member] for member in support)
+        found[support] = [(sum(prior[one] for one in group) / total, tuple(group)) for group in groups.values()]
     return found
 
 
@@ -53,7 +52,8 @@ class History:
       snapshot: the states of the simulations.
       supports: the supports that are followed further.
       indistinguishable: which of their n members, in increasing order, have looked alike so far, bool [n, n].
-      successors: for each interaction that was tried, the partitions of the supports, and the longer history.
+      successors: for each interaction that was tried and each support, the states that may follow, and their
+        probabilities.
       representative: the history whose values are used for this one: itself, or an earlier one with the same state
         within the tolerance.
     """
@@ -61,11 +61,15 @@ class History:
     snapshot: snapshots.Snapshot
     supports: tuple[Support, ...]
     indistinguishable: np.ndarray
-    successors: "dict[int, tuple[dict[Support, Partition], History]]" = dataclasses.field(default_factory=dict)
+    successors: "dict[int, dict[Support, list[tuple[float, State]]]]" = dataclasses.field(default_factory=dict)
     representative: "History" = dataclasses.field(init=False)
 
     def __post_init__(self):
         self.representative = self
+
+
+State = tuple[History, Support]
+"""An information state: what was done, and the hypotheses that are left."""
 
 
 class Histories:
@@ -73,8 +77,10 @@ class Histories:
 
     Attributes:
       hypotheses: the hypotheses.
-      start: the history without interactions.
+      num_interactions: number of interactions, A.
+      start: the information state without interactions.
       count: number of histories simulated so far.
+      max_probability: returns the probability of the likeliest label given a support.
     """
 
     def __init__(
@@ -94,64 +100,62 @@ class Histories:
             and velocities differ by no more than this, m and m/s; by default, never.
           splits_determined: whether to split supports further whose hypotheses all have one label.
         """
-        self.hypotheses, self.count = hypotheses, 0
+        self.hypotheses, self.num_interactions, self.count = hypotheses, hypotheses.task.num_interactions, 0
         self._resolution, self._tolerance, self._splits_determined = resolution, tolerance, splits_determined
-        self._prior = hypotheses.prior.tolist()
-        size = len(hypotheses.prior)
-        self.start = History(hypotheses.start, (tuple(range(size)),), np.ones((size, size), bool))
-        self._probabilities: dict[Support, np.ndarray] = {}
-        self._maxima: dict[Support, float] = {}
+        self._prior, size = hypotheses.prior.tolist(), len(hypotheses.prior)
+        self._probabilities = functools.cache(self._find_probabilities)
+        self.max_probability = functools.cache(lambda support: float(self._probabilities(support).max()))
         self._uninformative: dict[tuple[tuple[Support, ...], bytes], list[History]] = {}
+        everything = tuple(range(size))
+        first = History(hypotheses.start, (everything,), np.ones((size, size), bool))
+        self.start: State = first, everything
         if tolerance is not None:
-            self._representative(self.start)
+            self._representative(first)
 
-    def probabilities(self, support: Support) -> np.ndarray:
-        """Returns the probabilities of the labels given a support, float64 [L]."""
-        if support not in self._probabilities:
-            known, members = self.hypotheses, list(support)
-            weights = np.bincount(known.answers[members], known.prior[members], minlength=known.task.num_labels)
-            self._probabilities[support] = weights / weights.sum()
-        return self._probabilities[support]
-
-    def max_probability(self, support: Support) -> float:
-        """Returns the probability of the likeliest label given a support."""
-        if support not in self._maxima:
-            self._maxima[support] = float(self.probabilities(support).max())
-        return self._maxima[support]
+    def _find_probabilities(self, support: Support) -> np.ndarray:
+        known, members = self.hypotheses, list(support)
+        weights = np.bincount(known.answers[members], known.prior[members], minlength=known.task.num_labels)
+        return weights / weights.sum()
 
     def is_determined(self, support: Support) -> bool:
         """Returns whether all hypotheses of a support have the same label."""
         return self.max_probability(support) == 1
 
-    def successor(self, history: History, support: Support, action: int) -> tuple[Partition, History]:
-        """Returns the partition of a support by an interaction, and the history that follows."""
+    def posterior(self, state: State) -> np.ndarray:
+        """Returns the probabilities of the labels in a state, float64 [L]."""
+        return self._probabilities(state[1])
+
+    def allows(self, state: State, hypothesis: int) -> bool:
+        """Returns whether a hypothesis is left."""
+        return hypothesis in state[1]
+
+    def following(self, state: State, interaction: int) -> list[tuple[float, State]]:
+        """Returns the states that may follow an interaction, and their probabilities."""
+        history, support = state
         if not self._splits_determined and self.is_determined(support):
-            return [(1.0, support)], history
-        self._try(history, [action])
-        partitions, following = history.successors[action]
-        return partitions[support], following
+            return [(1.0, state)]
+        self._try(history, [interaction])
+        return history.successors[interaction][support]
 
     def is_expanded(self, history: History) -> bool:
         """Returns whether every interaction has been tried."""
-        return len(history.successors) == self.hypotheses.task.num_interactions
+        return len(history.successors) == self.num_interactions
 
     def expand(self, history: History) -> None:
         """Tries every interaction."""
-        self._try(history, range(self.hypotheses.task.num_interactions))
+        self._try(history, range(self.num_interactions))
 
     def _try(self, history: History, actions: Iterable[int]) -> None:
-        new = [action for action in actions if action not in history.successors]
-        if not new:
-            return
-        members = sorted(itertools.chain(*history.supports))
-        outcomes = self.hypotheses.step(history.snapshot, members, new)
-        for action, (distances, snapshot) in zip(new, outcomes, strict=True):
-            history.successors[action] = self._following(history, members, distances, snapshot)
+        if new := [action for action in actions if action not in history.successors]:
+            members = sorted(itertools.chain(*history.supports))
+            outcomes = self.hypotheses.step(history.snapshot, members, new)
+            for action, (distances, snapshot) in zip(new, outcomes, strict=True):
+                history.successors[action] = self._following(history, members, distances, snapshot)
 
     def _following(
         self, history: History, members: list[int], distances: np.ndarray, snapshot: snapshots.Snapshot
-    ) -> tuple[dict[Support, Partition], History]:
-        """Returns the partitions of all supports by an interaction, and the history that follows.
+    ) -> "dict[Support, list[tuple[float, State]]]":
+        """Returns the states that may follow an interaction, and their probabilities, for each support.
 
         After it, the n members of the supports have these distances between their observations, [n, n], and states.
         """
@@ -164,7 +168,10 @@ class Histories:
         following = History(snapshot, supports, indistinguishable[np.ix_(rows, rows)])
         if self._tolerance is not None and len(supports) == 1 and supports == history.supports:  # Nothing revealed.
             following.representative = self._representative(following)
-        return partitions, following
+        return {
+            support: [(probability, (following, part)) for probability, part in partition]
+            for support, partition in partitions.items()
+        }
 
     def _representative(self, history: History) -> History:
         """Returns the first history with the same state within the tolerance: an earlier one, or this one."""

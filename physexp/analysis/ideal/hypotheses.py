@@ -37,11 +37,9 @@ class Hypotheses:
         *,
         read_as: str | None = None,
     ):
-        """Prepares the simulations.
+        """Prepares the simulations of a task, as for `suite.load`; for `hidden` and `prior` see the class.
 
         Args:
-          domain_name, task_name, task_kwargs: as for `suite.load`.
-          hidden, prior: as above.
           nuisances: the values of the random variation, [number of nuisances], for tasks with variation.
           read_as: a task of the domain with the same physics, whose readings distinguish the same hypotheses as this
             task's images. It is simulated instead, without drawing.

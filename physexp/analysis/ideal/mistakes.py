@@ -57,30 +57,15 @@ def actions(judgement: base.Judgement, taken: np.ndarray) -> Actions:
 def of_episodes(
     judged: Sequence[base.Judgement], taken: Sequence[np.ndarray], discount: float
 ) -> dict[str, np.ndarray]:
-    """Returns the discounted costs of the mistakes in N episodes, by kind, float64 [N] each.
-
-    Args:
-      judged: the judgements of the episodes.
-      taken: their actions, N arrays int64 [T].
-      discount: gamma.
-    """
-    lengths = np.array([len(actions) for actions in taken])
-    ends = lengths.cumsum()
-    chosen, values = np.concatenate(taken), np.concatenate([judgement.values for judgement in judged])
-    num_interactions = values.shape[1] - judged[0].beliefs.shape[1]
-    rows = np.arange(len(chosen))
-    bits = information(np.concatenate([judgement.beliefs for judgement in judged]))
-    between = (lengths + 1).cumsum()[:-1] - 1  # From the last belief of an episode to the first of the next one.
-    together = Actions(
-        value=values.max(axis=1),
-        worth=values[rows, chosen],
-        answering=values[:, num_interactions:].max(axis=1),
-        tells=np.concatenate([judgement.is_informative for judgement in judged]),
-        bits=np.delete(bits, between),
-    )
-    found = costs(together, chosen >= num_interactions, np.isin(rows, ends - 1))
-    factors = discount ** (rows - np.repeat(ends - lengths, lengths))
-    return {kind: np.add.reduceat(factors * cost, ends - lengths) for kind, cost in found.items()}
+    """Returns the discounted costs of the mistakes in N episodes with actions int64 [T], by kind, float64 [N] each."""
+    found: dict[str, list[np.ndarray]] = {kind: [] for kind in KINDS}
+    for judgement, chosen in zip(judged, taken, strict=True):
+        steps, num_interactions = np.arange(len(chosen)), judgement.values.shape[1] - judgement.beliefs.shape[1]
+        by_kind = costs(actions(judgement, chosen), chosen >= num_interactions, steps == steps[-1])
+        for kind, cost in by_kind.items():
+            found[kind].append(discount**steps * cost)
+    starts = np.cumsum([0, *map(len, taken)])[:-1]
+    return {kind: np.add.reduceat(np.concatenate(its), starts) for kind, its in found.items()}
 
 
 def information(beliefs: np.ndarray) -> np.ndarray:
@@ -97,13 +82,13 @@ def costs(judged: Actions, are_answers: np.ndarray, are_last: np.ndarray) -> dic
       are_last: whether they ended an episode, bool [N].
     """
     cost = judged.value - judged.worth
-    are_silent, goes_on = ~are_answers & are_last, ~are_answers & ~are_last
-    is_late = judged.answering >= judged.value
-    return {
-        "uninformative": np.where(goes_on & ~is_late & ~judged.tells, cost, 0.0),
-        "inferior": np.where(goes_on & ~is_late & judged.tells, cost, 0.0),
-        "late": np.where(goes_on & is_late, cost, 0.0),
-        "early": np.where(are_answers, judged.value - judged.answering, 0.0),
-        "wrong": np.where(are_answers, judged.answering - judged.worth, 0.0),
-        "silence": np.where(are_silent, cost, 0.0),
+    goes_on, is_late = ~are_answers & ~are_last, judged.answering >= judged.value
+    where = {
+        "uninformative": (goes_on & ~is_late & ~judged.tells, cost),
+        "inferior": (goes_on & ~is_late & judged.tells, cost),
+        "late": (goes_on & is_late, cost),
+        "early": (are_answers, judged.value - judged.answering),
+        "wrong": (are_answers, judged.answering - judged.worth),
+        "silence": (~are_answers & are_last, cost),
     }
+    return {kind: np.where(is_kind, its, 0.0) for kind, (is_kind, its) in where.items()}

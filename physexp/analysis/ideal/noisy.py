@@ -57,15 +57,14 @@ def posterior(likelihoods: np.ndarray, values: np.ndarray, prior: priors.OddOneO
 def players(
     exact: odd_one_out.Solution, domain_name: str, task_name: str, feature: str, task_kwargs: Mapping[str, Any]
 ) -> Callable[[], core.Actor]:
-    """Returns a function that makes actors for the policy; they share their simulations.
+    """Returns a function that makes actors for the policy, which share their simulations.
 
     Args:
       exact: the ideal experimenter without noise.
       domain_name, task_name, feature, task_kwargs: as for `calibration.Responses`, with the `noise`, m.
     """
     values = (np.arange(_NODES) + 0.5) / _NODES
-    certain = bounds.made_certain(task_kwargs)
-    responses = calibration.Responses(domain_name, task_name, feature, certain, values)
+    responses = calibration.Responses(domain_name, task_name, feature, bounds.made_certain(task_kwargs), values)
     return functools.partial(Player, exact, responses, task_kwargs["noise"])
 
 

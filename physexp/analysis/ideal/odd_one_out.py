@@ -157,10 +157,19 @@ class Solution(base.Solution):
             raise ValueError(
                 "the ideal experimenter reads values from features, not from images; choose a task with features"
             )
-        return _Player(self, self.find_read())
+        read, unknown = self.find_read(), np.full((1, self.prior.num_things), np.nan)
 
-    def judge(self, episode: base.Episode) -> base.Judgement:
-        return self.judge_all(np.asarray(episode.hidden)[None], [episode.actions])[0]
+        def follow(known: np.ndarray, touched: int, observation: Mapping[str, np.ndarray]) -> np.ndarray:
+            return np.where(np.arange(known.shape[1]) == touched, read(observation, touched), known)
+
+        return base.Player(
+            begin=lambda observation: unknown,
+            choose=lambda known, step: int(self.actions(known, self.step_limit - step)[0]),
+            follow=follow,
+        )
+
+    def judge(self, hidden, actions):
+        return self.judge_all(np.asarray(hidden)[None], [actions])[0]
 
     def judge_all(self, values: np.ndarray, actions: Sequence[np.ndarray]) -> list[base.Judgement]:
         """Returns the judgements of N episodes, much faster than one after the other.
@@ -169,54 +178,28 @@ class Solution(base.Solution):
           values: values of the things, float64 [N, K].
           actions: the actions of each episode, N arrays int64 [T].
         """
-        num_things = self.prior.num_things
-        lengths = np.array([len(taken) + 1 for taken in actions])
-        ends = lengths.cumsum()
-        rows = np.repeat(np.arange(len(lengths)), lengths)
-        steps = np.arange(len(rows)) - np.repeat(ends - lengths, lengths)
-        taken = np.concatenate([np.append(row, num_things) for row in actions])  # An answer at the end.
-        touched_at = np.full(values.shape, len(rows))
-        touching = np.flatnonzero(taken < num_things)[::-1]  # Backwards: the first touch of a thing is written last.
-        touched_at[rows[touching], taken[touching]] = steps[touching]
-        is_known = steps[:, None] > touched_at[rows]
-        known = np.where(is_known, values[rows], np.nan)
+        ends = np.cumsum([len(taken) + 1 for taken in actions])[:-1]
+        steps = np.concatenate([np.arange(len(taken) + 1) for taken in actions])
+        are_touches = [taken[:, None] == np.arange(self.prior.num_things) for taken in map(np.asarray, actions)]
+        is_known = np.concatenate([np.logical_or.accumulate(np.pad(rows, ((1, 0), (0, 0)))) for rows in are_touches])
+        known = np.where(is_known, np.repeat(values, [len(taken) + 1 for taken in actions], axis=0), np.nan)
         left = np.maximum(self.step_limit - steps, 1)
         beliefs, touch = self.evaluate(known, left)
         _, next_touch = self.evaluate(known, np.maximum(left - 1, 1))
         again = self.discount * np.maximum(base.answer_values(beliefs.max(axis=1)), next_touch)
         touches = np.where(is_known, again[:, None], touch[:, None])
         touches[left == 1] = rules.WRONG  # The episode ends unanswered.
-        values_of_actions = np.concatenate([touches, base.answer_values(beliefs)], axis=1)
-        is_informative = np.append(~is_known, np.zeros_like(is_known), axis=1)[np.arange(len(rows)), taken]
-        parts = [slice(start, end) for start, end in zip(ends - lengths, ends, strict=True)]
-        return [base.Judgement(beliefs[p], values_of_actions[p][:-1], is_informative[p][:-1]) for p in parts]
+        worths = np.concatenate([touches, base.answer_values(beliefs)], axis=1)
+        parts = zip(*(np.split(each, ends) for each in (beliefs, worths, is_known)), are_touches, strict=True)
+        return [base.Judgement(b, v[:-1], (touched & ~k[:-1]).any(axis=1)) for b, v, k, touched in parts]
 
-    def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def outcomes(self):
         return *self._evenly_drawn_episodes, np.full(_EPISODES, 1 / _EPISODES)
 
     @functools.cached_property
     def _evenly_drawn_episodes(self) -> tuple[np.ndarray, np.ndarray]:
         draws = qmc.Sobol(self.prior.num_things + 1, rng=0).random(_EPISODES).clip(1e-12, 1 - 1e-12)
         return self.play(self.prior.from_uniforms(draws))
-
-
-class _Player(core.EpisodicActor):
-    """Plays a solution with values read from observations."""
-
-    def __init__(self, solution: Solution, read: Read):
-        self._solution, self._read = solution, read
-
-    def _begin(self, timestep):
-        self._known = np.full((1, self._solution.prior.num_things), np.nan)
-        self._left = self._solution.step_limit
-
-    def _choose(self, observation) -> int:
-        return int(self._solution.actions(self._known, self._left)[0])
-
-    def _note(self, action, next_timestep):
-        self._left -= 1
-        if action < self._solution.prior.num_things and not next_timestep.last():
-            self._known[0, action] = self._read(next_timestep.observation, action)
 
 
 @functools.lru_cache(maxsize=512)

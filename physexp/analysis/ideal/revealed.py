@@ -22,33 +22,19 @@ class Solution(base.Solution):
         self._task = suite.load_task(domain, task, dict(task_kwargs))
 
     def actor(self) -> core.Actor:
-        return _Player(self._task.num_interactions)
+        return base.Player(
+            begin=lambda observation: self._task.num_interactions + int(observation[observing.ANSWER].argmax()),
+            choose=lambda answer, step: answer,
+            follow=lambda answer, action, observation: answer,
+        )
 
-    def judge(self, episode: base.Episode) -> base.Judgement:
-        belief = np.eye(self._task.num_labels)[self._task.answers(np.asarray(episode.hidden)[None])[0]]
-        num_interactions, num_actions = self._task.num_interactions, self._task.rules.num_actions
-        values = np.empty((len(episode.actions), num_actions))
-        values[:, :num_interactions] = self.discount * rules.RIGHT
-        values[self._task.rules.step_limit - 1 :, :num_interactions] = rules.WRONG  # The episode ends unanswered.
-        values[:, num_interactions:] = base.answer_values(belief)
-        beliefs = np.repeat(belief[None], len(episode.actions) + 1, axis=0)
-        return base.Judgement(beliefs, values, np.zeros(len(episode.actions), bool))
+    def judge(self, hidden, actions):
+        belief = np.eye(self._task.num_labels)[self._task.answers(np.asarray(hidden)[None])[0]]
+        interactions = np.full((len(actions), self._task.num_interactions), self.discount * rules.RIGHT)
+        interactions[self._task.rules.step_limit - 1 :] = rules.WRONG  # The episode ends unanswered.
+        beliefs = np.repeat(belief[None], len(actions) + 1, axis=0)
+        values = np.append(interactions, base.answer_values(beliefs[1:]), axis=1)
+        return base.Judgement(beliefs, values, np.zeros(len(actions), bool))
 
-    def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def outcomes(self):
         return np.zeros(1, np.int64), np.ones(1, bool), np.ones(1)
-
-
-class _Player(core.EpisodicActor):
-    """Plays the solution."""
-
-    def __init__(self, num_interactions: int):
-        self._num_interactions = num_interactions
-
-    def _begin(self, timestep):
-        """Does nothing: every observation has the answer."""
-
-    def _choose(self, observation) -> int:
-        return self._num_interactions + int(observation[observing.ANSWER].argmax())
-
-    def _note(self, action, next_timestep):
-        """Does nothing: every observation has the answer."""

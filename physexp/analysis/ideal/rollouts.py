@@ -1,7 +1,6 @@
 """Plays episodes with many single actors side by side, for example ideal experimenters."""
 
 from collections.abc import Iterator, Mapping, Sequence
-import dataclasses
 from typing import Any
 
 import dm_env
@@ -11,50 +10,34 @@ from physexp import suite
 from physexp.agents import core
 
 
-@dataclasses.dataclass(frozen=True)
-class Step:
-    """A step of the M environments whose episodes are not over.
+def play_round(
+    actors: Sequence[core.Actor], batch: core.Batch, episode: int
+) -> Iterator[tuple[np.ndarray, np.ndarray, dm_env.TimeStep]]:
+    """Plays the episode of an index with each of N actors, in N environments side by side.
 
-    Attributes:
-      rows: their indices, int64 [M].
-      observation: the observations before the actions, arrays [M, ...].
-      actions: the actions, int64 [M].
-      after: the time steps after them, a TimeStep of arrays [M, ...].
+    Yields:
+      Of each step, the indices of the M environments whose episodes are not over, int64 [M]; the actions there, int64
+      [M]; and the time steps after them, a TimeStep of arrays [M, ...].
     """
-
-    rows: np.ndarray
-    observation: Mapping[str, np.ndarray]
-    actions: np.ndarray
-    after: dm_env.TimeStep
-
-
-def play_round(actors: Sequence[core.Actor], batch: core.Batch, episode: int) -> Iterator[Step]:
-    """Plays the episode of an index with each of N actors, in N environments side by side; yields its steps."""
-    rows, before = np.arange(len(actors)), batch.reset(episode=episode)
-    timesteps = _separate(before)
+    rows, timesteps = np.arange(len(actors)), _separate(batch.reset(episode=episode))
     for actor, timestep in zip(actors, timesteps, strict=True):
         actor.observe_first(timestep)
     while len(rows):
-        seen = zip(rows.tolist(), timesteps, strict=True)
-        actions = np.array([actors[i].select_action(timestep.observation) for i, timestep in seen], np.int64)
+        playing = [actors[row] for row in rows.tolist()]
+        seen = zip(playing, timesteps, strict=True)
+        actions = np.array([actor.select_action(timestep.observation) for actor, timestep in seen], np.int64)
         after = batch.step(actions, rows)
-        yield Step(rows, before.observation, actions, after)
+        yield rows, actions, after
         timesteps = _separate(after)
-        for i, action, timestep in zip(rows.tolist(), actions.tolist(), timesteps, strict=True):
-            actors[i].observe(action, timestep)
-            actors[i].update()
-        going = after.step_type != dm_env.StepType.LAST
-        rows, timesteps = rows[going], [timestep for timestep in timesteps if not timestep.last()]
-        before = after._replace(observation={name: value[going] for name, value in after.observation.items()})
+        for actor, action, timestep in zip(playing, actions.tolist(), timesteps, strict=True):
+            actor.observe(action, timestep)
+            actor.update()
+        rows = rows[after.step_type != dm_env.StepType.LAST]
+        timesteps = [timestep for timestep in timesteps if not timestep.last()]
 
 
 def play(
-    actors: Sequence[core.Actor],
-    domain: str,
-    task: str,
-    task_kwargs: Mapping[str, Any],
-    num_episodes: int,
-    seed: int,
+    actors: Sequence[core.Actor], domain: str, task: str, task_kwargs: Mapping[str, Any], num_episodes: int, seed: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """Plays some episodes with each of N actors, in environments of a seed.
 
@@ -64,9 +47,9 @@ def play(
     batch = suite.load_batch(domain, task, len(actors), {**task_kwargs, "random": seed})
     rewards, lengths = np.zeros((num_episodes, len(actors))), np.zeros((num_episodes, len(actors)), np.int64)
     for episode in range(num_episodes):
-        for step in play_round(actors, batch, episode):
-            rewards[episode, step.rows] = step.after.reward
-            lengths[episode, step.rows] += 1
+        for rows, _, after in play_round(actors, batch, episode):
+            rewards[episode, rows] = after.reward
+            lengths[episode, rows] += 1
     batch.close()
     return rewards, lengths
 

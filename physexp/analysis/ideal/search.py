@@ -5,7 +5,6 @@ best policy is found by search over sequences of interactions, with a lower and 
 """
 
 from collections.abc import Sequence
-import dataclasses
 import functools
 from typing import Any
 
@@ -13,13 +12,14 @@ import numpy as np
 
 from physexp import checks
 from physexp.agents import core
-from physexp.analysis.ideal import base, branch_and_bound, random_play
+from physexp.analysis.ideal import base, branch_and_bound, finite, random_play
 from physexp.analysis.ideal import histories as histories_lib
 from physexp.analysis.ideal import hypotheses as hypotheses_lib
 from physexp.suite.engine import rules
 
 OBJECTIVES = ("return", "time")
-_MAX_STEPS = 2_000_000  # Control steps that the search for the policy may simulate.
+_MAX_DEPTH = 8  # Of sequences of interactions that the search for the policy tries.
+_MAX_STEPS = 2_000_000  # Control steps that it may simulate.
 _MAX_HISTORIES = 30_000  # Kept for judging: about 600 MB for 40 hypotheses.
 
 
@@ -38,49 +38,55 @@ class Solution(base.Solution):
         resolution: float,
         discount: float,
         objective: str = "return",
-        *,
-        max_depth: int = 8,
         tolerance: float | None = None,
     ):
         """Prepares the search.
 
         Args:
-          hypotheses: the hypotheses about the hidden property.
+          hypotheses, discount: see the class.
           resolution: the difference above which two observations are distinguished: in the readings' unit for features,
             in pixels for images. At 0 every bit counts, and the bound holds for every agent.
-          discount: the agent's gamma.
           objective: `return`, the expected discounted return; or `time`, the fewest interactions until the right label
             is known for certain.
-          max_depth: longest sequences of interactions that the search for the policy tries.
           tolerance: when actions are judged, states that differ by no more than this, m and m/s, share one value; see
             `Histories`.
         """
-        self.hypotheses = hypotheses
-        self.discount, self.objective = discount, objective
-        self._resolution, self._tolerance = resolution, tolerance
-        self._max_depth = max_depth
-        self._everything = tuple(range(len(hypotheses.prior)))
+        self.hypotheses, self.discount, self.objective = hypotheses, discount, objective
+        self._new_histories = functools.partial(histories_lib.Histories, hypotheses, resolution)
+        self._tolerance, self._step_limit = tolerance, hypotheses.task.rules.step_limit
 
     @functools.cached_property
     def histories(self) -> histories_lib.Histories:
         """The tree of sequences of interactions."""
-        return histories_lib.Histories(self.hypotheses, self._resolution)
+        return self._new_histories()
+
+    @functools.cached_property
+    def _complete_histories(self) -> histories_lib.Histories:
+        return self._new_histories(splits_determined=True)
 
     @functools.cached_property
     def _search(self) -> branch_and_bound.Search:
-        return branch_and_bound.Search(self._criterion, self.histories)
+        return self._searching(self.histories)
 
-    @property
-    def _criterion(self) -> branch_and_bound.Criterion:
+    @functools.cached_property
+    def _judging(self) -> branch_and_bound.Search:
+        return self._search if self._tolerance is None else self._new_judging()
+
+    def _new_judging(self) -> branch_and_bound.Search:
+        return self._searching(self._new_histories(tolerance=self._tolerance))
+
+    def _searching(self, histories: histories_lib.Histories) -> branch_and_bound.Search:
         if self.objective == "return":
-            return branch_and_bound.Criterion(self.discount, cost=0.0, known=1.0, guesses=True)
-        return branch_and_bound.Criterion(discount=1.0, cost=1.0, known=0.0, guesses=False)
+            criterion = branch_and_bound.Criterion(self.discount, cost=0.0, known=1.0, guesses=True)
+        else:
+            criterion = branch_and_bound.Criterion(discount=1.0, cost=1.0, known=0.0, guesses=False)
+        return branch_and_bound.Search(criterion, histories)
 
     @functools.cached_property
     def _found(self) -> tuple[float, float, branch_and_bound.Node]:
         """The value and the bound of the objective, and the policy."""
-        root = self.histories.start, self._everything, self.hypotheses.task.rules.step_limit
-        low, high = self._search.run(*root, self._max_depth, _MAX_STEPS)
+        root = self.histories.start, self._step_limit
+        low, high = self._search.run(*root, _MAX_DEPTH, _MAX_STEPS)
         sign = 1.0 if self.objective == "return" else -1.0
         return sign * low, sign * high, self._search.policy(*root)
 
@@ -100,24 +106,25 @@ class Solution(base.Solution):
         return self._found[2]
 
     def actor(self) -> core.Actor:
-        return _Player(self)
+        first = self.policy
 
-    def beliefs(self, episode: base.Episode) -> np.ndarray:
-        supports = self.supports(self._true_hypothesis(episode), episode.actions)
-        return np.array([self.histories.probabilities(support) for support in supports])
+        def choose(node: branch_and_bound.Node, step: int) -> int:
+            return self.hypotheses.task.num_interactions + node.label if node.action is None else node.action
+
+        def follow(node: branch_and_bound.Node, action: int, observation) -> branch_and_bound.Node:
+            return node.children[node.support[self.hypotheses.nearest(observation, node.expected)]]
+
+        return base.Player(begin=lambda observation: first, choose=choose, follow=follow)
+
+    def beliefs(self, hidden, actions):
+        known = self._complete_histories
+        return np.array([known.posterior(state) for state in finite.visited(known, self._hypothesis(hidden), actions)])
 
     def supports(self, hypothesis: int, actions: Sequence[int] | np.ndarray) -> list[histories_lib.Support]:
         """Returns the hypotheses consistent with the observations, before the first and after each of T actions."""
-        supports, history = [self._everything], self._complete_histories.start
-        for action in map(int, actions):
-            following = supports[-1]
-            if action < self.hypotheses.task.num_interactions:  # An answer reveals nothing.
-                partition, history = self._complete_histories.successor(history, supports[-1], action)
-                following = _part_with(hypothesis, partition)
-            supports.append(following)
-        return supports
+        return [support for _, support in finite.visited(self._complete_histories, hypothesis, actions)]
 
-    def judge(self, episode: base.Episode) -> base.Judgement:
+    def judge(self, hidden, actions):
         """Returns the beliefs in an episode, and the values of its actions; the objective must be `return`.
 
         The value of an interaction is exact if it was taken or is best, and a lower bound otherwise. States closer than
@@ -125,59 +132,35 @@ class Solution(base.Solution):
         """
         if self.objective != "return":
             raise ValueError(f"objective is {self.objective!r}; to judge actions, solve for the return")
-        hypothesis, num_interactions = self._true_hypothesis(episode), self.hypotheses.task.num_interactions
         if self._judging.histories.count > _MAX_HISTORIES:
             self._judging = self._new_judging()
-        history, support = self._judging.histories.start, self._everything
-        beliefs, values, is_informative = [], [], []
-        for step, action in enumerate(map(int, episode.actions)):
-            left = self.hypotheses.task.rules.step_limit - step
-            beliefs.append(self.histories.probabilities(support))
-            interactions = self._interaction_values(history, support, left, action)
-            values.append(np.concatenate([interactions, base.answer_values(beliefs[-1])]))
-            partition: histories_lib.Partition = [(1.0, support)]
-            if action < num_interactions:
-                partition, history = self._judging.histories.successor(history, support, action)
-            is_informative.append(len(partition) > 1)
-            support = _part_with(hypothesis, partition)
-        beliefs.append(self.histories.probabilities(support))
-        return base.Judgement(np.array(beliefs), np.array(values), np.array(is_informative))
+        known = self._judging.histories
+        return finite.judge(known, self._hypothesis(hidden), actions, self._interaction_values)
 
-    def _interaction_values(self, history, support, left: int, taken: int) -> np.ndarray:
+    def _interaction_values(self, state: histories_lib.State, step: int, taken: int) -> np.ndarray:
         """Returns the values of all interactions, float64 [A]; exact for the best one and the one taken."""
-        count, search = self.hypotheses.task.num_interactions, self._judging
+        search, left = self._judging, self._step_limit - step
+        interactions = range(search.histories.num_interactions)
         if left == 1:
-            return np.full(count, float(rules.WRONG))
-        if self.histories.is_determined(support):
-            return np.full(count, self.discount * rules.RIGHT)
-        search.run(history.representative, support, left)
-        if taken < count:
-            partition, following = search.histories.successor(history, support, taken)
-            for _, part in partition:
-                search.run(following.representative, part, left - 1)
-        places = [history if action == taken else history.representative for action in range(count)]
-        return np.array([search.bounds_of(place, support, left, action)[0] for action, place in enumerate(places)])
+            return np.full(len(interactions), float(rules.WRONG))
+        if search.histories.is_determined(state[1]):
+            return np.full(len(interactions), self.discount * rules.RIGHT)
+        usual = branch_and_bound.represented(state)
+        search.run(usual, left)
+        if taken in interactions:
+            for _, following in search.histories.following(state, taken):
+                search.run(branch_and_bound.represented(following), left - 1)
+        states = [state if interaction == taken else usual for interaction in interactions]
+        return np.array([search.bounds_of(one, left, interaction)[0] for interaction, one in enumerate(states)])
 
-    @functools.cached_property
-    def _judging(self) -> branch_and_bound.Search:
-        return self._search if self._tolerance is None else self._new_judging()
-
-    def _new_judging(self) -> branch_and_bound.Search:
-        histories = histories_lib.Histories(self.hypotheses, self._resolution, tolerance=self._tolerance)
-        return branch_and_bound.Search(self._criterion, histories)
-
-    @functools.cached_property
-    def _complete_histories(self) -> histories_lib.Histories:
-        return histories_lib.Histories(self.hypotheses, self._resolution, splits_determined=True)
-
-    def _true_hypothesis(self, episode: base.Episode) -> int:
-        known = self.hypotheses
-        is_true = (known.hidden == episode.hidden).reshape(len(known.hidden), -1).all(axis=1)
+    def _hypothesis(self, hidden) -> int:
+        """Returns the number of the hypothesis that is true."""
+        is_true = (self.hypotheses.hidden == hidden).reshape(len(self.hypotheses.hidden), -1).all(axis=1)
         if not is_true.any():
-            raise ValueError(f"hidden is {checks.shown(episode.hidden)}, which is none of the hypotheses")
+            raise ValueError(f"hidden is {checks.shown(hidden)}, which is none of the hypotheses")
         return int(is_true.argmax())
 
-    def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def outcomes(self):
         interactions, right = [], []
         for hypothesis, answer in enumerate(self.hypotheses.answers):
             node, count = self.policy, 0
@@ -196,22 +179,21 @@ class Solution(base.Solution):
         return {**found, "mean_seconds": found["mean_interactions"] * self.hypotheses.task.options.control_timestep}
 
     def summary(self) -> dict[str, Any]:
-        """Returns the statistics of `figures`, and for the return those of `random_play.Bounds`."""
-        if self.objective != "return":
-            return self.figures()
-        return {**self.figures(), **dataclasses.asdict(self._random_bounds)}
+        """Returns the statistics of `figures`, and for the return those of `random_play.bounds`."""
+        return self.figures() if self.objective != "return" else {**self.figures(), **self.random_bounds}
 
     @property
     def at_once(self) -> float:
-        return self._random_bounds.at_once
+        return self.random_bounds["at_once"]
 
     @property
     def random_value(self) -> float:
         """A lower bound on the return of random interactions with the best answers at the best moment."""
-        return self._random_bounds.random_value
+        return self.random_bounds["random_value"]
 
     @functools.cached_property
-    def _random_bounds(self) -> random_play.Bounds:
+    def random_bounds(self) -> dict[str, float]:
+        """The returns of `random_play.bounds`."""
         return random_play.bounds(self.histories, self.discount)
 
 
@@ -226,28 +208,3 @@ def curve(hypotheses: hypotheses_lib.Hypotheses, resolutions: Sequence[float], d
         for resolution in resolutions
         for objective in OBJECTIVES
     ]
-
-
-def _part_with(hypothesis: int, partition: histories_lib.Partition) -> histories_lib.Support:
-    return next(part for _, part in partition if hypothesis in part)
-
-
-class _Player(core.EpisodicActor):
-    """Plays a solution."""
-
-    def __init__(self, solution: Solution):
-        self._first, self._hypotheses = solution.policy, solution.hypotheses
-
-    def _begin(self, timestep):
-        self._node = self._first
-
-    def _choose(self, observation) -> int:
-        node = self._node
-        return self._hypotheses.task.num_interactions + node.label if node.action is None else node.action
-
-    def _note(self, action, next_timestep):
-        node = self._node
-        if node.expected is None or next_timestep.last():
-            return
-        nearest = self._hypotheses.nearest(next_timestep.observation, node.expected)
-        self._node = node.children[node.support[nearest]]

@@ -22,7 +22,7 @@ def of_agent(episode: recording.Film) -> np.ndarray:
 def of_ideal(episode: recording.Film) -> np.ndarray | None:
     """Returns the ideal experimenter's belief in an episode of T actions, [T + 1, L]; None where it is unknown."""
     solution = _ideal(episode.domain, episode.task, tuple(sorted(episode.task_kwargs.items())))
-    return None if solution is None else solution.beliefs(episode)
+    return None if solution is None else solution.beliefs(episode.hidden, episode.actions)
 
 
 @functools.lru_cache(maxsize=4)

@@ -13,19 +13,10 @@ from physexp import suite
 from physexp.agents import environment_loop
 from physexp.analysis import domains
 from physexp.analysis.domains import base
-from physexp.analysis.ideal import random_play, rollouts, search
+from physexp.analysis.ideal import random_play, rollouts
 
 NAMES = [name for name, domain in domains.DOMAINS.items() if domain.ideal is not None]
 TASKS = [(domain, task) for domain, task in suite.tagged("features") if domain in NAMES]
-
-
-class Recorder(observers.Watcher):
-    """Records what an ideal experimenter may know of an episode."""
-
-    def episode(self, environment):
-        return types.SimpleNamespace(
-            hidden=np.array(environment.task.hidden), actions=np.array(self.actions), observations={}
-        )
 
 
 @pytest.mark.parametrize(("domain", "task"), TASKS)
@@ -51,11 +42,11 @@ def test_its_mean_return_in_the_real_environment_is_its_value(domain, task):
 def test_its_belief_starts_at_the_prior_and_ends_at_its_answer(domain, task):
     solution = ideals.of(domain, task)
     environment = suite.load(domain, task, task_kwargs={"random": fresh_seed()})
-    recorder = Recorder()
+    recorder = observers.Watcher()
     loop = environment_loop.EnvironmentLoop(environment, solution.actor(), [recorder])
     for _ in range(5):
         loop.run_episode()
-        beliefs = solution.beliefs(recorder.episode(environment))
+        beliefs = solution.beliefs(np.array(environment.task.hidden), np.array(recorder.actions))
         assert beliefs.shape == (len(recorder.actions) + 1, environment.task.num_labels)
         np.testing.assert_allclose(beliefs.sum(axis=1), 1)
         assert beliefs[-1].argmax() == recorder.actions[-1] - environment.task.num_interactions
@@ -66,14 +57,12 @@ def test_its_belief_starts_at_the_prior_and_ends_at_its_answer(domain, task):
 @pytest.mark.parametrize("domain", [name for name in NAMES if name != "towers"])
 def test_there_is_something_to_find_out(domain, monkeypatch):
     monkeypatch.setattr(random_play, "_NUM_SEQUENCES", 64)  # The standard error stays below 0.03.
-    solution = ideals.of(domain)
-    is_search = isinstance(solution, search.Solution)
-    random = random_play.bounds(solution.histories, solution.discount) if is_search else solution
-    assert solution.figures()["mean_interactions"] >= 2
-    assert random.at_once <= 0.3 * solution.value
-    best_at_random = random.random_bound if is_search else random.random_value
+    found = ideals.of(domain).summary()
+    assert found["mean_interactions"] >= 2
+    assert found["at_once"] <= 0.3 * found["value"]
+    best_at_random = found.get("random_bound", found["random_value"])
     # Which is Heavier has four blocks and reads a mass exactly, so random pokes are nearly as good as chosen ones.
-    assert best_at_random <= (1 if domain == "which_is_heavier" else 0.8) * solution.value
+    assert best_at_random <= (1 if domain == "which_is_heavier" else 0.8) * found["value"]
 
 
 @pytest.mark.parametrize(

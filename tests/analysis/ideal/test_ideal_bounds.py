@@ -1,7 +1,5 @@
 """Lower and upper bounds on the ideal return with noise or variation."""
 
-import types
-
 import ideals
 import numpy as np
 import pytest
@@ -59,7 +57,7 @@ def test_the_policy_plays_but_its_beliefs_are_unknown():
         actor.observe(action, timestep)
     assert timestep.reward == 1
     with pytest.raises(ValueError, match="only known without noise and variation"):
-        solution.beliefs(types.SimpleNamespace())
+        solution.beliefs(np.array(0), np.array([0]))
 
 
 @pytest.mark.parametrize("task", ["which_is_heavier features", "towers fist_features"])

@@ -27,8 +27,8 @@ def played():
     found = []
     for episode in range(_NUM_ROUNDS):
         actions = [[] for _ in actors]
-        for step in rollouts.play_round(actors, batch, episode):
-            for row, action, reward in zip(step.rows, step.actions, step.after.reward, strict=True):
+        for rows, acted, after in rollouts.play_round(actors, batch, episode):
+            for row, action, reward in zip(rows, acted, after.reward, strict=True):
                 actions[row].append(int(action))
                 if action >= which_is_heavier.NUM_BLOCKS:
                     found.append((batch.hidden[row].copy(), actions[row], reward, actors[row].beliefs()))
@@ -88,5 +88,5 @@ def test_it_delays_the_answer_if_readings_are_useless():
     """A guess costs 0.5, discounted: the least in the last of the 100 steps, where silence costs 1."""
     actors = [ideal(noise=100.0).actor() for _ in range(4)]
     batch = suite.load_batch("which_is_heavier", "features", len(actors), {"noise": 100.0, "random": fresh_seed()})
-    *others, last = (step.actions for step in rollouts.play_round(actors, batch, 0))
+    *others, last = (acted for _, acted, _ in rollouts.play_round(actors, batch, 0))
     assert len(others) == 99 and (np.array(others) < 4).all() and (last >= 4).all()

@@ -192,7 +192,7 @@ def test_eight_equally_likely_labels_by_hand(discount, step_limit, value):
 def test_played_episodes_earn_the_value():
     prior = PRIORS["a default of threshold"]
     solution = solve(prior, 0.95, 30)
-    interactions, right = solution.play(np.arange(8))  # Each label once.
+    interactions, right = solution.outcomes()[:2]
     assert prior @ (0.95**interactions * np.where(right, 1, -1)) == pytest.approx(solution.value, abs=1e-12)
     summary = solution.summary()
     assert prior @ interactions == pytest.approx(summary["mean_interactions"], abs=1e-12)
@@ -211,7 +211,7 @@ def test_it_clamps_only_if_pulls_leave_several_graphs():
     0, then clamp 2 and pull 0 reveal whether 1-2, 0-2, 0-1 is missing; the first missing pair ends the search.
     """
     solution = ideals.of("strings")
-    interactions, right = solution.play(np.arange(8))
+    interactions, right = solution.outcomes()[:2]
     assert right.all()
     # None and 1-2: two pulls. 0-1 and 0-2: one. Rows of three: 3, 5 or 7; the ring, 7.
     assert sorted(interactions) == [1, 1, 2, 2, 3, 5, 7, 7]

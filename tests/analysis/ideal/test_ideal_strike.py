@@ -1,7 +1,6 @@
 """The ideal experimenter of Strike against a tree of all sequences, simulated with another model."""
 
 import functools
-import types
 
 import ideals
 import mujoco
@@ -84,7 +83,7 @@ def test_a_tree_finds_the_same_values(difficulty, gates):
     rng = np.random.default_rng(fresh_seed())
     for puck in rng.integers(len(ANSWERS), size=10):
         pokes, group = tuple(rng.integers(len(strike.POKES), size=3).tolist()), everything
-        judged = solution.judge(types.SimpleNamespace(hidden=puck, actions=np.array(pokes)))
+        judged = solution.judge(puck, np.array(pokes))
         for step, poke in enumerate(pokes):
             assert judged.values[step].max() == pytest.approx(value(pokes[:step], group), abs=1e-9)
             parts = split(pokes[: step + 1], group).values()

@@ -2,7 +2,6 @@
 
 import json
 import math
-import types
 
 import ideals
 from made_worlds import COUNTS, PATTERNS, MadeWorld
@@ -70,7 +69,7 @@ def test_an_observation_decides_the_next_action():
     assert solve(MadeWorld(3, tells)).value == pytest.approx(0.9**2)
 
 
-def test_it_guesses_if_another_interaction_costs_more():
+def test_it_guesses_if_another_interaction_costs_more(monkeypatch):
     # Action 0 reveals 1, 2 and 3 bodies and leaves 4 and 5 together; after it, action 1 separates those. A guess is
     # worth 0 then, another interaction the discount, which is more. If action 1 is useless, it must guess: right in
     # 3/5 + 2/5 * 1/2 = 0.8, so the value is discount * (0.8 - 0.2) = 0.9 * 0.6.
@@ -82,15 +81,17 @@ def test_it_guesses_if_another_interaction_costs_more():
 
     asking = solve(MadeWorld(2, useful))
     assert asking.value == pytest.approx(0.9 * (3 / 5 + 2 / 5 * 0.9))
-    guessing = search.Solution(MadeWorld(2, useless), 0.5, 0.9, max_depth=3)
+    monkeypatch.setattr(search, "_MAX_DEPTH", 3)
+    guessing = solve(MadeWorld(2, useless))
     assert guessing.value == pytest.approx(0.9 * 0.6)
     assert guessing.summary()["accuracy"] == pytest.approx(0.8)
     # The search ended after three actions, so the bound is larger.
     assert guessing.bound > guessing.value
 
 
-def test_a_guess_is_delayed_if_no_action_reveals_anything():
-    solution = search.Solution(MadeWorld(2, lambda sequence: [0] * PATTERNS), 0.5, 0.9, max_depth=2)
+def test_a_guess_is_delayed_if_no_action_reveals_anything(monkeypatch):
+    monkeypatch.setattr(search, "_MAX_DEPTH", 2)
+    solution = solve(MadeWorld(2, lambda sequence: [0] * PATTERNS))
     # Right in one case of five: 2/5 - 1. Interactions discount the loss: 0.9^2 * (-0.6) = -0.486.
     assert solution.value == pytest.approx(0.9**2 * -0.6)
 
@@ -105,7 +106,7 @@ def test_actions_are_judged_by_the_best_return_after_them():
     first = 0.9 * (3 / 5 + 2 / 5 * 0.9)
 
     def judged(*actions):
-        return solution.judge(types.SimpleNamespace(hidden=four, actions=np.array(actions)))
+        return solution.judge(four, np.array(actions))
 
     told = judged(1, 0, 0, 1, right)
     np.testing.assert_array_equal(told.is_informative, [False, True, False, True, False])
@@ -118,7 +119,7 @@ def test_actions_are_judged_by_the_best_return_after_them():
     late = judged(1, 1, 1, 1, 0, 0)
     np.testing.assert_allclose(late.values[-1], [-1, -1, -1, -1, -1, 0, 0])
     with pytest.raises(ValueError, match="objective is 'time'; to judge actions, solve for the return"):
-        solve(MadeWorld(2, tells), "time").judge(types.SimpleNamespace(hidden=four, actions=np.array([0])))
+        solve(MadeWorld(2, tells), "time").judge(four, np.array([0]))
 
 
 def test_luck_is_zero_on_average_for_a_wandering_fist():
@@ -130,29 +131,26 @@ def test_luck_is_zero_on_average_for_a_wandering_fist():
     batch = suite.load_batch("towers", "fist_features", size, {"random": fresh_seed()})
     taken: list[list[int]] = [[] for _ in range(size)]
     returns = np.zeros(size)
-    for step in rollouts.play_round(actors, batch, 0):
-        for row, action in zip(step.rows, step.actions, strict=True):
+    for rows, acted, after in rollouts.play_round(actors, batch, 0):
+        for row, action in zip(rows, acted, strict=True):
             taken[row].append(action)
-        returns[step.rows] = step.after.reward * 0.98 ** len(taken[step.rows[0]]) / 0.98
+        returns[rows] = after.reward * 0.98 ** len(taken[rows[0]]) / 0.98
     actions = [np.array(each) for each in taken]
-    episodes = [
-        types.SimpleNamespace(hidden=one, actions=each) for one, each in zip(batch.hidden, actions, strict=True)
-    ]
-    judged = [solution.judge(episode) for episode in episodes]
+    judged = [solution.judge(hidden, each) for hidden, each in zip(batch.hidden, actions, strict=True)]
     luck = returns + sum(mistakes.of_episodes(judged, actions, 0.98).values()) - solution.value
     assert abs(luck.mean()) < 4.5 * luck.std() / math.sqrt(size) + 1e-3
 
 
 def test_judged_beliefs_are_exact_after_a_detour():
-    wandering = types.SimpleNamespace(hidden=np.array(6), actions=np.array([3, 2, 2, 1, 1, 0, 0, 0, 0]))
+    wandering = np.array(6), np.array([3, 2, 2, 1, 1, 0, 0, 0, 0])
     solution = ideals.of("towers", "fist_features")
-    np.testing.assert_allclose(solution.judge(wandering).beliefs, solution.beliefs(wandering))
+    np.testing.assert_allclose(solution.judge(*wandering).beliefs, solution.beliefs(*wandering))
 
 
 def test_states_within_the_tolerance_have_nearly_equal_values():
     known = towers.hypotheses("fist_features")
-    away = types.SimpleNamespace(hidden=np.array(6), actions=np.array([1]))
-    exact, near = (search.Solution(known, 0.001, 0.98, tolerance=tolerance).judge(away) for tolerance in (None, 0.05))
+    away = np.array(6), np.array([1])
+    exact, near = (search.Solution(known, 0.001, 0.98, tolerance=tolerance).judge(*away) for tolerance in (None, 0.05))
     assert near.values.max() == pytest.approx(exact.values.max(), abs=1e-9)
     assert near.values[0, 1] == pytest.approx(exact.values[0, 1], abs=0.01)
 
@@ -197,12 +195,10 @@ def test_it_plays_the_environment_as_predicted(world):
 
 def test_the_towers_look_alike_until_they_are_touched():
     known = histories.Histories(towers.hypotheses("fist_features"), 0.0)
-    everything = tuple(range(PATTERNS))
-    _, away = known.successor(known.start, everything, 1)  # Action 1 moves the fist away.
-    known.expand(away)
-    assert [partitions for partitions, _ in away.successors.values()] == [
-        {everything: [(pytest.approx(1), everything)]}
-    ] * 4
+    ((_, away),) = known.following(known.start, 1)  # Action 1 moves the fist away.
+    for action in range(4):
+        ((chance, (_, support)),) = known.following(away, action)
+        assert chance == pytest.approx(1) and support == tuple(range(PATTERNS))
     # One action at the start, and four after it, for 16 patterns each.
     assert known.hypotheses.steps == (1 + 4) * PATTERNS
 
@@ -241,10 +237,11 @@ def test_it_plays_as_well_from_pixels():
     assert all(episode["episode_return"] == 1 for episode in episodes)
 
 
-def test_a_summary_without_a_certain_answer_can_be_written_as_json():
+def test_a_summary_without_a_certain_answer_can_be_written_as_json(monkeypatch):
+    monkeypatch.setattr(search, "_MAX_DEPTH", 2)
     summary = solve(MadeWorld(1, lambda sequence: COUNTS)).summary()
     assert json.loads(json.dumps(summary))["mean_seconds"] == pytest.approx(0.1)
-    blind = search.Solution(MadeWorld(1, lambda sequence: [0] * PATTERNS), 0.5, 0.98, "time", max_depth=2)
+    blind = solve(MadeWorld(1, lambda sequence: [0] * PATTERNS), "time")
     assert json.loads(json.dumps(blind.summary(), allow_nan=False))["value"] is None
 
 
@@ -265,19 +262,19 @@ def test_beliefs_have_the_hypotheses_that_agree_with_observations(world):
     solution = search.Solution(cache, 0.0, 0.98)
     for pattern in range(PATTERNS):
         actions = np.array([*touch, num_interactions + 2])
-        found = solution.beliefs(types.SimpleNamespace(hidden=np.array(pattern), actions=actions))
+        found = solution.beliefs(np.array(pattern), actions)
         before = np.full((len(touch), 5), 0.2)  # Nothing is known before the touch, all after it.
         known = np.eye(5)[COUNTS[pattern] - 1]
         np.testing.assert_allclose(found, [*before, known, known], atol=1e-12)
     # An observer that distinguishes nothing never learns.
-    blind = search.Solution(cache, 10.0, 0.98).beliefs(types.SimpleNamespace(hidden=np.array(3), actions=actions))
+    blind = search.Solution(cache, 10.0, 0.98).beliefs(np.array(3), actions)
     np.testing.assert_allclose(blind, 0.2)
 
 
 def test_an_episode_with_an_unknown_hidden_property_is_refused():
     solution = search.Solution(MadeWorld(1, lambda sequence: COUNTS), 0.5, 0.98)
     with pytest.raises(ValueError, match="hidden is 16, which is none of the hypotheses"):
-        solution.beliefs(types.SimpleNamespace(hidden=16, actions=np.zeros(0, int)))
+        solution.beliefs(16, np.zeros(0, int))
 
 
 def test_the_rule_for_noisy_towers_answers_in_the_last_step(monkeypatch):

@@ -1,7 +1,6 @@
 """The ideal experimenter of Which is Heavier, by hand, by brute force, and in the real environment."""
 
 import math
-import types
 
 from chance import P_VALUE
 import ideals
@@ -231,8 +230,7 @@ def test_from_images_or_with_more_blocks_it_has_a_value_but_no_actor():
 
 def test_the_beliefs_in_an_episode_are_the_posterior_of_poked_blocks():
     hidden = np.array([0.3, 0.8, 0.1, 0.2])
-    episode = types.SimpleNamespace(hidden=hidden, actions=np.array([0, 0, 1, 4 + 1]))
-    found = solve(3.0, 0.95).beliefs(episode)
+    found = solve(3.0, 0.95).beliefs(hidden, np.array([0, 0, 1, 4 + 1]))
     start, first, second = np.full((3, 4), np.nan)
     first[0], second[:2] = 0.3, [0.3, 0.8]
     np.testing.assert_array_equal(found, posterior(np.array([start, first, first, second, second]), 3.0))

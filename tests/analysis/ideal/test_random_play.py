@@ -20,8 +20,8 @@ def nothing_or_all(sequence):
 
 def test_one_interaction_is_enough_if_it_reveals_the_label():
     found = random_play.bounds(histories.Histories(MadeWorld(1, nothing_or_all), 0.5), 0.9)
-    assert found.at_once == pytest.approx(2 / 5 - 1)
-    assert found.random_value == pytest.approx(0.9) and found.random_bound == pytest.approx(0.9)
+    assert found["at_once"] == pytest.approx(2 / 5 - 1)
+    assert found["random_value"] == pytest.approx(0.9) and found["random_bound"] == pytest.approx(0.9)
 
 
 def test_one_of_two_actions_that_reveals_the_label_is_drawn_in_time():
@@ -29,8 +29,8 @@ def test_one_of_two_actions_that_reveals_the_label_is_drawn_in_time():
     found = random_play.bounds(histories.Histories(MadeWorld(2, nothing_or_all), 0.5), 0.9)
     steps = np.arange(1, 60)
     mean, square = (0.5**steps @ 0.9 ** (power * steps) for power in (1, 2))
-    assert found.random_value == pytest.approx(found.random_bound)
-    assert abs(found.random_bound - mean) < 5 * math.sqrt((square - mean**2) / 64)
+    assert found["random_value"] == pytest.approx(found["random_bound"])
+    assert abs(found["random_bound"] - mean) < 5 * math.sqrt((square - mean**2) / 64)
 
 
 def bits(sequence):
@@ -74,8 +74,8 @@ def test_the_exact_value_lies_between_the_bounds(discount, step_limit):
     found = random_play.bounds(histories.Histories(MadeWorld(3, bits, step_limit), 0.5), discount)
     error = 5 * 0.25 / math.sqrt(64)  # Five standard errors: sequences differ by less than a quarter from their mean.
     expected = exact(discount, step_limit)
-    assert found.random_value <= found.random_bound + 1e-12
-    assert found.random_value - error < expected < found.random_bound + error
+    assert found["random_value"] <= found["random_bound"] + 1e-12
+    assert found["random_value"] - error < expected < found["random_bound"] + error
 
 
 def test_random_interactions_earn_less_than_the_ideal():

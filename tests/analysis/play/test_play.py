@@ -1,9 +1,11 @@
 """The game in a terminal: drawings, prompts and scores."""
 
 import dataclasses
+import io
 import os
 import re
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ from trainers import PHYSEXP
 from physexp import suite
 from physexp.agents import pretrained
 from physexp.analysis.play import game, terminal
+from physexp.cli import printing
 
 
 def typed(*lines):
@@ -57,16 +60,6 @@ def test_a_wrong_answer_and_the_right_one_are_told():
     assert scores["you"].total == -1
     assert f"Wrong. The answer: {environment.task.label_names[environment.task.correct_answer]}." in shown
     assert scores["ideal experimenter"].right == 1  # It is always right.
-
-
-def test_what_is_no_action_is_asked_again():
-    shown = []
-    scores = game.play(
-        "which_is_heavier", "features", seed=1, read=typed("nine", "8", "-1", "q", "0"), show=shown.append
-    )
-    assert scores["you"].episodes == 0
-    for text in ("'nine'", "'8'", "'-1'"):
-        assert f"{text} is no action; type a number from 0 to 7, ? or q" in shown
 
 
 HEAVIER = suite.load_task("which_is_heavier", "features").readings
@@ -137,39 +130,36 @@ def test_features_fit_the_terminal(columns):
         ("towers", "fist_features", ["How many rigid bodies is the tower made of?", "O is the fist"]),
     ],
 )
-def test_the_question_comes_first_in_words_and_what_is_drawn_is_explained(domain, task, words):
+def test_the_question_comes_first_in_words_and_what_is_no_action_is_asked_again(domain, task, words):
     shown = []
-    game.play(domain, task, seed=1, read=typed("?", "q"), show=shown.append)
+    scores = game.play(domain, task, seed=1, read=typed("nine", "99", "-1", "?", "q", "0"), show=shown.append)
+    assert scores["you"].episodes == 0
+    last = suite.load_task(domain, task).rules.num_actions - 1
+    for text in ("'nine'", "'99'", "'-1'"):
+        assert f"{text} is no action; type a number from 0 to {last}, ? or q" in shown
     assert shown[0].startswith(words[0]) and all(word in shown[0] for word in words)
     assert shown[0] == shown[-1]  # Again, when it is asked for.
 
 
-@pytest.mark.parametrize("difficulty", [3.0, 4.0])
-def test_a_player_is_compared_with_an_agent_of_equal_difficulty(difficulty):
-    shown = []
-    scores = game.play(
-        "which_is_heavier", "features", {"difficulty": difficulty}, 1, read=typed("0", "4"), show=shown.append
-    )
-    players = {"you", "ideal experimenter"} | ({"trained agent"} if difficulty == 3 else set())
-    assert set(scores) == players and all(score.episodes == 1 for score in scores.values())
-    missing = "There is no agent trained at difficulty 4 to compare you with.\n"
-    assert (missing in shown) == (difficulty == 4)
-
-
-def test_the_agent_beside_a_player_is_the_one_of_that_difficulty(monkeypatch):
-    loaded, load = [], pretrained.load
+@pytest.mark.parametrize(
+    ("options", "shown_options"),
+    [
+        ({"difficulty": 3.0}, ""),
+        ({"difficulty": 4.0}, "difficulty 4"),
+        ({"control_timestep": 0.05}, "control_timestep 0.05"),
+    ],
+)
+def test_a_player_is_compared_with_an_agent_of_the_same_options(monkeypatch, options, shown_options):
+    loaded, load, shown = [], pretrained.load, []
     monkeypatch.setattr(
-        pretrained, "load", lambda *names, **options: loaded.append((*names, options)) or load(*names, **options)
+        pretrained, "load", lambda *names, **kwargs: loaded.append((*names, kwargs)) or load(*names, **kwargs)
     )
-    game.play("which_is_heavier", "features", {"difficulty": 10.0}, 1, read=typed("q"), show=lambda text: None)
-    assert loaded == [("which_is_heavier", "features", {"difficulty": 10.0})]
-
-
-def test_a_player_with_finer_control_steps_has_no_agent_beside():
-    shown, options = [], {"control_timestep": 0.05}
     scores = game.play("which_is_heavier", "features", options, 1, read=typed("0", "4"), show=shown.append)
-    assert set(scores) == {"you", "ideal experimenter"}
-    assert "There is no agent trained at control_timestep 0.05 to compare you with.\n" in shown
+    assert loaded == [("which_is_heavier", "features", options if "difficulty" in options else {})]
+    assert set(scores) == {"you", "ideal experimenter"} | (set() if shown_options else {"trained agent"})
+    assert all(score.episodes == 1 for score in scores.values())
+    missing = f"There is no agent trained at {shown_options} to compare you with.\n"
+    assert (missing in shown) == bool(shown_options)
 
 
 def test_the_command_plays_without_any_gl_from_what_is_typed():
@@ -186,8 +176,9 @@ def test_the_command_plays_without_any_gl_from_what_is_typed():
     assert "you " in done.stdout and "ideal experimenter" in done.stdout
 
 
-def test_a_terminal_without_half_blocks_shows_other_letters():
-    environment = {**os.environ, "PYTHONIOENCODING": "latin-1"}
-    words = [PHYSEXP, "play", "which_is_heavier", "pixels", "--seed", "3"]
-    done = subprocess.run(words, input="0\nq\n", capture_output=True, encoding="latin-1", env=environment)
-    assert (done.returncode, done.stderr) == (0, "") and "m?\x1b[" in done.stdout
+def test_a_terminal_without_half_blocks_shows_other_letters(monkeypatch):
+    written = io.BytesIO()
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(written, "latin-1", write_through=True))
+    printing.prepare()
+    game.play("which_is_heavier", "pixels", seed=3, read=typed("0"))
+    assert b"m?\x1b[" in written.getvalue()
