@@ -7,7 +7,9 @@ import json
 from pathlib import Path
 from typing import Any
 
+import filelock
 import pandas
+import pyarrow
 
 from physexp.agents import files
 from physexp.analysis.data import plots
@@ -75,6 +77,13 @@ class Results:
             return results_lib.load(self.path, table, columns, filters)
         except FileNotFoundError:
             return pandas.DataFrame(columns=list(columns))
+
+    def append(self, table: str, rows: pyarrow.Table) -> None:
+        """Adds rows of one run to a table; see `data.results.append`. Other processes may add rows, too."""
+        folder = self.path / results_lib.TABLES
+        folder.mkdir(parents=True, exist_ok=True)
+        with filelock.FileLock(folder / ".lock"):
+            results_lib.append(self.path, table, rows)
 
     def played(self) -> set[tuple[str, str, int]]:
         """Returns condition, trial and training seed of everything that has been played."""

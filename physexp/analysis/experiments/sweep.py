@@ -8,6 +8,7 @@ from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from concurrent import futures
 import dataclasses
+import io
 import itertools
 import json
 from pathlib import Path
@@ -16,23 +17,15 @@ import tempfile
 import time
 from typing import Any, Protocol
 
-import filelock
+import pandas
+import pyarrow
 from pyarrow import parquet
 
 from physexp import suite
 from physexp.agents import files
 from physexp.analysis.data import results as results_lib
 from physexp.analysis.experiments import base
-from physexp.analysis.training import (
-    callbacks,
-    finding,
-    playing,
-    progress,
-    records,
-    stopping,
-    trainer,
-    verdict,
-)
+from physexp.analysis.training import callbacks, finding, playing, progress, records, stopping, trainer, verdict
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 
@@ -107,28 +100,17 @@ def table(jobs: Sequence[Job], results: base.Results) -> list[dict[str, Any]]:
     keys = ["condition", "trial", "training_seed"]
     metrics = ["success_rate", "mean_return", "mean_interactions", "timeouts"]
     evaluations = results.load("evaluations", [*keys, *metrics]).set_index(keys)
-    ideals: dict[str, float | None] = {}
     rows = []
     for job in jobs:
         config, (trial,) = job.config, job.trials
         key = (records.condition_id(config), trial.name, config.agent.seed)
-        if key not in evaluations.index:
-            continue
-        found = evaluations.loc[key]
-        if config.task_name not in ideals:
-            ideals[config.task_name] = playing.ideal_return(config)
-        ideal = ideals[config.task_name]
-        rows.append(
-            {
-                "task": config.task_name,
-                "learner": config.agent.title,
-                "seed": config.agent.seed,
-                "frames": int(runs.frames[config.name]),
-                "minutes": round(float(runs.seconds[config.name]) / 60, 2),
-                **{name: round(float(found[name]), 4) for name in metrics},
-                "share_of_ideal": None if ideal is None else round(float(found.mean_return) / ideal, 4),
-            }
-        )
+        if key in evaluations.index:
+            found, ideal = evaluations.loc[key], playing.ideal_return(config)
+            row = {"task": config.task_name, "learner": config.agent.title, "seed": config.agent.seed}
+            row |= {"frames": int(runs.frames[config.name])}
+            row |= {"minutes": round(float(runs.seconds[config.name]) / 60, 2)}
+            row |= {name: round(float(found[name]), 4) for name in metrics}
+            rows.append(row | {"share_of_ideal": ideal and round(float(found.mean_return) / ideal, 4)})
     return sorted(rows, key=lambda row: (row["task"], row["learner"], row["seed"]))
 
 
@@ -156,9 +138,11 @@ def run(jobs: Sequence[Job], results: base.Results, pool: Pool, num_processes: i
                 pool.stop()  # Also jobs that have just begun.
             for future in finished:
                 job = pending.pop(future)
-                if failure := _take(future, job, results):
+                try:
+                    _take(future.result(), results)
+                except BaseException as error:  # Also a cancelled job, and one that was asked to end.
                     if not requests:
-                        failures.append(f"{job.config.name}: {failure}")
+                        failures.append(f"{job.config.name}: {error}")
                         tell(f"FAILED {failures[-1]}")
                     continue
                 problem = verdict.of_run(results.run(job.config))
@@ -171,7 +155,7 @@ def run(jobs: Sequence[Job], results: base.Results, pool: Pool, num_processes: i
 
 
 def to_do(jobs: Sequence[Job], results: base.Results) -> list[Job]:
-    """Returns the jobs that are not done, after storing the rows of runs that have ended without it.
+    """Returns the jobs that are not done.
 
     Raises:
       ValueError: as `run`.
@@ -180,9 +164,8 @@ def to_do(jobs: Sequence[Job], results: base.Results) -> list[Job]:
     stored, played = dict(zip(rows.run, rows.config, strict=True)), results.played()
     left = []
     for job in jobs:
-        run, missing = results.run(job.config), _missing(job, played)
-        is_stored, has_agent = job.config.name in stored, run.agent_path.exists()
-        known = job.config
+        run, missing, known = results.run(job.config), _missing(job, played), job.config
+        is_stored = job.config.name in stored
         if (run.path / "config.json").exists():
             known = run.config
         elif is_stored:
@@ -192,128 +175,92 @@ def to_do(jobs: Sequence[Job], results: base.Results) -> list[Job]:
                 f"{job.config.name} in {results.path} has another configuration; move its run away or choose another "
                 "--results-dir"
             )
-        if is_stored and missing and not has_agent:
+        if is_stored and missing and not run.agent_path.exists():
             raise ValueError(
                 f"{job.config.name} is stored in {results.path} without its weights, so it cannot play "
-                f"{', '.join(missing)}; choose another --results-dir"
+                f"{', '.join(trial.name for trial in missing)}; choose another --results-dir"
             )
-        if has_agent and all(_trial_path(run, name).exists() for name in missing) and (missing or not is_stored):
-            _store(job, results)
-        elif missing or not is_stored:
+        if missing or not is_stored:
             left.append(job)
     return left
 
 
-def _missing(job: Job, played: set[tuple[str, str, int]]) -> dict[str, base.Trial]:
+def _missing(job: Job, played: set[tuple[str, str, int]]) -> list[base.Trial]:
     key, seed = records.condition_id(job.config), job.config.agent.seed
-    return {trial.name: trial for trial in job.trials if (key, trial.name, seed) not in played}
-
-
-def _take(future: futures.Future[Mapping[str, bytes]], job: Job, results: base.Results) -> BaseException | None:
-    """Stores what a job has made; returns the error if it has failed."""
-    try:
-        # A part of these files is a run that can go on: its configuration first, and the episodes last.
-        for name, content in sorted(future.result().items(), key=lambda made: (made[0].endswith(".parquet"), made[0])):
-            path = results.path / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            files.write_atomically(path, content)
-        _store(job, results)
-    except BaseException as error:
-        return error
-    return None
-
-
-def _store(job: Job, results: base.Results) -> None:
-    """Adds the rows of a finished run to the tables, and removes the files in which its trials have waited for that."""
-    run, config = results.run(job.config), job.config
-    tables = results.path / results_lib.TABLES
-    tables.mkdir(parents=True, exist_ok=True)
-    with filelock.FileLock(tables / ".lock"):  # Other sweeps may store rows, too.
-        if not len(results.load("runs", ["run"], [("run", "==", config.name)])):
-            results_lib.append(results.path, "curves", records.of_curve(run))
-            results_lib.append(results.path, "runs", records.of_run(run))
-        for name, trial in _missing(job, results.played()).items():
-            rows = parquet.read_table(_trial_path(run, name))
-            results_lib.append(results.path, "episodes", rows)
-            evaluation = records.of_evaluation(rows, config, trial.name, trial.task_kwargs)
-            results_lib.append(results.path, "evaluations", evaluation)
-    for trial in job.trials:
-        _trial_path(run, trial.name).unlink(missing_ok=True)
-
-
-def _trial_path(run: run_lib.Run, trial: str) -> Path:
-    return run.path / f"{trial}.parquet"
+    return [trial for trial in job.trials if (key, trial.name, seed) not in played]
 
 
 def work(job: Job, results: base.Results) -> dict[str, bytes]:
     """Trains an agent, if that is not done, and plays the trials that are not stored; returns no files."""
-    run = results.run(job.config)
+    run, config = results.run(job.config), job.config
 
     def tell(line: str) -> None:
-        sys.stderr.write(f"{job.config.name}: {line}\n")
+        sys.stderr.write(f"{config.name}: {line}\n")
 
     with run.locked():
         if not run.agent_path.exists():
-            trainer.train(
-                run,
-                tell=tell,
-                start=None if run.checkpointer.paths() else job.config,
-            )
+            trainer.train(run, tell=tell, start=None if run.checkpointer.paths() else config)
         run.keep_agent_only()
-        for name, trial in _missing(job, results.played()).items():
-            path = _trial_path(run, name)
-            if not path.exists():
-                files.write_atomically(path, _play(run, trial))
+        if not len(results.load("runs", ["run"], [("run", "==", config.name)])):
+            results.append("curves", records.of_curve(run))
+            results.append("runs", records.of_run(run))
+        for trial in _missing(job, results.played()):
+            rows = _play(run, trial)
+            results.append("episodes", rows)
+            results.append("evaluations", records.of_evaluation(rows, config, trial.name, trial.task_kwargs))
     return {}
+
+
+def _play(run: run_lib.Run, trial: base.Trial) -> pyarrow.Table:
+    """Plays a trial with a run's agent; returns the rows of its episodes."""
+    config, network = run.config, finding.load_network(run)
+    played_as = dataclasses.replace(config, task_kwargs={**config.task_kwargs, **trial.task_kwargs})
+    num_episodes, num_steps = trial.num_episodes, trial.num_steps
+    played = playing.play(network, played_as, num_episodes, trial.interaction, num_threads=1, num_steps=num_steps)
+    options = suite.options(config.domain)(**played_as.task_kwargs)
+    timestep = options.draw_substeps(played.seed, played.episode) * options.physics_timestep
+    return records.of_episodes(played, config, trial.name, timestep)
 
 
 def work_elsewhere(job: Job) -> dict[str, bytes]:
     """Does a job on a machine that does not see the results; returns its files by their paths in the results."""
     with tempfile.TemporaryDirectory() as folder:
         work(job, base.Results(Path(folder)))
-        paths = [path for path in sorted(Path(folder).rglob("*")) if path.is_file()]
-        return {str(path.relative_to(folder)): path.read_bytes() for path in paths}
+        paths = [path for path in Path(folder).rglob("*") if path.is_file() and path.name != ".lock"]
+        return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
 
 
-def _play(run: run_lib.Run, trial: base.Trial) -> bytes:
-    """Plays a trial with a run's agent; returns the Parquet file of its episodes."""
-    config = run.config
-    played_as = dataclasses.replace(config, task_kwargs={**config.task_kwargs, **trial.task_kwargs})
-    played = playing.play(
-        finding.load_network(run),
-        played_as,
-        trial.num_episodes,
-        trial.interaction,
-        num_threads=1,
-        num_steps=trial.num_steps,
-    )
-    options = suite.options(config.domain)(**played_as.task_kwargs)
-    timestep = options.draw_substeps(played.seed, played.episode) * options.physics_timestep
-    return results_lib.packed(records.of_episodes(played, config, trial.name, timestep))
+def _take(made: Mapping[str, bytes], results: base.Results) -> None:
+    """Adds files that `work_elsewhere` has made to the results: tables last, and the agent before them."""
+
+    def place(name: str) -> tuple[bool, bool, str]:
+        return name.startswith(results_lib.TABLES), name.endswith(".safetensors"), name
+
+    for name in sorted(made, key=place):
+        path = results.path / name
+        if name.startswith(results_lib.TABLES):
+            results.append(path.parent.name, parquet.read_table(io.BytesIO(made[name])))
+        else:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            files.write_atomically(path, made[name])
 
 
 def outlook(jobs: Sequence[Job], results: base.Results, num_processes: int, num_pending: int) -> str:
     """Returns the number of agents and frames to go, and the time left at the speed of these runs, once it is known."""
     stored = results.load("runs", ["run", "frames", "seconds"]).set_index("run")
-    done = total = left = 0.0
-    speeds: dict[tuple[str, str], list[tuple[float, float]]] = defaultdict(list)
-    remaining: dict[tuple[str, str], float] = defaultdict(float)
-    for job in jobs:
-        kind, budget = (job.config.task_name, job.config.agent.algorithm), job.config.agent.frames
-        if job.config.name in stored.index:
-            frames, seconds = stored.loc[job.config.name, ["frames", "seconds"]]
+    rows = []
+    for config in (job.config for job in jobs):
+        if config.name in stored.index:
+            last = dict(stored.loc[config.name])
         else:
-            rows = results.run(job.config).metrics()
-            frames, seconds = (rows[-1]["frames"], rows[-1]["seconds"]) if rows else (0, 0)
-        if frames:
-            speeds[kind].append((seconds, frames))
-        remaining[kind] += budget - min(frames, budget)
-        done, total = done + min(frames, budget), total + budget
+            *_, last = [{"frames": 0, "seconds": 0.0}, *results.run(config).metrics()]
+        kind, budget = f"{config.task_name} {config.agent.algorithm}", config.agent.frames
+        rows.append((kind, budget, min(last["frames"], budget), last["frames"], last["seconds"]))
+    runs = pandas.DataFrame(rows, columns=["kind", "budget", "done", "frames", "seconds"])
     agents = "1 agent" if num_pending == 1 else f"{num_pending} agents"
-    line = f"{agents} to go, {done / 1e6:.2f} of {total / 1e6:.2f} million frames"
-    if not speeds:
+    line = f"{agents} to go, {runs.done.sum() / 1e6:.2f} of {runs.budget.sum() / 1e6:.2f} million frames"
+    if not runs.frames.any():
         return line
-    for kind, frames in remaining.items():
-        known = speeds.get(kind) or [pair for pairs in speeds.values() for pair in pairs]
-        left += frames * sum(seconds for seconds, _ in known) / sum(count for _, count in known)
-    return f"{line}, time left {progress.duration(left / num_processes)}"
+    alike = runs.groupby("kind")[["seconds", "frames"]].transform("sum")
+    pace = (alike.seconds / alike.frames).fillna(runs.seconds.sum() / runs.frames.sum())
+    return f"{line}, time left {progress.duration((pace * (runs.budget - runs.done)).sum() / num_processes)}"
