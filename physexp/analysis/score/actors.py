@@ -1,7 +1,6 @@
 """Actors that are scored: users' policies, trained networks, and baselines."""
 
 from collections.abc import Callable, Mapping
-import types
 from typing import Any
 
 import numpy as np
@@ -40,8 +39,7 @@ def _random(question: protocol.Question, index: int) -> core.Actor:
 
 
 def _at_once(question: protocol.Question, index: int) -> core.Actor:
-    unplayed = types.SimpleNamespace(hidden=protocol.drawn(question, 1)[0], actions=np.zeros(0, np.int64))
-    belief = protocol.ideal(question).beliefs(unplayed)[0]
+    belief = protocol.ideal(question).beliefs(protocol.drawn(question, 1)[0], np.zeros(0, np.int64))[0]
     return Policy(lambda observation, state: (question.num_interactions + int(belief.argmax()), None))
 
 

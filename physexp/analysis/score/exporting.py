@@ -41,14 +41,10 @@ def export(
     episodes until then are written, too.
 
     Args:
-      target, questions, num_episodes, folder, timeout: as for `scoring.score`.
+      target, questions, num_episodes, folder, timeout: as for `scoring.score`, as the errors are.
       seed: of the environments; not the score's.
-      as_minari: write a data set of Minari for each task, too.
+      as_minari: write a data set of Minari for each task, too; raises MissingExtraError if it is not installed.
       show: called with the number of episodes that have been played.
-
-    Raises:
-      MissingExtraError: if Minari is wanted and not installed.
-      OSError, player.PlayerError, ValueError: as `scoring.score`.
     """
     if as_minari:
         extras.require("minari")

@@ -6,7 +6,6 @@ Tasks are judged side by side, in processes of their own: the search for values 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent import futures
 import multiprocessing
-import types
 from typing import NamedTuple
 
 import numpy as np
@@ -42,7 +41,7 @@ class Judge:
         if key not in self._cache:
             if len(self._cache) == _CACHED:
                 self._cache.clear()
-            self._cache[key] = self._solution.judge(types.SimpleNamespace(hidden=hidden, actions=actions))
+            self._cache[key] = self._solution.judge(hidden, actions)
         return self._cache[key]
 
 

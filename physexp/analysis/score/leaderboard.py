@@ -22,20 +22,12 @@ _COLORS = (*plots.COLORS[1:], "#CC79A7", "#7F4F24")
 
 @dataclasses.dataclass(frozen=True)
 class Row:
-    """A row.
-
-    Attributes:
-      name: the folder's.
-      whole: score and interval over all domains.
-      domains: the same of each domain.
-      played: the number of each domain's tasks that were played, and of all.
-      found: the content of `score.json`.
-    """
+    """A folder's name, its scores over all domains and of each, the numbers of tasks it plays, and its `score.json`."""
 
     name: str
     whole: Mapping[str, Any]
     domains: Mapping[str, Mapping[str, Any]]
-    played: Mapping[str, tuple[int, int]]
+    played: Mapping[str, tuple[int, int]]  # Of each domain's tasks those that were played, and all.
     found: Mapping[str, Any]
 
 
@@ -54,13 +46,8 @@ def read(
 ) -> tuple[list[Row], list[str]]:
     """Returns the rows, best first, and a line for each folder that gives none: its name, and the reason.
 
-    Args:
-      results: the folder of all results.
-      verify: raises ValueError for a folder whose score does not follow from its actions.
-      show: called with the number of folders that are done.
-
-    Raises:
-      OSError: if there are no folders.
+    `verify` raises ValueError for a folder whose score does not follow from its actions; `show` is called with the
+    number of folders that are done. Raises OSError if there are none.
     """
     questions, rows, refused = protocol.observing("features"), [], []
     for done, folder in enumerate(folders(results), 1):
@@ -73,8 +60,15 @@ def read(
 
 
 def _row(folder: Path, questions: Sequence[protocol.Question], verify: Callable[[Path], None]) -> Row:
-    found = scoring.read(folder)
-    _check(folder, found, [question.name for question in questions])
+    """Returns the row of a folder; refuses less than the whole protocol, and tasks that no row has."""
+    found, names = scoring.read(folder), [question.name for question in questions]
+    extent = found["protocol"]
+    if not found["complete"]:
+        raise ValueError(f"{folder} is not complete: {found.get('problem')}; score again, elsewhere")
+    if extent["episodes"] != protocol.EPISODES:
+        raise ValueError(f"{folder} has {extent['episodes']} episodes of each task; a row has {protocol.EPISODES:,}")
+    if others := [name for name in extent["tasks"] or ["no task"] if name not in names]:
+        raise ValueError(f"{folder} is of {others[0]}; a row is of {', '.join(names)}")
     verify(folder)
     played = scores.of_log(log.read(folder), dict.fromkeys(questions))
     earned = scores.over(played, questions)
@@ -84,23 +78,10 @@ def _row(folder: Path, questions: Sequence[protocol.Question], verify: Callable[
     return Row(folder.name, earned["whole"], earned["domains"], counts, found)
 
 
-def _check(folder: Path, found: Mapping[str, Any], names: Sequence[str]) -> None:
-    """Refuses less than the whole protocol, and tasks that no row has."""
-    extent = found["protocol"]
-    if not found["complete"]:
-        raise ValueError(f"{folder} is not complete: {found.get('problem')}; score again, elsewhere")
-    if extent["episodes"] != protocol.EPISODES:
-        raise ValueError(f"{folder} has {extent['episodes']} episodes of each task; a row has {protocol.EPISODES:,}")
-    if others := [name for name in extent["tasks"] or ["no task"] if name not in names]:
-        raise ValueError(f"{folder} is of {others[0]}; a row is of {', '.join(names)}")
-
-
 def write(results: Path, show: Callable[[int], None] = lambda done: None) -> tuple[list[Path], list[str]]:
     """Writes the leaderboard as Markdown, and its figure; returns the paths, and a line for each refused folder.
 
-    Raises:
-      OSError: if there are no folders, or a file cannot be written.
-      ValueError: if no folder gives a row.
+    Raises OSError if there are no folders or a file cannot be written, and ValueError if no folder gives a row.
     """
     rows, refused = read(results, show=show)
     if not rows:

@@ -94,14 +94,11 @@ def session(folder: Path, target: targets.Target, timeout: float, facts: Mapping
     A folder without any episode at the end is left as it was found.
 
     Args:
-      folder: it is made, is empty, or holds some of these very episodes.
+      folder: it is made, is empty, or holds some of these very episodes; ValueError if not, or if another process is
+        at work there.
       target: the player of the episodes.
       timeout: for each call of a user's function, s.
       facts: all that the episodes depend on, as JSON has it.
-
-    Raises:
-      OSError: if it cannot be written.
-      ValueError: if another process is at work in the folder, or it holds something else.
     """
     user_agent.refuse_here()
     with contextlib.ExitStack() as stack:

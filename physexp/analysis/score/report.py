@@ -24,6 +24,7 @@ _COLORS = dict(zip(mistakes.KINDS, ("#E69F00", "#56B4E9", "#009E73", "#D55E00", 
 _HATCHES = dict(zip(mistakes.KINDS, ("", "///", "...", "xx", "", "\\\\"), strict=True))
 _AGENT = plots.COLORS[1]
 _WIDTH = 11.2  # Of the figure, inches.
+_BACKGROUND = dict(facecolor="white", edgecolor="none", alpha=0.8, pad=0.5)  # Of numbers over lines.
 _PANELS = 8  # In a row.
 _MAX_INTERACTIONS = 12  # In a panel.
 _INFORMATION = (
@@ -35,9 +36,7 @@ _INFORMATION = (
 def write(folder: Path) -> list[Path]:
     """Writes the report of a score beside it; returns the paths of the page and the figure.
 
-    Raises:
-      OSError: if the folder cannot be read or written.
-      ValueError: if its `score.json` is faulty.
+    Raises OSError if the folder cannot be read or written, and ValueError if its `score.json` is faulty.
     """
     found = scoring.read(folder)
     with plots.style():
@@ -97,16 +96,9 @@ def draw_domains(axes, found: Mapping[str, Any]) -> None:
         axes.plot([low, high], [place] * 2, color=color, linewidth=2.2, solid_capstyle="butt")
         axes.plot(center, place, "D" if is_whole else "o", color=color, markersize=5, zorder=3)
         at_left = center > 0.5 or -0.5 < center < 0  # Not over a mark of `mark_ends`.
-        axes.annotate(
-            f"{row['score']:.3f}",
-            (low if at_left else high, place),
-            xytext=(-5 if at_left else 5, 0),
-            textcoords="offset points",
-            ha="right" if at_left else "left",
-            va="center",
-            fontsize=7.5,
-            bbox=dict(facecolor="white", edgecolor="none", alpha=0.8, pad=0.5),
-        )
+        look = dict(ha="right" if at_left else "left", va="center", fontsize=7.5, bbox=_BACKGROUND)
+        start = dict(xytext=(-5 if at_left else 5, 0), textcoords="offset points")
+        axes.annotate(f"{row['score']:.3f}", (low if at_left else high, place), **start, **look)
         if not is_whole:
             axes.plot(max(LOWEST, of_random[name]), place, "|", color=plots.GREY, markersize=8, markeredgewidth=1.4)
     axes.set_yticks(places, [words(name) for name, _ in rows])

@@ -59,7 +59,7 @@ def reference(question: protocol.Question, num_episodes: int) -> Reference | Non
     _, first, counts = np.unique(drawn, axis=0, return_index=True, return_counts=True)
     with contextlib.closing(protocol.load(question)) as environment:
         played = [episodes.play(environment, actor, int(index)) for index in first]
-    gains = [mistakes.information(solution.beliefs(one))[:-1] for one in played]
+    gains = [mistakes.information(solution.beliefs(one.hidden, one.actions))[:-1] for one in played]
     lengths = np.array([len(bits) for bits in gains])
     padded = np.array([np.pad(bits, (0, lengths.max() - len(bits))) for bits in gains])
     return Reference(float(counts @ lengths / num_episodes), counts @ padded / num_episodes)
@@ -71,93 +71,70 @@ class TaskScore:
 
     Attributes:
       question: the task.
-      ideal, at_once, floor: returns of the optimum, of the likeliest answer given at once, and of the better of that
-        and of no answer.
-      costs: of each episode by kind of mistake, as shares of ideal - floor, float64 [N] each.
-      raw: scores of the returns, float64 [N].
-      length: actions in each episode, int64 [N].
-      right, silent: whether each episode ended with the right answer, or without one, bool [N].
-      gains: bits of information about the answer from the first interaction, the second and so on, means over the
-        episodes, float64 [K].
-      known: statistics of the ideal experimenter, where they are known.
+      scores: the score of each episode, without luck, float64 [N].
+      resampled: bootstrap means of the scores, float64 [_RESAMPLES].
+      metrics: by name; the score and the mistakes sum to 1, the score and the luck to the raw score.
     """
 
     question: protocol.Question
-    ideal: float
-    at_once: float
-    floor: float
-    costs: Mapping[str, np.ndarray]
-    raw: np.ndarray
-    length: np.ndarray
-    right: np.ndarray
-    silent: np.ndarray
-    gains: np.ndarray
-    known: Reference | None
-
-    @property
-    def scores(self) -> np.ndarray:
-        """The score of each episode, without luck, float64 [N]."""
-        return 1 - np.sum(list(self.costs.values()), axis=0)
-
-    def metrics(self, seed: int) -> dict[str, Any]:
-        """Returns metrics by name; the score and the mistakes sum to 1, the score and the luck to the raw score."""
-        interactions = self.length - ~self.silent
-        known = self.known
-        return {
-            "episodes": len(self.length),
-            "ideal": self.ideal,
-            "floor": self.floor,
-            "at_once": self.at_once,
-            "random": random_return(self.question),
-            "score": float(self.scores.mean()),
-            "interval": _interval(_resampled(self.scores, seed)),
-            "raw_score": float(self.raw.mean()),
-            "raw_interval": _interval(_resampled(self.raw, seed)),
-            "luck": float((self.raw - self.scores).mean()),
-            "mistakes": {kind: float(cost.mean()) for kind, cost in self.costs.items()},
-            "success_rate": float(self.right.mean()),
-            "timeouts": int(self.silent.sum()),
-            "mean_interactions": float(interactions.mean()),
-            "ideal_interactions": known and known.interactions,
-            "bits_per_interaction": float(self.gains.sum() * len(self.length) / max(1, interactions.sum())),
-            "ideal_bits_per_interaction": known and known.bits_per_interaction,
-            "gains": self.gains.tolist(),
-            "ideal_gains": known and known.gains.tolist(),
-        }
+    scores: np.ndarray
+    resampled: np.ndarray
+    metrics: Mapping[str, Any]
 
 
 def of_log(found: pyarrow.Table, ideals: Mapping[protocol.Question, Reference | None]) -> list[TaskScore]:
     """Returns the scores of the tasks in a log; `ideals` has the ideal's play of as many episodes where it is known."""
     parts = [(question, known, log.of_task(found, question)) for question, known in ideals.items()]
-    return [_of_task(question, columns, known) for question, known, columns in parts if len(columns["step"])]
+    played = [part for part in parts if len(part[2]["step"])]
+    return [_of_task(*part, seed) for seed, part in enumerate(played)]
 
 
-def _of_task(question: protocol.Question, columns: Mapping[str, np.ndarray], known: Reference | None) -> TaskScore:
+def _of_task(
+    question: protocol.Question, known: Reference | None, columns: Mapping[str, np.ndarray], seed: int
+) -> TaskScore:
+    """Returns the score of a task; `seed` draws its bootstrap."""
     first = columns["step"] == 0
-    index = np.cumsum(first) - 1
     last = np.append(first[1:], True)
+    index, length = np.cumsum(first) - 1, np.flatnonzero(last) - np.flatnonzero(first) + 1
     are_answers = columns["action"] >= question.num_interactions
     factors = question.discount ** columns["step"].astype(float)
     ideal, at_once = float(columns["value"][0]), float(columns["answering"][0])
     floor = max(at_once, rules.WRONG * question.discount ** (question.step_limit - 1))
 
     def discounted(values: np.ndarray) -> np.ndarray:
+        """Returns the sum of each episode, float64 [N]."""
         return np.bincount(index, factors * values)
 
-    costs = mistakes.costs(mistakes.Actions(*(columns[name] for name in log.ACTIONS)), are_answers, last)
-    return TaskScore(
-        question=question,
-        ideal=ideal,
-        at_once=at_once,
-        floor=floor,
-        costs={kind: discounted(cost) / (ideal - floor) for kind, cost in costs.items()},
-        raw=(discounted(columns["reward"]) - floor) / (ideal - floor),
-        length=np.bincount(index),
-        right=columns["reward"][last] > 0,
-        silent=~are_answers[last],
-        gains=np.bincount(columns["step"][~are_answers], columns["bits"][~are_answers]) / first.sum(),
-        known=known,
-    )
+    each = mistakes.costs(mistakes.Actions(*(columns[name] for name in log.ACTIONS)), are_answers, last)
+    costs = {kind: discounted(cost) / (ideal - floor) for kind, cost in each.items()}
+    scores = 1 - np.sum(list(costs.values()), axis=0)
+    raw = (discounted(columns["reward"]) - floor) / (ideal - floor)
+    silent = ~are_answers[last]
+    interactions = length - ~silent
+    gains = np.bincount(columns["step"][~are_answers], columns["bits"][~are_answers]) / first.sum()
+    resampled = _resampled(scores, seed)
+    metrics = {
+        "episodes": len(length),
+        "ideal": ideal,
+        "floor": floor,
+        "at_once": at_once,
+        "random": random_return(question),
+        "score": float(scores.mean()),
+        "interval": _interval(resampled),
+        "raw_score": float(raw.mean()),
+        "raw_interval": _interval(_resampled(raw, seed)),
+        "luck": float((raw - scores).mean()),
+        "mistakes": {kind: float(cost.mean()) for kind, cost in costs.items()},
+        "success_rate": float((columns["reward"][last] > 0).mean()),
+        "timeouts": int(silent.sum()),
+        "mean_interactions": float(interactions.mean()),
+        "ideal_interactions": known and known.interactions,
+        "bits_per_interaction": float(gains.sum() * len(length) / max(1, interactions.sum())),
+        "ideal_bits_per_interaction": known and known.bits_per_interaction,
+        "gains": gains.tolist(),
+        "ideal_gains": known and known.gains.tolist(),
+    }
+    return TaskScore(question, scores, resampled, metrics)
 
 
 def random_return(question: protocol.Question) -> float:
@@ -172,7 +149,7 @@ def random_return(question: protocol.Question) -> float:
 
 def summary(found: Sequence[TaskScore]) -> dict[str, Any]:
     """Returns the metrics of all tasks, at least one, of their domains, and over the domains."""
-    tasks = {one.question.name: one.metrics(seed) for seed, one in enumerate(found)}
+    tasks = {one.question.name: one.metrics for one in found}
     return {"tasks": tasks, **over(found, [one.question for one in found])}
 
 
@@ -183,10 +160,10 @@ def over(found: Sequence[TaskScore], questions: Sequence[protocol.Question]) -> 
       found: the scores of the tasks that were played.
       questions: all tasks, at least one; the score of a task that was not played is 0.
     """
-    played = {one.question.name: (one.scores.mean(), _resampled(one.scores, seed)) for seed, one in enumerate(found)}
+    played = {one.question: (one.scores.mean(), one.resampled) for one in found}
     of_tasks: dict[str, list[tuple[float, np.ndarray]]] = {}
     for question in questions:
-        of_tasks.setdefault(question.domain, []).append(played.get(question.name, (0.0, np.zeros(_RESAMPLES))))
+        of_tasks.setdefault(question.domain, []).append(played.get(question, (0.0, np.zeros(_RESAMPLES))))
     means = {name: np.mean([mean for mean, _ in parts]) for name, parts in of_tasks.items()}
     resampled = {name: np.mean([drawn for _, drawn in parts], axis=0) for name, parts in of_tasks.items()}
     return {

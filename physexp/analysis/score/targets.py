@@ -39,39 +39,28 @@ class Target:
     describe: Callable[[Collection[str]], dict[str, Any]] = lambda tasks: {}
 
     def choose(self, tasks: Sequence[str], observations: str) -> tuple[protocol.Question, ...]:
-        """Returns the tasks to play.
-
-        Args:
-          tasks: their names, `domain/task`; none for all that it can play.
-          observations: the kind of these, as for `protocol.observing`, where it can play any.
+        """Returns the tasks of some names; by default those that it can play and that have some kind of observations.
 
         Raises:
-          ValueError: if there is no such task, or the target does not play it.
+          ValueError: if there is no such task or kind, or the target does not play it.
         """
-        can = self.questions
+        found = protocol.named(tasks) if tasks else protocol.observing(observations)
+        can = found if self.questions is None else self.questions
         if not tasks:
-            usual = protocol.observing(observations)
-            return usual if can is None else tuple(question for question in can if question in usual) or can
-        found = protocol.named(tasks)
-        for question in found:
-            if can is not None and question not in can:
-                raise ValueError(
-                    f"{self.name} does not play {question.name}; it plays {', '.join(one.name for one in can)}"
-                )
+            return tuple(question for question in can if question in found) or can
+        if others := [question.name for question in found if question not in can]:
+            raise ValueError(f"{self.name} does not play {others[0]}; it plays {', '.join(one.name for one in can)}")
         return found
 
 
 def find(name: str, greedy: bool = False) -> Target:
-    """Returns the target of a name.
+    """Returns the target of a name; raises ValueError if there is none, and lists those that there are.
 
     Args:
       name: a baseline; the folder of a run, the file of a published agent, or an agent that comes with the package;
         several agents with commas between them, `shipped`, or a learner's name, for a team in which each plays its own
         task; or `module:function`.
       greedy: a trained agent takes its likeliest action instead of drawing one.
-
-    Raises:
-      ValueError: if there is no such target; the line lists what there is.
     """
     if _is_function(name):
         return Target(name, greedy, None, None)
