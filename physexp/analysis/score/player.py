@@ -1,15 +1,12 @@
 """Plays a user's agent in a process of its own: it gets all that an agent may observe, and nothing else.
 
-The process may hang, die, or write to its connection: each costs a line that names the episode and the step.
+The process may hang or die: a line names the episode and the step.
 """
 
 import contextlib
 import json
 import os
-import pickle
 import signal
-import socket
-import time
 from typing import Any
 
 import dm_env
@@ -19,7 +16,6 @@ from physexp.analysis.score import protocol, user_agent
 
 _START_SECONDS = 300.0  # To import the user's modules and make an actor, beside the limit of a call.
 _LEAVE_SECONDS = 10.0  # For the system to report the exit code of a process.
-_MAX_BYTES = 2**16  # Of an answer.
 
 
 class PlayerError(ValueError):
@@ -44,7 +40,7 @@ class Player:
         with contextlib.suppress(ProcessLookupError):  # It makes its group when it begins.
             os.killpg(self._process.pid, signal.SIGKILL)
         processes.kill(self._process)
-        self._ours.close()
+        self._connection.close()
 
     def actor(self, question: protocol.Question, index: int) -> core.Actor:
         """Returns an actor for the episode of an index in a task; the agent keeps one for all episodes of a task.
@@ -63,50 +59,28 @@ class Player:
         """Sends a message and returns the answer; raises PlayerError, with the place, if the agent fails."""
         timeout = timeout or self._timeout
         try:
-            answer = dict(json.loads(self._exchange(pickle.dumps(message), time.monotonic() + timeout)))
-        except TimeoutError:
-            raise PlayerError(
-                f"{self.name} did nothing within {timeout:g} s {place}; mend it, or give a longer --timeout"
-            ) from None
+            self._connection.send(message)
+            if not self._connection.poll(timeout):
+                raise PlayerError(
+                    f"{self.name} did nothing within {timeout:g} s {place}; mend it, or give a longer --timeout"
+                )
+            answer: dict[str, Any] = json.loads(self._connection.recv_bytes())
         except (EOFError, OSError):
             self._process.join(_LEAVE_SECONDS)
             raise PlayerError(
                 f"{self.name} ended its process, exit code {self._process.exitcode} {place}; mend it"
             ) from None
-        except (ValueError, TypeError, RecursionError):
-            answer = {"error": "it wrote to the connection of its process"}
         if "error" in answer:
             raise PlayerError(f"{self.name} failed: {answer['error']} {place}")
         return answer
 
     def _start(self) -> None:
-        self._ours, theirs = socket.socketpair()
         context = processes.spawning()
+        self._connection, theirs = context.Pipe()
         self._process = context.Process(target=user_agent.serve, args=(theirs, self.name), name=f"actor {self.name}")
         with processes.without_script(), processes.inherited_by_workers():
             self._process.start()
         theirs.close()
-
-    def _exchange(self, message: bytes, end: float) -> bytes:
-        """Sends a message and returns the line that answers it; raises TimeoutError after a time of `monotonic`."""
-        self._wait_until(end)
-        self._ours.sendall(message)
-        answer = b""
-        while not answer.endswith(b"\n"):
-            self._wait_until(end)
-            part = self._ours.recv(_MAX_BYTES)
-            answer += part
-            if not part:
-                raise EOFError
-            if len(answer) > _MAX_BYTES:
-                raise ValueError("more than an answer")
-        return answer
-
-    def _wait_until(self, end: float) -> None:
-        left = end - time.monotonic()
-        if left <= 0:
-            raise TimeoutError
-        self._ours.settimeout(left)
 
 
 class _Actor(core.Actor):

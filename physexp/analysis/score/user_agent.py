@@ -1,17 +1,16 @@
 """The process of a user's function: makes the actor, shows it time steps, and answers with its actions.
 
-It answers in lines of JSON, so that nothing of the actor's runs in the process that scores it.
+It answers in JSON, so that nothing of the actor's runs in the process that scores it.
 """
 
 import importlib
 import inspect
 import json
 import multiprocessing
+from multiprocessing import connection
 import os
 from pathlib import Path
-import pickle
 import signal
-import socket
 import sys
 import sysconfig
 import threading
@@ -73,8 +72,8 @@ def make_actor(name: str, question: protocol.Question) -> core.Actor:
     )
 
 
-def serve(connection: socket.socket, name: str) -> None:
-    """Answers messages on a connection until the process is killed, with actors of `module:function`."""
+def serve(messages: connection.Connection, name: str) -> None:
+    """Answers messages until the process is killed, with actors of `module:function`."""
     global _is_here
     _is_here = True
     os.setsid()  # The stop signals of the scoring program's group do not reach it, and its own group ends as one.
@@ -83,11 +82,10 @@ def serve(connection: socket.socket, name: str) -> None:
     os.dup2(2, 1)  # Prints of the actor are no output of the scoring program.
     sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
     actor: Any = None
-    messages = connection.makefile("rb")
     while True:
         answer: dict[str, Any] = {}
         try:
-            match pickle.load(messages):
+            match messages.recv():
                 case protocol.Question() as question:
                     actor = make_actor(name, question)
                 case None, timestep:
@@ -100,7 +98,7 @@ def serve(connection: socket.socket, name: str) -> None:
                         answer["action"] = _plain(actor.select_action(timestep.observation))
         except Exception as error:  # The scoring program reports it.
             answer = {"error": _described(error)}
-        connection.sendall(json.dumps(answer).encode() + b"\n")
+        messages.send_bytes(json.dumps(answer).encode())
 
 
 def _num_parameters(function: Any) -> int:

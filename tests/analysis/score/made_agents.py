@@ -79,18 +79,6 @@ _MODULE = textwrap.dedent(
         return _after_two_episodes(_hang)
 
 
-    def _answer(text):
-        frame = sys._getframe()
-        while "connection" not in frame.f_locals:
-            frame = frame.f_back
-        frame.f_locals["connection"].sendall(text)
-        _hang()
-
-
-    def answers_ahead(question):
-        return _after_two_episodes(lambda: _answer(2 * b'{"action": 0}\\n'))
-
-
     _PROGRAM = """
     import json, os, signal, time
     from pathlib import Path
