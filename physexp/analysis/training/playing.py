@@ -33,7 +33,7 @@ def play(
     num_threads: int = 2,
     device: str = "auto",
     num_steps: int = 0,
-    show: Callable[[int], None] | None = None,
+    show: Callable[[int], None] = lambda done: None,
 ) -> Episodes:
     """Returns episodes that a network has played.
 
@@ -58,23 +58,20 @@ def play(
     if num_episodes < 1:
         raise ValueError(f"episodes is {num_episodes}; give a number >= 1")
     network.to(devices.choose(device, network.sees_images))
-    environment = trainer.make_environment(
-        config, seed, _BATCH if num_steps else min(num_episodes, _BATCH), num_threads
-    )
+    batch_size = _BATCH if num_steps else min(num_episodes, _BATCH)
+    environment = trainer.make_environment(config, seed, batch_size, num_threads)
     num_interactions = environment.task.num_interactions
     rounds: list[Episodes] = []
-    episodes_left, steps_left = num_episodes, num_steps
-    while episodes_left > 0 or steps_left > 0:
-        episode = len(rounds)
-        generator = np.random.default_rng([seed, episode])
+    count = steps = 0
+    while count < num_episodes or steps < num_steps:
+        generator = np.random.default_rng([seed, len(rounds)])
         choose = acting.likeliest if greedy else acting.drawn(generator)
         if interaction == "random":
             choose = randomized(choose, num_interactions, generator)
-        played = acting.play_round(network, environment, episode, choose)
-        rounds.append(Episodes.of_round(played, num_interactions, environment.seeds, episode, environment.hidden))
-        episodes_left, steps_left = episodes_left - len(rounds[-1]), steps_left - played.num_frames
-        if show is not None:
-            show(num_episodes - max(0, episodes_left))
+        played = acting.play_round(network, environment, len(rounds), choose)
+        rounds.append(Episodes.of_round(played, num_interactions, environment.seeds, len(rounds), environment.hidden))
+        count, steps = count + len(rounds[-1]), steps + played.num_frames
+        show(min(count, num_episodes))
     environment.close()
     joined = Episodes.joined(rounds)
     return joined if num_steps else joined.first(num_episodes)
