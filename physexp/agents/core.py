@@ -18,7 +18,21 @@ if TYPE_CHECKING:  # torch takes a second to import, and here only annotations n
     from physexp.agents import rounds
 
 
-class Batch(Protocol):
+class Specs(Protocol):
+    """Observations and actions of a task, for which a network is made."""
+
+    @property
+    def num_interactions(self) -> int:
+        """Returns how many actions are interactions; they come first, labels after them."""
+
+    def observation_spec(self) -> Mapping[str, specs.Array]:
+        """Returns the spec of each array that one environment observes, by name."""
+
+    def action_spec(self) -> specs.DiscreteArray:
+        """Returns the spec of an action."""
+
+
+class Batch(Specs, Protocol):
     """Environments that play side by side, B of them, each its own episode."""
 
     @property
@@ -26,18 +40,8 @@ class Batch(Protocol):
         """Returns B."""
 
     @property
-    def num_interactions(self) -> int:
-        """Returns how many actions are interactions; they come first, labels after them."""
-
-    @property
     def correct_answers(self) -> np.ndarray:
         """Returns the right labels of the current episodes, int64 [B]; never observable."""
-
-    def observation_spec(self) -> Mapping[str, specs.Array]:
-        """Returns the spec of each array that one environment observes, by name."""
-
-    def action_spec(self) -> specs.DiscreteArray:
-        """Returns the spec of an action."""
 
     def reset(self, *, episode: int | None = None) -> dm_env.TimeStep:
         """Starts the episode of an index, or the next one, in every environment; returns arrays [B, ...]."""

@@ -78,7 +78,7 @@ class RecurrentNetwork(nn.Module, abc.ABC):
 
     @staticmethod
     @abc.abstractmethod
-    def hyperparameters(environment: core.Batch, config: Any) -> dict[str, Any]:
+    def hyperparameters(task: core.Specs, config: Any) -> dict[str, Any]:
         """Returns the further arguments of `__init__`, numbers and strings by name."""
 
     @property
@@ -190,7 +190,7 @@ class RecurrentActorCritic(RecurrentNetwork):
         self.value = nn.Linear(LSTM_UNITS, 1)
 
     @staticmethod
-    def hyperparameters(environment: core.Batch, config: config_lib.ActorCriticConfig) -> dict[str, Any]:
+    def hyperparameters(task: core.Specs, config: config_lib.ActorCriticConfig) -> dict[str, Any]:
         """Returns the further arguments of `__init__`."""
         return {"observation_scale": config.observation_scale}
 

@@ -11,14 +11,14 @@ from physexp.agents import config as config_lib
 Network = TypeVar("Network", bound=networks.RecurrentNetwork)
 
 
-def make_network(kind: type[Network], environment: core.Batch, config: config_lib.AgentConfig) -> Network:
-    """Returns a network of a kind for an environment's specs, its weights drawn from the configuration's seed."""
+def make_network(kind: type[Network], task: core.Specs, config: config_lib.AgentConfig) -> Network:
+    """Returns a network of a kind for a task's specs, its weights drawn from the configuration's seed."""
     with devices.own_torch():
         torch.default_generator.manual_seed(config.seed)
         return kind(
-            environment.observation_spec(),
-            environment.action_spec().num_values,
-            **kind.hyperparameters(environment, config),
+            task.observation_spec(),
+            task.action_spec().num_values,
+            **kind.hyperparameters(task, config),
         )
 
 

@@ -68,10 +68,10 @@ class BeliefNetwork(networks.RecurrentNetwork):
         self.register_buffer("log_scale", torch.zeros(()))
 
     @staticmethod
-    def hyperparameters(environment: core.Batch, config: config_lib.BeliefConfig) -> dict[str, Any]:
+    def hyperparameters(task: core.Specs, config: config_lib.BeliefConfig) -> dict[str, Any]:
         """Returns the further arguments of `__init__`."""
         return {
-            "num_interactions": environment.num_interactions,
+            "num_interactions": task.num_interactions,
             "memory": config.memory,
             "max_interactions": config.max_interactions,
             "discount": config.discount,

@@ -108,17 +108,16 @@ def _of_card(agent: pretrained.Pretrained) -> Agent:
 
 
 def network_facts(config: config_lib.TrainConfig) -> dict[str, Any]:
-    """Returns the specs of the environment and the hyperparameters that a network is made from."""
-    environment = trainer.make_environment(config, 0, 1, 1)
-    observed, kind = environment.observation_spec(), registry.NETWORKS[config.agent.algorithm]
-    facts = {
+    """Returns the specs of the task and the hyperparameters that a network is made from."""
+    task, kind = config.load_task(), registry.NETWORKS[config.agent.algorithm]
+    return {
         "kind": kind.__name__,
-        "observations": {name: [list(spec.shape), np.dtype(spec.dtype).name] for name, spec in observed.items()},
-        "num_actions": environment.action_spec().num_values,
-        "hyperparameters": kind.hyperparameters(environment, config.agent),
+        "observations": {
+            name: [list(spec.shape), np.dtype(spec.dtype).name] for name, spec in task.observation_spec().items()
+        },
+        "num_actions": task.action_spec().num_values,
+        "hyperparameters": kind.hyperparameters(task, config.agent),
     }
-    environment.close()
-    return facts
 
 
 def config_of(card: Mapping[str, Any]) -> config_lib.TrainConfig:

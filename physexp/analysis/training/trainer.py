@@ -24,10 +24,7 @@ def make_environment(config: config_lib.TrainConfig, seed: int, num_environments
 
 def make_network(config: config_lib.TrainConfig) -> networks.RecurrentNetwork:
     """Returns the network of a run's agent, its weights drawn from the seed."""
-    environment = make_environment(config, 0, 1, 1)
-    network = starting.make_network(registry.NETWORKS[config.agent.algorithm], environment, config.agent)
-    environment.close()
-    return network
+    return starting.make_network(registry.NETWORKS[config.agent.algorithm], config.load_task(), config.agent)
 
 
 @devices.own_torch()
