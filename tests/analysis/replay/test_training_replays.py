@@ -11,7 +11,7 @@ from physexp.analysis.training import trainer
 
 
 def test_replays_of_one_instance_are_written_with_checkpoints_every_so_many_steps(tmp_path):
-    run = trainers.create(tmp_path / "run", "ppo", frames=3000, checkpoint_seconds=0.05)
+    run = trainers.create(tmp_path / "run", "ppo", frames=3000, checkpoint_seconds=0.2)
     config = dataclasses.replace(run.config, replay_every=1000)
     trainer.train(run, on_checkpoint=training.Writer(run, config))
     frames = sorted(int(path.stem) for path in (run.path / "replays").iterdir())
