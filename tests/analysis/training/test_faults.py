@@ -1,22 +1,15 @@
 """After damage to a run's folder, training goes on from the files that are whole, or says why it does not."""
 
 from pathlib import Path
-import random
 
 import commands
+import folders
 import pytest
 from seeds import fresh_seed
 import torch
 import trainers
 
 from physexp.analysis.training import trainer
-
-
-def resume(run, **kwargs):
-    """`physexp train --resume`, to its end."""
-    with trainers.trainer(run, **kwargs) as process:
-        output, errors = process.communicate()
-    return process.returncode, output, errors
 
 
 @pytest.fixture(scope="module")
@@ -33,24 +26,14 @@ def truncate(path):
     path.write_bytes(path.read_bytes()[:-100])
 
 
-def flip_a_bit(path):
-    content = bytearray(path.read_bytes())
-    content[random.Random(fresh_seed()).randrange(len(content))] ^= 1
-    path.write_bytes(content)
-
-
-@pytest.mark.parametrize("damage", [truncate, flip_a_bit])
-def test_a_damaged_checkpoint_is_told_and_the_one_before_it_is_used(damage, trained, tmp_path):
-    run = trainers.copy_of(trained, tmp_path / "run")
+def test_a_damaged_checkpoint_is_told_and_the_one_before_it_is_used(trained, tmp_path):
+    run, told = trainers.copy_of(trained, tmp_path / "run"), []
     before, last = run.checkpointer.paths()
-    damage(last)
-    told = []
-    tensors, _ = run.checkpointer.latest(told.append)
-    assert int(tensors["frames"]) == int(before.stem)
+    truncate(last)
+    assert int(run.checkpointer.latest()[0]["frames"]) == int(before.stem)
+    trainer.train(run, tell=told.append)
     (line,) = told
     assert f"{last} is damaged" in line and "the one before it is used" in line
-    code, _, errors = resume(run)
-    assert code == 0 and f"{last} is damaged" in errors
     tensors, _ = run.checkpointer.latest()  # The same frames again: one process is deterministic.
     for name, value in trained.checkpointer.latest()[0].items():
         assert torch.equal(tensors[name], value), name
@@ -61,11 +44,10 @@ def test_a_run_without_a_whole_checkpoint_says_so_and_stays_as_it_is(trained, tm
     run = trainers.copy_of(trained, tmp_path / "run")
     for path in run.checkpointer.paths():
         truncate(path)
-    metrics = (run.path / "metrics.csv").read_bytes()
-    code, _, errors = resume(run)
-    assert code == 2 and "no checkpoint in" in errors.splitlines()[-1] and "is whole" in errors.splitlines()[-1]
-    assert "is used" not in errors and "has had its" not in errors
-    assert (run.path / "metrics.csv").read_bytes() == metrics
+    before = folders.contents(run.path)
+    with pytest.raises(ValueError, match=f"^no checkpoint in {run.path / 'checkpoints'} is whole"):
+        trainer.train(run)
+    assert folders.contents(run.path) == before
 
 
 def test_a_checkpoint_of_another_task_is_refused_with_both_named(trained, tmp_path):
@@ -73,31 +55,20 @@ def test_a_checkpoint_of_another_task_is_refused_with_both_named(trained, tmp_pa
     tensors, facts = run.checkpointer.latest()
     tensors["frames"] += 1
     run.checkpointer.save(tensors, {**facts, "task": "towers/fist_features"})
-    code, _, errors = resume(run)
-    assert code == 2
-    assert "of towers/fist_features, the run of which_is_heavier/features" in errors.splitlines()[-1]
-
-
-def test_a_second_trainer_in_one_folder_is_refused_and_the_first_goes_on(tmp_path):
-    run = trainers.create(tmp_path / "run", "ppo", frames=10**9)
-    with trainers.trainer(run) as first:
-        trainers.wait_for_checkpoint(first, run)
-        code, _, errors = resume(run)
-        assert code == 2 and "another process is training in" in errors.splitlines()[-1]
-        reached = int(run.checkpointer.paths()[-1].stem)
-        trainers.wait_for_checkpoint(first, run, beyond=reached)
+    with pytest.raises(ValueError, match="of towers/fist_features, the run of which_is_heavier/features"):
+        trainer.train(run)
 
 
 def test_a_folder_that_becomes_read_only_ends_training_which_can_go_on(tmp_path):
     run = trainers.create(tmp_path / "run", "ppo", frames=10**9, seed=fresh_seed())
     with trainers.trainer(run, first=commands.bound) as process:
         trainers.wait_for_checkpoint(process, run)
-        folders = [run.path, *filter(Path.is_dir, run.path.iterdir())]
-        for folder in folders:
+        paths = [run.path, *filter(Path.is_dir, run.path.iterdir())]
+        for folder in paths:
             folder.chmod(0o555)
         _, errors = process.communicate()
     reached = int(run.checkpointer.latest()[0]["frames"])
-    for folder in folders:
+    for folder in paths:
         folder.chmod(0o755)
     line = errors.splitlines()[-1]
     assert process.returncode == 1 and "Traceback" not in errors, errors

@@ -1,10 +1,8 @@
 """Watchers of training, which print, log and write replays, see every row and cost nothing when they fail."""
 
 import os
-import subprocess
 
 import commands
-import pytest
 from tensorboard.backend.event_processing import event_accumulator
 import trainers
 
@@ -26,11 +24,11 @@ def logged(run):
     return {name: accumulator.Scalars(name) for name in accumulator.Tags()["scalars"]}
 
 
-@pytest.mark.parametrize("kind", ["report", "on_checkpoint"])
-def test_a_watcher_that_fails_is_told_of_once_and_training_ends_well(kind, tmp_path):
+def test_watchers_that_fail_are_told_of_once_and_training_ends_well(tmp_path):
     run, lines = trainers.create(tmp_path / "run", "ppo", frames=FRAMES, checkpoint_seconds=0.01), []
-    trainer.train(run, tell=lines.append, **{kind: fail})
-    assert len(lines) == 1 and lines[0].endswith("failed and is left out from now on: no more room for this")
+    trainer.train(run, fail, tell=lines.append, on_checkpoint=fail)
+    ending = "failed and is left out from now on: no more room for this"
+    assert lines == [f"{name} {ending}" for name in ("the report of training", "the watcher of checkpoints (replays)")]
     assert run.is_finished and len(run.metrics()) > 1, "there were several checkpoints"
 
 
@@ -40,11 +38,15 @@ def test_lines_that_cannot_be_printed_do_not_end_training(tmp_path):
     assert run.is_finished
 
 
-@pytest.mark.parametrize("kind", ["report", "on_checkpoint"])
-def test_a_checkpoint_is_written_before_its_watchers_are_called(kind, tmp_path):
-    run, found = trainers.create(tmp_path / "run", "ppo", frames=FRAMES, checkpoint_seconds=0.01), []
-    trainer.train(run, **{kind: lambda *_: found.append(int(run.checkpointer.paths()[-1].stem))})
-    assert [*dict.fromkeys(found)] == [row["frames"] for row in run.metrics()], "each row ends with its checkpoint"
+def test_a_checkpoint_is_written_before_its_watchers_are_called(tmp_path):
+    run, reported, watched = trainers.create(tmp_path / "run", "ppo", frames=FRAMES, checkpoint_seconds=0.01), [], []
+
+    def last(*_):
+        return int(run.checkpointer.paths()[-1].stem)
+
+    trainer.train(run, lambda row: reported.append(last()), on_checkpoint=lambda *_: watched.append(last()))
+    frames = [row["frames"] for row in run.metrics()]
+    assert [*dict.fromkeys(reported)] == [*dict.fromkeys(watched)] == frames, "each row ends with its checkpoint"
 
 
 def test_replays_and_tensorboard_that_cannot_be_written_are_a_line_each(tmp_path):
@@ -54,13 +56,7 @@ def test_replays_and_tensorboard_that_cannot_be_written_are_a_line_each(tmp_path
     trainers.set_frames(run, FRAMES)
     (run.path / "tensorboard").touch()
     before = set(run.path.rglob("*.rrd"))
-    done = subprocess.run(  # A process of its own: rerun reads the variable when it is imported.
-        [trainers.PHYSEXP, *trainers.resumed(run), "--tensorboard"],
-        env=os.environ | {"RERUN": "off"},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    done = commands.run(*trainers.resumed(run), "--tensorboard", env=os.environ | {"RERUN": "off"}, check=True)
     failures = [line for line in done.stderr.splitlines() if "failed and is left out from now on" in line]
     assert len(failures) == 2 and any("RERUN in the environment" in line for line in failures)
     assert run.is_finished and set(run.path.rglob("*.rrd")) == before
