@@ -44,18 +44,22 @@ def test_an_episode_that_diverges_ends_without_reward(name, caplog):
 @every_kind
 def test_an_environment_of_a_batch_diverges_alone(name, caplog):
     batch, healthy = (load_batch(name, 3, random=0) for _ in range(2))
+    single = load(name, random=int(batch.seeds[1]))
     for each in (batch, healthy):
         each.reset()
         each.step([0, 1, 2])
-    snapshots.view(batch, "qvel", 1)[0] = np.nan
+    single.reset(), single.step(1)
+    snapshots.view(batch, "qvel", 1)[0] = single.physics.data.qvel[0] = np.nan
     with caplog.at_level(logging.WARNING):
-        step, expected = batch.step([0, 0, 0]), healthy.step([0, 0, 0])
+        step, expected, alone = batch.step([0, 0, 0]), healthy.step([0, 0, 0]), single.step(0)
+    assert alone.last()
     np.testing.assert_array_equal(step.step_type, [1, 2, 1])
     np.testing.assert_array_equal(step.reward, [0, 0, 0])
     np.testing.assert_array_equal(step.discount, [1, 0, 1])
     for key, value in step.observation.items():
         assert np.isfinite(value).all()
         np.testing.assert_array_equal(value[[0, 2]], expected.observation[key][[0, 2]])
+        np.testing.assert_array_equal(value[1], alone.observation[key])
     assert any("diverged in environments [1]" in record.getMessage() for record in caplog.records)
     np.testing.assert_array_equal(batch.step([0, 10**6, 0]).step_type, [1, 0, 1])
     healthy.step([0, 0], environments=np.array([0, 2]))
@@ -68,19 +72,6 @@ def test_an_environment_of_a_batch_diverges_alone(name, caplog):
         snapshots.view(batch, "qvel", 1)[0] = velocity
         np.testing.assert_array_equal(batch.step([0, 0, 0]).step_type, [1, 2, 1])
         assert batch.num_divergences == divergences
-
-
-@every_kind
-def test_the_last_observation_is_the_same_alone_and_in_a_batch(name):
-    batch = load_batch(name, 2, random=0)
-    single = load(name, random=int(batch.seeds[1]))
-    batch.reset(), single.reset()
-    batch.step([0, 0]), single.step(0)
-    snapshots.view(batch, "qvel", 1)[0] = single.physics.data.qvel[0] = np.nan
-    last, expected = batch.step([0, 0]), single.step(0)
-    assert last.step_type[1] == expected.step_type == 2
-    for key, value in expected.observation.items():
-        np.testing.assert_array_equal(last.observation[key][1], value)
 
 
 def test_a_divergence_raises_where_the_user_asked_for_it():

@@ -7,7 +7,6 @@ import pytest
 from scipy import stats
 
 from physexp import suite
-from physexp.suite.engine import seeding
 
 NOISE = 0.01  # m
 every_noisy_task = pytest.mark.parametrize("domain, task", [name.split("/") for name in NOISY])
@@ -63,14 +62,3 @@ def test_readings_with_noise_have_no_bounds(domain, task):
 def test_noise_is_refused_where_no_position_is_read(domain, task):
     with pytest.raises(ValueError, match="^noise is 0.01; give 0 where no reading in metres is observed$"):
         suite.load(domain, task, {"noise": NOISE})
-
-
-def test_normal_numbers_are_independent_of_the_uniform_ones(seed):
-    episodes, seeds = np.arange(20_000), np.full(20_000, seed)
-    normals = seeding.normals(seeds, episodes, np.zeros(20_000, np.int64), 2)
-    uniforms = seeding.uniforms(seeds, episodes, 2)
-    assert stats.kstest(normals.ravel(), "norm").pvalue > P_VALUE
-    for i in range(2):
-        for j in range(2):
-            assert stats.pearsonr(normals[:, i], uniforms[:, j]).pvalue > P_VALUE
-    assert stats.pearsonr(*normals.T).pvalue > P_VALUE

@@ -1,6 +1,8 @@
 """Rendering: which GL backend draws, what happens without one, and how contexts come and go."""
 
 import ctypes.util
+import os
+import warnings
 
 import interpreters
 import numpy as np
@@ -164,25 +166,23 @@ def test_without_a_gl_driver_pixels_say_what_to_install(tmp_path):
     "variables", [{"MUJOCO_GL": "nonsense"}, {"MUJOCO_GL": "egl", "PYOPENGL_PLATFORM": "osmesa"}], ids=str
 )
 def test_a_variable_that_keeps_pixels_from_being_drawn_is_named(variables):
-    """By the error and by the doctor, which finds nothing else wrong; features play."""
+    """By the error and by the doctor, for which features play."""
     found, stderr = interpreters.run(
         f"""
 {HIDE_GL}
 {PLAY}
 from physexp.cli import doctor
-found["played"] = play_features()
 found["drawn"] = draw()
-found["core"] = [check["verdict"] for check in doctor._core()]
-found["check"] = next(check for check in doctor.examine()["checks"] if check["check"] == "OpenGL")
+found["checks"] = {{check["check"]: check for check in doctor.examine()["checks"]}}
 """,
         **variables,
     )
-    assert found["played"] and stderr == ""
+    assert stderr == "" and found["checks"]["environments"]["verdict"] == doctor.OK
     settings = [f"{name}={value}" for name, value in variables.items()]
     _assert_refused(found["drawn"], *settings, f"unset {' and '.join(variables)}")
-    assert set(found["core"]) == {doctor.OK}
-    assert all(setting in found["check"]["found"] for setting in settings)
-    assert found["check"]["advice"].startswith(f"unset {' and '.join(variables)}")
+    check = found["checks"]["OpenGL"]
+    assert all(setting in check["found"] for setting in settings)
+    assert check["advice"].startswith(f"unset {' and '.join(variables)}")
 
 
 @needs_gl
@@ -253,37 +253,22 @@ def test_software_is_known_by_its_name():
     assert not any(map(gl.is_software, ("NVIDIA H100/PCIe/SSE2", "Mesa Intel(R) UHD Graphics 620", "AMD Radeon")))
 
 
-@pytest.fixture
-def on_a_machine_with_a_gpu(monkeypatch):
-    """Or without one, if it is called with False. Nothing has been said yet, and is remembered afterwards."""
-    monkeypatch.setenv(gl._SAID, "")
-    monkeypatch.delenv(gl._SAID)
-    return lambda present=True: monkeypatch.setattr(gl, "gpu_is_present", lambda: present)
-
-
 LLVMPIPE = "llvmpipe (LLVM 15.0.6, 256 bits)"
 
 
-def test_drawing_by_software_on_a_machine_with_a_gpu_warns_exactly_once(on_a_machine_with_a_gpu):
-    on_a_machine_with_a_gpu()
-    with pytest.warns(RuntimeWarning, match="PIXELS ARE DRAWN BY THE PROCESSOR") as warned:
+@pytest.mark.parametrize(
+    "name, has_gpu, is_said", [(LLVMPIPE, True, True), (LLVMPIPE, False, False), ("NVIDIA H100/PCIe/SSE2", True, False)]
+)
+def test_drawing_by_software_on_a_machine_with_a_gpu_warns_once_in_all_processes(name, has_gpu, is_said, monkeypatch):
+    monkeypatch.setenv(gl._SAID, "")  # So that it is restored afterwards.
+    monkeypatch.delenv(gl._SAID)
+    monkeypatch.setattr(gl, "gpu_is_present", lambda: has_gpu)
+    with warnings.catch_warnings(record=True) as warned:
+        warnings.simplefilter("always")
         for _ in range(3):
-            gl.warn_if_software(LLVMPIPE)
-    assert len(warned) == 1
-    assert LLVMPIPE in str(warned[0].message)
-    found, stderr = interpreters.run(f"""
-from physexp.suite.engine import gl
-gl.gpu_is_present = lambda: True
-gl.warn_if_software({LLVMPIPE!r})
-""")
-    assert stderr == "", "a process that this one starts says it again"
-
-
-@pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("name, present", [(LLVMPIPE, False), ("NVIDIA H100/PCIe/SSE2", True)])
-def test_nothing_is_said_without_a_gpu_or_when_it_draws(on_a_machine_with_a_gpu, name, present):
-    on_a_machine_with_a_gpu(present)
-    gl.warn_if_software(name)
+            gl.warn_if_software(name)
+    assert [name in str(warning.message) for warning in warned] == [True] * is_said
+    assert (gl._SAID in os.environ) == is_said  # Which processes that this one starts inherit.
 
 
 DRAW_ALL = """

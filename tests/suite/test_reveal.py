@@ -1,14 +1,11 @@
 """A task that reveals its answer: the same to the bit, with the right answer beside what else is observed."""
 
 from every_task import every_feature_task, load, load_batch, load_task
-import gymnasium
 import numpy as np
 import pytest
 
 from physexp import suite
 from physexp.analysis import domains
-from physexp.suite import gymnasium as gymnasium_lib
-from physexp.suite import stable_baselines
 
 SIZE = 6
 every_revealing_task = pytest.mark.parametrize("domain, task", [("towers", "fist_features"), ("strike", "features")])
@@ -51,21 +48,6 @@ def test_the_specs_have_the_answer_and_its_bounds(name):
     assert {key: spec for key, spec in revealing.items() if key != "answer"} == dict(plain)
 
 
-def test_other_stacks_observe_it_too(seed):
-    name = "physexp.suite.gymnasium:physexp/strings-features-v0"
-    one = gymnasium.make(name, reveal=True)
-    observation, _ = one.reset(seed=seed)
-    assert one.observation_space.contains(observation)
-    batch = stable_baselines.VecEnv("strings", "features", num_envs=2, random=seed, reveal=True)
-    answers = batch.reset()["answer"]
-    assert answers.sum() == 2
-    (num_interactions,) = {load_task("strings/features").num_interactions}
-    _, rewards, _, _ = batch.step(num_interactions + answers.argmax(axis=1))
-    *_, info = one.step(num_interactions + int(observation["answer"].argmax()))
-    assert (rewards == 1).all() and info["correct_answer"] == observation["answer"].argmax()
-    assert isinstance(one.unwrapped, gymnasium_lib.Environment)
-
-
 def test_images_are_not_revealed_with():
     refusal = "^reveal is True; give False where images are observed, or choose a task with features$"
     with pytest.raises(ValueError, match=refusal):
@@ -86,13 +68,6 @@ def test_its_ideal_experimenter_answers_at_once_and_is_never_wrong(domain, task,
         assert last.last() and last.reward == 1
 
 
-class Recorded:
-    """An episode, as far as an ideal experimenter asks."""
-
-    def __init__(self, hidden, actions):
-        self.hidden, self.actions, self.observations = hidden, np.array(actions), {}
-
-
 @every_revealing_task
 def test_a_wasted_interaction_costs_a_step_s_discount_and_silence_all(domain, task, seed):
     discount = 0.9
@@ -101,7 +76,7 @@ def test_a_wasted_interaction_costs_a_step_s_discount_and_silence_all(domain, ta
     right = int(played.answers(hidden[None])[0])
     solution = domains.find(domain).ideal(task, {"reveal": True}, discount)
     limit, num_interactions = played.rules.step_limit, played.num_interactions
-    judged = solution.judge(Recorded(hidden, [0] * limit))
+    judged = solution.judge(hidden, np.zeros(limit, int))
     known = np.eye(played.num_labels)[right]
     np.testing.assert_array_equal(judged.beliefs, np.repeat(known[None], limit + 1, axis=0))
     assert (judged.values[:-1, :num_interactions] == discount).all()

@@ -8,7 +8,7 @@ import sys
 from chance import P_VALUE
 import numpy as np
 import pytest
-from scipy import stats
+from scipy import special, stats
 
 from physexp import suite
 from physexp.suite.engine import seeding
@@ -49,25 +49,17 @@ def test_environment_seeds_collide_no_more_than_random_numbers_do(seed):
 
 
 @every_feature_task
-def test_the_same_seed_gives_the_same_episodes_and_another_seed_others(seed, domain_name, task_name):
-    first, again, other = (
-        suite.load(domain_name, task_name, task_kwargs={"random": value}) for value in (seed, seed, seed + 1)
-    )
-    for _ in range(4):
-        assert _episode(first) == _episode(again)
-    # Two seeds give the same pattern of glue in at most 1/5 of the episodes: in all of 15 with a probability of 3e-11.
-    assert _hidden(first, 15) != _hidden(other, 15)
-
-
-@every_feature_task
-def test_an_episode_can_be_rebuilt_alone(seed, domain_name, task_name):
-    env, alone = (suite.load(domain_name, task_name, task_kwargs={"random": seed}) for _ in range(2))
+def test_an_episode_follows_from_seed_and_index_and_another_seed_has_others(seed, domain_name, task_name):
+    env, alone, other = (suite.load(domain_name, task_name, {"random": value}) for value in (seed, seed, seed + 1))
     episodes = [_episode(env) for _ in range(6)]
     assert env.task.episode == 5
     for k in (4, 0, 5, 5):
         alone.task.next_episode = k
         assert _episode(alone) == episodes[k]
         assert alone.task.episode == k
+    # Two seeds give the same pattern of glue in at most 1/5 of the episodes: in all of 15 with a probability of 3e-11.
+    alone.task.next_episode = 0
+    assert _hidden(alone, 15) != _hidden(other, 15)
 
 
 def test_a_random_state_stands_for_one_seed_drawn_from_it(seed):
@@ -92,7 +84,8 @@ def test_the_global_random_state_of_numpy_is_neither_used_nor_moved(seed):
 
 
 # Streams that must look like independent uniform numbers, [10 000, 3] each: the episodes of one environment, the
-# environments of a batch in their first episode, neighbouring seeds, and another attempt at the same episodes.
+# environments of a batch in their first episode, neighbouring seeds, another attempt at the same episodes, and the
+# numbers for other purposes.
 def _streams(seed):
     many = np.arange(10_000)
     in_batch = np.array([suite.environment_seed(seed, i) for i in many])
@@ -101,15 +94,17 @@ def _streams(seed):
         "environments": seeding.uniforms(in_batch, np.zeros(10_000, np.int64), 3),
         "seeds": seeding.uniforms(seed + many, np.zeros(10_000, np.int64), 3),
         "attempts": seeding.uniforms(np.full(10_000, seed), many, 3, attempt=1),
+        "noise": special.ndtr(seeding.normals(np.full(10_000, seed), many, np.zeros(10_000, np.int64), 3)),
+        "variation": (seeding.variations(np.full(10_000, seed), many, 3) + 1) / 2,
+        "timing": seeding.timings(np.full(10_000, seed), many)[:, None],
     }
 
 
-@pytest.mark.parametrize("name", ["episodes", "environments", "seeds", "attempts"])
-def test_the_draws_are_uniform(seed, name):
-    draws = _streams(seed)[name]
-    assert ((draws > 0) & (draws < 1)).all()
-    for column in draws.T:
-        assert stats.kstest(column, "uniform").pvalue > P_VALUE
+def test_the_draws_are_uniform(seed):
+    for name, draws in _streams(seed).items():
+        assert ((draws > 0) & (draws < 1)).all()
+        for column in draws.T:
+            assert stats.kstest(column, "uniform").pvalue > P_VALUE, name
 
 
 def test_the_draws_are_independent(seed):

@@ -105,13 +105,9 @@ found["process"] = os.getpid()
 """
 
 
-def test_a_forked_process_has_no_threads_to_step_a_batch_in_and_is_told_so():
-    found, _ = interpreters.run(FORK.replace("NUM_THREADS", "2"))
-    process = found["process"]
+@pytest.mark.parametrize("num_threads", [1, 2])
+def test_a_forked_process_steps_a_batch_of_one_thread_and_has_none_for_one_of_several(num_threads):
+    found, _ = interpreters.run(FORK.replace("NUM_THREADS", str(num_threads)))
+    refusal = f"this batch was loaded in process {found['process']}, and this is a fork; load another"
     assert found["ended"] == 0
-    assert found["in the fork"] == f"this batch was loaded in process {process}, and this is a fork; load another"
-
-
-def test_a_forked_process_goes_on_with_a_batch_of_one_thread():
-    found, _ = interpreters.run(FORK.replace("NUM_THREADS", "1"))
-    assert found["ended"] == 0 and found["in the fork"] == found["here"]
+    assert found["in the fork"] == (found["here"] if num_threads == 1 else refusal)

@@ -50,13 +50,6 @@ def load_single(domain_name, task_name, number=0):
     return single
 
 
-def play_episode(environment, actions) -> np.ndarray:
-    """The images of the first episode, [T + 1, 84, 84, 3]."""
-    environment.task.next_episode = 0
-    steps = [environment.reset(), *(environment.step(action) for action in actions)]
-    return np.stack([step.observation["pixels"] for step in steps])
-
-
 def image_of(step) -> np.ndarray:
     return step.observation["pixels"]
 

@@ -1,11 +1,9 @@
 """Environments that draw by turns, in any thread, and end in any order do not disturb one another."""
 
-from concurrent import futures
 import ctypes.util
 
-from images import HEAVIER, MARKS, image_of, play_episode
+from images import MARKS
 import interpreters
-import numpy as np
 import pytest
 import screens
 
@@ -95,26 +93,6 @@ def test_no_context_of_anybodys_changes_the_pictures_of_another(backend):
 
 
 # Threads and the end.
-
-
-def _in_another_thread(function):
-    with futures.ThreadPoolExecutor(1) as pool:
-        return pool.submit(function).result()
-
-
-@pytest.mark.parametrize("size", [None, 2])
-def test_any_thread_may_draw(load, size):
-    env = load(*HEAVIER, 0, size)
-    action = 0 if size is None else [0] * size
-
-    def play():
-        if size is None:
-            return play_episode(env, [action]), env.render()
-        return np.stack([image_of(env.reset(episode=0)), image_of(env.step(action))]), env.render()
-
-    for expected, *images in zip(play(), _in_another_thread(play), play(), strict=True):
-        np.testing.assert_array_equal(images, [expected, expected])
-    _in_another_thread(env.close)
 
 
 POOL = """
