@@ -31,9 +31,9 @@ def option(default: Any = dataclasses.MISSING, help: str = "", metavar: str | No
     return dataclasses.field(default=default, metadata={"help": help, "metavar": metavar}, kw_only=True)
 
 
-def word(metavar: str, help: str, count: str | None = None, default: Any = dataclasses.MISSING) -> Any:
-    """Returns a field of a command that is typed without its name; `count` is the `nargs` of argparse."""
-    return dataclasses.field(default=default, metadata={"help": help, "metavar": metavar, "count": count})
+def word(metavar: str, help: str, nargs: str | None = None, default: Any = dataclasses.MISSING) -> Any:
+    """Returns a field of a command that is typed without its name; for `nargs` see argparse."""
+    return dataclasses.field(default=default, metadata={"help": help, "metavar": metavar, "nargs": nargs})
 
 
 class Group(NamedTuple):
@@ -77,17 +77,14 @@ class Parser(argparse.ArgumentParser):
         self.flags: list[str] = []
         self._is_strict = is_strict
         own = [field for field in dataclasses.fields(kind) if field.metadata]
-        self.words = [field.name for field in own if "count" in field.metadata]
-        self.usage = " ".join(
-            ["%(prog)s", *(field.metadata["metavar"] for field in own[: len(self.words)]), "[options]"]
-        )
+        self.words = [field.name for field in own if "nargs" in field.metadata]
+        shown = [field.metadata["metavar"] for field in own[: len(self.words)]]
+        self.usage = " ".join(["%(prog)s", *shown, "[options]"])
         kinds = get_type_hints(kind)
         for field in own:
             if field.name in self.words:
-                count = field.metadata["count"] if is_strict else "*"
-                settings = _of_value(kinds[field.name]) | dict(field.metadata) | {"nargs": count, "default": None}
-                del settings["count"]
-                self.add_argument(field.name, **settings)
+                settings = _of_value(kinds[field.name]) | dict(field.metadata) | {"default": None}
+                self.add_argument(field.name, **settings | ({} if is_strict else {"nargs": "*"}))
             else:
                 self._add_option(self, field.name, kinds[field.name], field.metadata, field.default)
         for group in groups:

@@ -38,14 +38,11 @@ class Ideal:
         domain, task = arguments.task_of(self.words)
         if domain not in _IDEALS:
             raise ValueError(f"no ideal experimenter is known of {domain!r}; choose from {', '.join(_IDEALS)}")
-        tasks = suite.TASKS_BY_DOMAIN[domain]
-        task = task or tasks[0]
-        if task not in tasks:
-            raise ValueError(f"task is {task!r}; choose from {', '.join(tasks)}")
-        ideal = _IDEALS[domain]
+        task = task or suite.TASKS_BY_DOMAIN[domain][0]
+        ideal, of_task = _IDEALS[domain], dict(self.task_kwargs)
         names = {field.name for field in dataclasses.fields(ideal.options)}
-        own = {name: value for name, value in self.task_kwargs.items() if name in names}
-        of_task = {name: value for name, value in self.task_kwargs.items() if name not in names}
+        own = {name: of_task.pop(name) for name in names & of_task.keys()}
+        suite.load_task(domain, task, of_task)
         discount = domains.find(domain).discount if self.discount is None else self.discount
         solution = ideal(task, of_task, discount, **own)
         with printing.waiting(f"searching for the ideal experimenter of {domain}/{task}"):
