@@ -94,25 +94,16 @@ def test_the_wheel_holds_the_package_with_its_data_and_no_tests(source, wheel, d
     assert (command.name, command.value) == ("physexp", "physexp.cli:main")
 
 
-def closure(distribution, extra=""):
-    """The names of the libraries that physexp and an extra require, directly or through others."""
-    found, todo = set(), [Requirement(f"physexp[{extra}]" if extra else "physexp")]
-    while todo:
-        wanted = todo.pop()
-        name = canonicalize_name(wanted.name)
-        for chosen in wanted.extras or {""}:
-            if (name, chosen) in found:
-                continue
-            found.add((name, chosen))
-            try:
-                lines = distribution.requires if name == "physexp" else importlib.metadata.requires(name) or []
-            except importlib.metadata.PackageNotFoundError:  # Required on another system only.
-                lines = []
-            needed = map(Requirement, lines)
-            todo += [line for line in needed if line.marker is None or line.marker.evaluate({"extra": chosen})]
-            if chosen:
-                todo.append(Requirement(name))
-    return {name for name, _ in found}
+BROUGHT = {"OpenGL": "dm-control", "PIL": "rerun-sdk"}
+"""Imported modules that come with a library of the core."""
+
+
+def required(distribution, extra=""):
+    """The libraries that physexp, or one of its extras alone, requires, and the extras that it includes."""
+    lines = map(Requirement, distribution.requires)
+    wanted = [line for line in lines if (line.marker.evaluate({"extra": extra}) if line.marker else not extra)]
+    inner = {name for line in wanted if line.name == "physexp" for name in line.extras}
+    return {canonicalize_name(line.name) for line in wanted}, inner
 
 
 def imported():
@@ -126,15 +117,19 @@ def imported():
 
 
 def test_every_library_comes_with_the_core_or_with_its_extra(distribution):
-    core, everything = closure(distribution), closure(distribution, "all")
+    core, _ = required(distribution)
     owners = importlib.metadata.packages_distributions()
-    modules = set(imported()) - set(sys.stdlib_module_names) - {"physexp"}
+    for module, library in BROUGHT.items():
+        brought = {canonicalize_name(Requirement(line).name) for line in importlib.metadata.requires(library)}
+        assert library in core and not brought.isdisjoint(map(canonicalize_name, owners[module]))
+    modules = set(imported()) - set(sys.stdlib_module_names) - {"physexp", *BROUGHT}
     elsewhere = {module for module in modules if core.isdisjoint(map(canonicalize_name, owners[module]))}
     # torch imports TensorBoard for us.
     assert elsewhere <= set(extras.EXTRAS) and set(extras.EXTRAS) - elsewhere <= {"tensorboard"}
     for module, extra in extras.EXTRAS.items():
-        name = canonicalize_name(module)
-        assert name in closure(distribution, extra) & everything and name not in core
+        assert canonicalize_name(module) in required(distribution, extra)[0] - core
+    _, included = required(distribution, "all")
+    assert included.union(*(required(distribution, extra)[1] for extra in included)) >= set(extras.EXTRAS.values())
 
 
 def test_every_requirement_has_a_pin_that_it_allows(distribution):

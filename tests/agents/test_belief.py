@@ -345,7 +345,7 @@ def test_right_labels_are_learned_from_only_if_they_are_revealed(answers_reveale
     assert bool(differing) == answers_revealed
 
 
-def test_the_best_window_is_kept_and_the_agent_falls_back_to_it_after_a_clearly_worse_one():
+def test_the_agent_falls_back_to_the_best_window_after_a_worse_one():
     agent = make_agent()
     variables = agent.variables
 

@@ -30,7 +30,7 @@ def test_every_task_has_an_agent():
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_an_agent_is_found_by_its_options_and_answers_as_well_as_its_card_says(name):
+def test_an_agent_is_found_and_answers_as_well_as_its_card_says(name):
     card = pretrained.card_named(name)
     domain, task, options = (card[key] for key in ("domain", "task", "task_kwargs"))
     *_, stem = name.split("/")

@@ -33,10 +33,6 @@ def make_network():
     return networks.RecurrentActorCritic(spec, 8, observation_scale=10.0)
 
 
-def apply_constant_gradient(shared, gradient):
-    shared.apply([torch.full_like(parameter, gradient) for parameter in shared.network.parameters()], 0.001)
-
-
 def load(seed, num_environments, num_threads):
     return suite.load_batch("which_is_heavier", "features", num_environments, {"random": seed}, num_threads)
 
@@ -54,11 +50,11 @@ def run_all(processes):
         assert process.exitcode == 0
 
 
-def test_two_processes_move_one_set_of_adam_statistics(context):
-    shared = learning.Variables(make_network(), num_workers=2).share_memory()
+def test_steps_are_those_of_adam():
+    shared = learning.Variables(make_network())
     before = [parameter.detach().clone() for parameter in shared.network.parameters()]
-    for gradient in (1.0, 2.0):  # One process after the other, so that the order is known.
-        run_all([context.Process(target=apply_constant_gradient, args=(shared, gradient))])
+    for gradient in (1.0, 2.0):
+        shared.apply([torch.full_like(parameter, gradient) for parameter in before], 0.001)
     # Adam, beta1 = 0.9, beta2 = 0.999, learning rate 0.001, gradients 1 then 2:
     # exp_avg = 0.9 * (0.1 * 1) + 0.1 * 2 = 0.29; exp_avg_sq = 0.999 * (0.001 * 1) + 0.001 * 4 = 0.004999; step = 2.
     # First move: both corrected moments are 1: -0.001 * 1 / (1 + eps). Second: moments 0.29 / (1 - 0.81) and
