@@ -25,11 +25,7 @@ class Demo:
     run_dir: Path = option(Path("runs/demo"), "the folder of the run; another demonstration in it is moved aside")
 
     def run(self) -> None:
-        """Trains Which is Heavier, prints how the agent does, and draws its learning curve.
-
-        Raises:
-          ValueError: if the folder holds a run of another configuration. An earlier demonstration is moved aside.
-        """
+        """Trains Which is Heavier, prints how the agent does, and draws its learning curve."""
         extras.require("matplotlib")
         from physexp.analysis.training import curves, playing, progress, trainer, verdict
         from physexp.analysis.training import run as run_lib

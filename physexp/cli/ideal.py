@@ -28,11 +28,7 @@ class Ideal:
         return [arguments.of_task(words, lambda domain: [_IDEALS[domain].options] if domain in _IDEALS else [])]
 
     def run(self) -> None:
-        """Solves the task and prints the returns.
-
-        Raises:
-          ValueError: for a domain without a known ideal, an unknown task, or options that do not exist.
-        """
+        """Solves the task and prints the returns."""
         from physexp import suite
 
         domain, task = arguments.task_of(self.words)

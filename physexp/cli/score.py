@@ -166,11 +166,7 @@ class Leaderboard:
     results_dir: Path = option(Path("results"), RESULTS_DIR)
 
     def run(self) -> None:
-        """Writes the leaderboard.
-
-        Raises:
-          RuntimeError: if some folders are no rows of the leaderboard.
-        """
+        """Writes the leaderboard; raises RuntimeError if some folders are no rows of it."""
         extras.require("matplotlib")
         from physexp.analysis.score import leaderboard
         from physexp.analysis.training import progress

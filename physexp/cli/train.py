@@ -57,11 +57,7 @@ class Train:
         return preset.replace(**self.hyperparameters)
 
     def run(self) -> None:
-        """Trains into a new folder or goes on with a run.
-
-        Raises:
-          ValueError: for a task or options that do not exist, or a folder that cannot be trained into.
-        """
+        """Trains into a new folder or goes on with a run."""
         extras.require(*(["tensorboard"] if self.tensorboard else []))
         from physexp import suite
         from physexp.analysis.training import publishing, trainer, verdict
