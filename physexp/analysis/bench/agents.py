@@ -20,7 +20,7 @@ def training() -> Iterator[dict]:
         random = measuring.rates(measuring.random_batch(task), seconds=2.0)[0]
         target = _TARGETS.get(name, _TARGET_OF_OTHERS)
         figure = f"training / random policy in the batch: {name}"
-        yield measuring.row(figure, trained / random, "x", target, training=trained, random=random)
+        yield measuring.ratio(figure, target, training=trained, random=random)
 
 
 def pretrained_agents() -> Iterator[dict]:
@@ -33,14 +33,6 @@ def pretrained_agents() -> Iterator[dict]:
             playing.play(agent.network, config, _EPISODES, greedy=greedy).summary(config.agent.discount)
             for greedy in (False, True)
         )
-        yield measuring.row(
-            f"{measured}: {name}",
-            drawn[measured],
-            "",
-            target,
-            greedy=greedy[measured],
-            right=drawn["success_rate"],
-            interactions=drawn["mean_interactions"],
-            million_frames=agent.card["frames"] / 1e6,
-            minutes=agent.card["seconds"] / 60,
-        )
+        others = {"right": drawn["success_rate"], "interactions": drawn["mean_interactions"]}
+        others |= {"million_frames": agent.card["frames"] / 1e6, "minutes": agent.card["seconds"] / 60}
+        yield measuring.row(f"{measured}: {name}", drawn[measured], "", target, greedy=greedy[measured], **others)

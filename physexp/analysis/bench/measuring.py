@@ -40,16 +40,14 @@ REFERENCE = next(iter(FEATURES.values()))
 
 def row(figure: str, value: float, unit: str, target: float, at_most: bool = False, **absolute: float) -> dict:
     """Returns a figure as a row: its value, unit and target, and the absolute values behind it."""
-    reached = value <= target if at_most else value >= target
-    return {
-        "figure": figure,
-        "value": value,
-        "unit": unit,
-        "target": target,
-        "at_most": at_most,
-        "reached": reached,
-        **absolute,
-    }
+    known = {"figure": figure, "value": value, "unit": unit, "target": target, "at_most": at_most}
+    return known | {"reached": value <= target if at_most else value >= target} | absolute
+
+
+def ratio(figure: str, target: float, at_most: bool = False, **sides: float) -> dict:
+    """Returns the ratio of two values, which are named, as a row."""
+    first, second = sides.values()
+    return row(figure, first / second, "" if at_most else "x", target, at_most, **sides)
 
 
 def line(figure: dict) -> str:
@@ -63,11 +61,9 @@ def line(figure: dict) -> str:
 
 
 def rates(*sides: Callable[[], int], seconds: float = 1.0) -> list[float]:
-    """Returns the median steps per second of each side; sides take turns.
+    """Returns the median steps per second of each side: a function that takes some steps and returns their number.
 
-    Args:
-      sides: functions that take some steps and return their number.
-      seconds: duration of a turn.
+    Sides take turns of some seconds.
     """
     found: list[list[float]] = [[] for _ in sides]
     for repetition in range(REPETITIONS + 1):

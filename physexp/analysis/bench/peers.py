@@ -16,7 +16,7 @@ def training() -> Iterator[dict]:
     """Measures frames per second of A3C's training, against sb3-contrib's RecurrentPPO."""
     peer = recurrent_ppo_rate(*measuring.REFERENCE, seconds=30.0)
     ours = measuring.training_rate(measuring.REFERENCE, 20.0)
-    yield measuring.row("training / sb3-contrib RecurrentPPO: heavier", ours / peer, "x", 50, training=ours, peer=peer)
+    yield measuring.ratio("training / sb3-contrib RecurrentPPO: heavier", 50, training=ours, peer=peer)
 
 
 def recurrent_ppo_rate(domain: str, task: str, seconds: float) -> float:

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator
 import multiprocessing
-import time
 
 import numpy as np
 import torch
@@ -25,54 +24,26 @@ _SECONDS = 20.0  # Of training, or of the bare network, for one rate.
 
 
 def figures() -> Iterator[dict]:
-    """Measures drawing, then training."""
-    yield from rendering_figures()
-    yield from training_figures()
-
-
-def rendering_figures() -> Iterator[dict]:
-    """Measures frames per second of a batch, against MuJoCo's own drawing and a composer scene."""
+    """Measures frames per second of drawing, against MuJoCo's own and a composer scene, and then of training."""
     for name in TASKS:
         drawn, bare = measuring.rates(_batch_drawing(name), bare_rendering(name))
-        yield measuring.row(
-            f"batched drawing / bare mjr_render and mjr_readPixels: {name}",
-            drawn / bare,
-            "x",
-            0.85,
-            batched=drawn,
-            bare=bare,
-        )
+        figure = f"batched drawing / bare mjr_render and mjr_readPixels: {name}"
+        yield measuring.ratio(figure, 0.85, batched=drawn, bare=bare)
     ours, theirs = measuring.rates(bare_rendering("direct"), composer_rendering())
-    yield measuring.row(
-        "a frame of our scene / of composer's default arena: direct",
-        ours / theirs,
-        "x cheaper",
-        20,
-        our_microseconds=1e6 / ours,
-        composer_microseconds=1e6 / theirs,
-    )
+    figure = "a frame of our scene / of composer's default arena: direct"
+    durations = {"our_microseconds": 1e6 / ours, "composer_microseconds": 1e6 / theirs}
+    yield measuring.row(figure, ours / theirs, "x cheaper", 20, **durations)
     for name, task in TASKS.items():
         environment = suite.load(*task, task_kwargs={"random": 0})
         batch, loop = measuring.rates(measuring.random_batch(task, BATCH), measuring.random_loop(environment))
         environment.close()
-        yield measuring.row(
-            f"pixel batch of {BATCH} / loop over suite.load: {name}", batch / loop, "x", 10, batch=batch, loop=loop
-        )
-
-
-def training_figures() -> Iterator[dict]:
-    """Measures frames per second of training, against the bare network on random images."""
+        yield measuring.ratio(f"pixel batch of {BATCH} / loop over suite.load: {name}", 10, batch=batch, loop=loop)
     for name in ("fist", "heavier"):
         trained = measuring.training_rate(TASKS[name], _SECONDS)
-        bare = bare_network_rate(TASKS[name])
-        yield measuring.row(
-            f"pixel training / bare network acting and training: {name}",
-            trained / bare,
-            "x",
-            0.7,
-            training=trained,
-            bare=bare,
-        )
+        with multiprocessing.get_context("spawn").Pool(2) as pool:
+            bare = sum(pool.map(_bare_network_rate, [TASKS[name]] * 2, chunksize=1))
+        figure = f"pixel training / bare network acting and training: {name}"
+        yield measuring.ratio(figure, 0.7, training=trained, bare=bare)
 
 
 def _batch_drawing(name: str) -> Callable[[], int]:
@@ -140,15 +111,8 @@ def composer_rendering() -> Callable[[], int]:
     return draw
 
 
-def bare_network_rate(task: measuring.Task) -> float:
-    """Returns frames per second of a preset's network on random images, in two processes."""
-    context = multiprocessing.get_context("spawn")
-    with context.Pool(2) as pool:
-        return sum(pool.map(_bare_network_rate, [task] * 2, chunksize=1))
-
-
 def _bare_network_rate(task: measuring.Task) -> float:
-    """Returns frames per second of one process: a forward pass to act, and both passes to learn."""
+    """Returns frames per second of a preset's network on random images: a pass to act, and both passes to learn."""
     torch.set_num_threads(1)
     config = config_lib.preset(*task, algorithm="a3c")
     assert isinstance(config, a3c.A3CConfig)
@@ -159,8 +123,8 @@ def _bare_network_rate(task: measuring.Task) -> float:
     batch_sizes = torch.full((_ROUND_STEPS,), config.envs_per_worker)
     num_frames = int(batch_sizes.sum())
     actions, returns = torch.zeros(num_frames, dtype=torch.int64), torch.ones(num_frames)
-    frames, start = 0, 0.0
-    for repetition in range(10**9):
+
+    def act_and_learn() -> int:
         with torch.no_grad():
             state: networks.State = network.initial_state(config.envs_per_worker)
             for seen in images:
@@ -168,10 +132,6 @@ def _bare_network_rate(task: measuring.Task) -> float:
         network.zero_grad()
         logits, values = network.unroll(network.encode({"pixels": images.flatten(0, 1)}), batch_sizes)
         torch.stack(losses.actor_critic_losses(logits, values, actions, returns, returns)).sum().backward()
-        if repetition == 0:  # The first one warms up.
-            start = time.perf_counter()
-            continue
-        frames += num_frames
-        if time.perf_counter() - start > _SECONDS:
-            break
-    return frames / (time.perf_counter() - start)
+        return num_frames
+
+    return measuring.rates(act_and_learn, seconds=_SECONDS / measuring.REPETITIONS)[0]

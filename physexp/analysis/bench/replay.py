@@ -45,15 +45,8 @@ def _recording(name: str, task: measuring.Task) -> dict:
             seconds[pair, side] = time.process_time() - start
     plain, recorded = seconds.sum(axis=0).tolist()
     added = float(np.median(seconds[:, 1] / seconds[:, 0])) - 1
-    return measuring.row(
-        f"what recording adds to evaluation: {name}",
-        added,
-        "",
-        0.03,
-        at_most=True,
-        recorded_seconds=recorded,
-        plain_seconds=plain,
-    )
+    figure, sides = f"what recording adds to evaluation: {name}", {"recorded_seconds": recorded, "plain_seconds": plain}
+    return measuring.row(figure, added, "", 0.03, at_most=True, **sides)
 
 
 def _replay_in_training(name: str, task: measuring.Task) -> dict:
@@ -69,12 +62,5 @@ def _replay_in_training(name: str, task: measuring.Task) -> dict:
             seconds.append(time.process_time() - start)
     steps = config_lib.REPLAY_EVERY
     training = measuring.THREADS * steps / measuring.training_rate(task, 10.0)
-    return measuring.row(
-        f"a replay / training for {steps:,} steps: {name}",
-        seconds[-1] / training,
-        "",
-        0.02,
-        at_most=True,
-        replay_seconds=seconds[-1],
-        training_seconds=training,
-    )
+    figure, taken = f"a replay / training for {steps:,} steps: {name}", seconds[-1]
+    return measuring.ratio(figure, 0.02, at_most=True, replay_seconds=taken, training_seconds=training)

@@ -27,7 +27,7 @@ def resets() -> Iterator[dict]:
             first, *more = (_begin_batch(task) for _ in range(1 + measuring.REPETITIONS))
             further = statistics.median(more)
             figure = f"first / further batch of {BATCH}: {name}"
-            yield measuring.row(figure, first / further, "x", _FURTHER, first=first, further=further)
+            yield measuring.ratio(figure, _FURTHER, first=first, further=further)
         environment = suite.load(*task, task_kwargs={"random": 0})
         for _ in range(100):  # Compiles every structure.
             environment.reset()
@@ -60,23 +60,12 @@ def batches() -> Iterator[dict]:
             measuring.random_loop(suite.load(*task, task_kwargs={"random": 0})),
             measuring.random_loop(_RecompilingEnvironment(suite.load_task(*task, {"random": 0}))),
         )
-        yield measuring.row(
-            f"batch of {BATCH} / loop over suite.load: {name}", batch / loop, "x", loop_target, batch=batch, loop=loop
-        )
-        yield measuring.row(
-            f"batch of {BATCH} / composer that recompiles: {name}",
-            batch / recompiling,
-            "x",
-            recompile_target,
-            batch=batch,
-            recompiling=recompiling,
-        )
-        batch, bare = measuring.rates(
-            measuring.random_batch(task, only_interactions=True), bare_batch(task), seconds=3.0
-        )
-        yield measuring.row(
-            f"batch / bare mujoco Batch.step: {name}", batch / bare, "x", bare_target, batch=batch, bare=bare
-        )
+        yield measuring.ratio(f"batch of {BATCH} / loop over suite.load: {name}", loop_target, batch=batch, loop=loop)
+        figure = f"batch of {BATCH} / composer that recompiles: {name}"
+        yield measuring.ratio(figure, recompile_target, batch=batch, recompiling=recompiling)
+        ours = measuring.random_batch(task, only_interactions=True)
+        batch, bare = measuring.rates(ours, bare_batch(task), seconds=3.0)
+        yield measuring.ratio(f"batch / bare mujoco Batch.step: {name}", bare_target, batch=batch, bare=bare)
 
 
 class _RecompilingEnvironment(composer.Environment):

@@ -30,7 +30,7 @@ def test_each_side_returns_the_number_of_frames_it_draws(side):
 
 
 def test_a_missed_target_is_printed_as_missed():
-    figure = measuring.row("frames", 9.0, "x", 10, ours=1.0)
+    figure = measuring.ratio("frames", 10, ours=9.0, theirs=1.0)
     assert not figure["reached"] and measuring.line(figure).startswith("MISS frames")
 
 
