@@ -215,7 +215,8 @@ class Experiment:
       trials: the episodes that each agent plays.
       prepare: computes slow results that need no agent, stores them with the results, and reports lines of progress;
         None without such results.
-      load: reads the data from the results: a DataFrame with a row for each episode, agent or step of a learning curve.
+      load: reads the data from the results: a DataFrame with a row for each episode, agent or step of a learning curve;
+        its `attrs` may hold more for the figure, such as what the ideal experimenter does.
       statistics: the estimates of the claims from the data, by the ids of the claims.
       draw: draws a matplotlib figure of the data.
       table: returns a header and rows of words, shown below the figure; None for none.

@@ -21,6 +21,13 @@ _LONGEST = 10  # Interactions shown.
 # Population: all agents of a difficulty together.
 
 
+def load_population(results: base.Results):
+    """Returns episodes; the attribute `ideal` has the ideal's shares of episodes by interactions, by condition."""
+    frame = results.episodes([base.LEARNED], conditions.FEATURES, ["interactions"])
+    frame.attrs["ideal"] = {each.label: each.ideal().figures()["histogram"] for each in conditions.FEATURES}
+    return frame
+
+
 def _share_short(frame) -> estimates.Estimate:
     is_short = frame.interactions < _SHORT
     return estimates.mean_share(is_short.groupby([frame.condition, frame.training_seed]).mean())
@@ -33,8 +40,7 @@ def _draw_population(frame):
     ticks = np.arange(0, _LONGEST + 1, 2)
     for number, (axes, each) in enumerate(zip(panels[0], shown, strict=True)):
         pokes = frame.interactions[frame.condition == each.label].clip(upper=_LONGEST)
-        histogram = each.ideal().figures()["histogram"]
-        curves.draw_histogram(axes, pokes, histogram, _LONGEST + 1, plots.COLORS[number])
+        curves.draw_histogram(axes, pokes, frame.attrs["ideal"][each.label], _LONGEST + 1, plots.COLORS[number])
         plots.reference(axes, _ALL_BLOCKS, "all blocks" if each is shown[-1] else "", vertical=True)
         title = f"β = {each.task_kwargs['difficulty']:g}"
         axes.set(xlabel="pokes before the answer", title=title, xticks=ticks)
@@ -174,7 +180,7 @@ EXPERIMENTS = {
         **claims.described("population"),
         conditions=conditions.FEATURES,
         trials=(base.LEARNED,),
-        load=lambda results: results.episodes([base.LEARNED], conditions.FEATURES, ["interactions"]),
+        load=load_population,
         statistics={
             "few_if_easy": claims.mean_of_agents(lambda rows: rows.interactions, estimates.mean),
             "all_if_hard": claims.mean_of_agents(lambda rows: rows.interactions >= _ALL_BLOCKS, estimates.mean_share),

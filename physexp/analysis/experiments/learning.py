@@ -11,6 +11,13 @@ LEARNERS = tuple(condition for task in _TASKS for condition in (task, conditions
 _NAMES = {"ppo": "PPO", "a3c": "A3C"}
 
 
+def load_heavier(results: base.Results):
+    """Returns learning curves; the attribute `ideal` has the accuracy of the ideal experimenter at each difficulty."""
+    frame = results.curves(conditions.HEAVIER)
+    frame.attrs["ideal"] = [each.ideal().figures()["accuracy"] for each in conditions.FEATURES]
+    return frame
+
+
 def final_success(rows):
     """Returns the share of right answers at the end of training, of each agent of a condition."""
     ends = rows.groupby("training_seed").frames.transform("max")
@@ -50,7 +57,7 @@ def _ppo_over_a3c(along: str) -> claims.Statistic:
 
 def _draw_heavier(frame):
     """Draws a panel for each kind of observation."""
-    accuracies = [each.ideal().figures()["accuracy"] for each in conditions.FEATURES]
+    accuracies = frame.attrs["ideal"]
     kinds = [kind for kind in conditions.OBSERVATIONS if (frame.task == kind).any()]
     figure, panels = plots.new(columns=len(kinds), sharey=True, squeeze=False)
     for axes, kind in zip(panels[0], kinds, strict=True):
@@ -93,7 +100,7 @@ EXPERIMENTS = {
     "learning_heavier": base.Experiment(
         **claims.described("learning_heavier"),
         conditions=conditions.HEAVIER,
-        load=lambda results: results.curves(conditions.HEAVIER),
+        load=load_heavier,
         statistics={"trained": _mean_success, "not_perfect": _mean_success, "harder_is_lower": _ratio_of_success},
         draw=_draw_heavier,
     ),

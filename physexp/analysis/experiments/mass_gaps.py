@@ -90,9 +90,21 @@ def _draw_gaps(frame):
 
 
 def load_individual(results: base.Results):
-    """Returns episodes with the number of `blocks` that were poked."""
+    """Returns episodes with the number of `blocks` that were poked.
+
+    The attribute `ideal` has the ideal experimenter's mean pokes in each bin of mass gaps, by condition.
+    """
     columns = ["mass_gap", "interactions", "label", "actions"]
-    return with_blocks(results.episodes([base.LONG], conditions.PATIENT, columns))
+    frame = with_blocks(results.episodes([base.LONG], conditions.PATIENT, columns))
+    frame.attrs["ideal"] = {each.label: _ideal_pokes(each) for each in conditions.PATIENT}
+    return frame
+
+
+def _ideal_pokes(condition: conditions.Condition) -> list[float]:
+    difficulty = condition.task_kwargs["difficulty"]
+    masses = which_is_heavier.draw_masses(np.full(50_000, 1), np.arange(50_000), difficulty)
+    pokes, _ = condition.ideal().play(masses)
+    return by_gap(which_is_heavier.mass_gaps(masses), pokes, fewest=1).tolist()
 
 
 def _answered(rows) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
@@ -129,20 +141,12 @@ def _draw_individual(frame):
         axes.errorbar(_GAPS, means, deviations, label="mean and standard deviation", **style)
         trend, ends = slope(gaps, pokes), np.array([0.0, 1.0])
         axes.plot(ends, pokes.mean() + trend * (ends - gaps.mean()), color=red, label="OLS")
-        axes.plot(_GAPS, _ideal_pokes(each), color=blue, linestyle=plots.DASHES[1], label="ideal")
+        axes.plot(_GAPS, frame.attrs["ideal"][each.label], color=blue, linestyle=plots.DASHES[1], label="ideal")
         title = f"β = {each.task_kwargs['difficulty']:g}: slope {trend:.2f}"
         axes.set(xlabel="mass gap", title=title, xlim=(0, 1), ylim=(0, 15))
     panels[0, 0].set_ylabel("pokes before the answer")
     panels[0, -1].legend(loc="upper right", fontsize=6)
     return figure
-
-
-def _ideal_pokes(condition: conditions.Condition) -> np.ndarray:
-    """Returns the ideal experimenter's mean pokes in each bin of mass gaps."""
-    difficulty = condition.task_kwargs["difficulty"]
-    masses = which_is_heavier.draw_masses(np.full(50_000, 1), np.arange(50_000), difficulty)
-    pokes, _ = condition.ideal().play(masses)
-    return by_gap(which_is_heavier.mass_gaps(masses), pokes, fewest=1)
 
 
 # The same with noise.

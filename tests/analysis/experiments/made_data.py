@@ -36,8 +36,9 @@ def of_agents(configs, num_agents, make):
     """The rows that `make(config, seed)` returns for each agent, as values of columns."""
     frames = [
         pandas.DataFrame(
-            {"condition": config.label, "task": config.task, "player": config.player} | make(config, seed)
-        ).assign(training_seed=seed)
+            {"condition": config.label, "task": config.task, "player": config.player, "training_seed": seed}
+            | make(config, seed)
+        )
         for config in configs
         for seed in range(num_agents)
     ]
@@ -80,7 +81,10 @@ def curves(num_agents, generator, configs, plateaus, learned_at, chance=0.2, spr
 def learning_heavier(num_agents, generator, plateaus=(0.85, 0.9, 0.95, 0.7, 0.8, 0.9), spread=1.0):
     keys = [(config.label, "a3c") for config in conditions.HEAVIER]
     at = dict.fromkeys(keys, 1e6)
-    return curves(num_agents, generator, conditions.HEAVIER, dict(zip(keys, plateaus, strict=True)), at, 0.25, spread)
+    plateaus = dict(zip(keys, plateaus, strict=True))
+    frame = curves(num_agents, generator, conditions.HEAVIER, plateaus, at, 0.25, spread)
+    frame.attrs["ideal"] = [0.99, 0.999]
+    return frame
 
 
 def learning_towers(num_agents, generator, plateau=0.985, fist=1e6, direct=2e6):
@@ -120,6 +124,7 @@ def reaching(num_agents, generator, near=0.5, direct=1.0):
 def few_steps(
     num_agents,
     generator,
+    configs=efficiency.CONDITIONS,
     belief=0.5,
     a3c=20.0,
     papers=10.0,
@@ -142,12 +147,12 @@ def few_steps(
     middles = {
         config: most.get(config.player, most["belief"])[config.label]
         * learners.get(config.player, belief * factors.get(config.label[0], 1.0))
-        for config in efficiency.CONDITIONS
+        for config in configs
     }
     rows = scores(num_agents, generator, middles, frame).assign(calibration_error=error)
     rows.loc[rows.player.str.startswith("belief"), "score"] *= learned
     final = of_agents(
-        efficiency.CONDITIONS,
+        configs,
         num_agents,
         lambda config, seed: {
             "share": [1 - loss * (1 - table["near_optimum"].above[config.label]) + generator.normal(0, 0.001)],
@@ -176,7 +181,9 @@ def pokes(num_agents, generator, means=(5.0, 3.0, 2.0), spread=0.5, long=0.0):
         drawn[: round(long * _EPISODES)] = generator.integers(30, 90, round(long * _EPISODES))
         return {"interactions": drawn}
 
-    return of_agents(conditions.FEATURES, num_agents, rows)
+    frame = of_agents(conditions.FEATURES, num_agents, rows)
+    frame.attrs["ideal"] = dict.fromkeys(frame.condition, {2: 0.5, 3: 0.5})
+    return frame
 
 
 def patience(num_agents, generator, patient=1.5):
@@ -209,6 +216,7 @@ def slopes(num_agents, generator, slope=-4.0, odd_one=None, seen=0.8, lost=1 / _
         }
 
     frame = of_agents(conditions.PATIENT, num_agents, rows)
+    frame.attrs["ideal"] = dict.fromkeys(frame.condition, np.full(10, 3.0).tolist())
     return frame.assign(blocks=2.5 + seen * slope * (frame.mass_gap - 0.5))
 
 
@@ -488,12 +496,11 @@ _MADE = {
         _PAPER,
         ("belief is slow", {"belief": 2.0}, {"few_steps", "few_steps_revealed"}),
         ("A3C is quick", {"a3c": 0.24, "fist": 0.68, "direct": 1.2}, {"fewer_steps"}),
-        ("single episodes are best", {"papers": 0.5}, {"many_episodes"}),
         ("pushes are quick", {"fist": 1.2, "direct": 0.4}, {"fist_is_faster"}),
         (
-            "agents stop short, too sure, and late",
-            {"loss": 4.0, "error": 0.05, "frame": 1.0},
-            {"near_optimum", "none_far", "calibrated", "minutes"},
+            "single episodes are best, and agents stop short, too sure, and late",
+            {"papers": 0.5, "loss": 4.0, "error": 0.05, "frame": 1.0},
+            {"many_episodes", "near_optimum", "none_far", "calibrated", "minutes"},
         ),
     ),
     "reaching": (

@@ -8,7 +8,6 @@ import subprocess
 import sys
 import threading
 
-import commands
 import pytest
 import ray
 from ray import cluster_utils
@@ -16,7 +15,7 @@ from waiting import wait_until
 
 from physexp.analysis.experiments import base, cluster, sweep
 
-TASKS = ("which_is_heavier/features", "threshold/features")
+TASK = "which_is_heavier/features"
 
 
 @pytest.fixture
@@ -50,12 +49,11 @@ def workers(nodes):
 
 @pytest.mark.long
 def test_a_sweep_gathers_all_rows_from_a_cluster_where_a_job_is_killed(nodes, tmp_path):
-    jobs = sweep.grid(TASKS, ["ppo"], range(2), 5_000, 50)
+    jobs = sweep.grid([TASK], ["ppo"], range(2), 300, 50)
     results, lines, killed = base.Results(tmp_path), [], []
 
     def kill_one():
-        wait_until(lambda: workers(nodes), "a job")
-        killed.append(workers(nodes)[0])
+        killed.append(wait_until(lambda: workers(nodes), "a job")[0])
         os.kill(killed[0], signal.SIGKILL)
 
     killer = threading.Thread(target=kill_one)
@@ -63,9 +61,8 @@ def test_a_sweep_gathers_all_rows_from_a_cluster_where_a_job_is_killed(nodes, tm
         killer.start()
         sweep.run(jobs, results, pool, 2, lines.append)
     killer.join()
-    assert killed
-    assert sum(line.startswith("done: ") for line in lines) == 4
-    assert len(results.played()) == len(sweep.table(jobs, results)) == 4
+    assert killed and sum(line.startswith("done: ") for line in lines) == 2
+    assert len(results.played()) == len(sweep.table(jobs, results)) == 2
     assert all(results.run(job.config).agent_path.exists() for job in jobs)
     assert sweep.to_do(jobs, results) == []
 
@@ -78,12 +75,8 @@ def test_a_cluster_that_is_not_there_is_an_error(monkeypatch):
             cluster.Cluster(address)
     with pytest.raises(ValueError, match=r"cannot join the cluster 127.0.0.1:1: .*refused"):
         cluster.Cluster("127.0.0.1:1")
-
-
-def test_an_address_without_a_port_is_one_readable_line(tmp_path):
-    done = commands.run("sweep", TASKS[0], "--results-dir", tmp_path / "results", "--cluster", "nowhere")
-    assert done.returncode == 2 and done.stderr.count("\n") == 1
-    assert "cannot join the cluster nowhere: give HOST:PORT or auto" in done.stderr
+    with pytest.raises(ValueError, match="cannot join the cluster nowhere: give HOST:PORT or auto"):
+        cluster.Cluster("nowhere")
 
 
 def test_nothing_but_a_cluster_imports_ray():
