@@ -117,33 +117,31 @@ def whole(minimum: int, maximum: int = LARGEST) -> Check:
     return lambda name, value: integer(name, value, minimum, maximum)
 
 
-def at_least(minimum: float, unit: str = "", strictly: bool = False) -> Check:
-    """Returns a check for finite numbers from a minimum up, or strictly above it."""
-    allowed = f"{'>' if strictly else '>='} {minimum}" + (f" ({unit})" if unit else "")
+def _number(allowed: str, is_allowed: Callable[[float], bool]) -> Check:
+    """Returns a check for some finite numbers, which `allowed` describes."""
 
     def check(name: str, value: Any) -> float:
-        if is_number(value) and value >= minimum and not (strictly and value == minimum):
+        if is_number(value) and is_allowed(value):
             return float(value)
-        raise ValueError(f"{name} is {shown(value)}; give a finite number {allowed}")
+        raise ValueError(f"{name} is {shown(value)}; give {allowed}")
 
     return check
+
+
+def at_least(minimum: float, unit: str = "") -> Check:
+    """Returns a check for finite numbers from a minimum up."""
+    return _number(f"a finite number >= {minimum}" + (f" ({unit})" if unit else ""), lambda value: value >= minimum)
 
 
 def above(minimum: float, unit: str = "") -> Check:
     """Returns a check for finite numbers above a minimum."""
-    return at_least(minimum, unit, strictly=True)
+    return _number(f"a finite number > {minimum}" + (f" ({unit})" if unit else ""), lambda value: value > minimum)
 
 
 def within(minimum: float, maximum: float, unit: str = "", without: float | None = None) -> Check:
     """Returns a check for numbers from a minimum to a maximum, of which one may be excluded."""
-    allowed = f"{minimum:g} to {f'{maximum:g} {unit}'.strip()}" + ("" if without is None else f" but not {without:g}")
-
-    def check(name: str, value: Any) -> float:
-        if is_number(value) and minimum <= value <= maximum and value != without:
-            return float(value)
-        raise ValueError(f"{name} is {shown(value)}; give a number from {allowed}")
-
-    return check
+    limits = f"{minimum:g} to {f'{maximum:g} {unit}'.strip()}" + ("" if without is None else f" but not {without:g}")
+    return _number(f"a number from {limits}", lambda value: minimum <= value <= maximum and value != without)
 
 
 discount = within(0, 1, without=0)
@@ -152,14 +150,8 @@ discount = within(0, 1, without=0)
 
 def among(*choices: float) -> Check:
     """Returns a check for a number that is one of two or more."""
-
-    def check(name: str, value: Any) -> float:
-        if is_number(value) and value in choices:
-            return float(value)
-        *others, last = (f"{choice:g}" for choice in choices)
-        raise ValueError(f"{name} is {shown(value)}; give {', '.join(others)} or {last}")
-
-    return check
+    *others, last = (f"{choice:g}" for choice in choices)
+    return _number(f"{', '.join(others)} or {last}", lambda value: value in choices)
 
 
 def word(*choices: str) -> Check:

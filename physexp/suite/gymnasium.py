@@ -55,6 +55,10 @@ class Environment(gymnasium.Env[Any, Any]):
     """One environment. Running out of time is a wrong answer, so every episode terminates and none is truncated.
 
     An episode whose simulation diverges is truncated: it has no outcome.
+
+    Attributes:
+      dm_env: the dm_env environment behind this one.
+      discount: gamma of the returns that are scored; rewards are not discounted by the environment.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"]}
@@ -71,24 +75,16 @@ class Environment(gymnasium.Env[Any, Any]):
         """
         RENDER_MODE("render_mode", render_mode)
         _refuse_unknown(Environment, domain, task_kwargs)
-        self._environment = suite.load(domain, task, task_kwargs, {"flat_observation": flat_observation})
+        self.dm_env = suite.load(domain, task, task_kwargs, {"flat_observation": flat_observation})
+        played = self.dm_env.task
+        self.discount: float = played.discount
         self._is_flat = flat_observation
         self._playing = False
         self.render_mode = render_mode
-        self.metadata = {**self.metadata, "render_fps": _frames_per_second(self._environment.task)}
-        self.observation_space = observation_space(self._environment.task.observation_spec(), self._is_flat)
-        self.action_space = gymnasium.spaces.Discrete(self._environment.action_spec().num_values)
-        super().reset(seed=self._environment.task.options.random)  # `np_random_seed` is the seed that is played.
-
-    @property
-    def dm_env(self) -> suite.Environment:
-        """The dm_env environment behind this one."""
-        return self._environment
-
-    @property
-    def discount(self) -> float:
-        """Gamma of the returns that are scored; rewards are not discounted by the environment."""
-        return float(self._environment.task.discount)
+        self.metadata = {**self.metadata, "render_fps": _frames_per_second(played)}
+        self.observation_space = observation_space(played.observation_spec(), self._is_flat)
+        self.action_space = spaces.Discrete(played.rules.num_actions)
+        super().reset(seed=played.options.random)  # `np_random_seed` is the seed that is played.
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Observation, Infos]:
         """Starts the next episode, or with a seed, in [0, 2**63), the first one of that seed.
@@ -98,11 +94,11 @@ class Environment(gymnasium.Env[Any, Any]):
         """
         seed, options = _SEED("seed", seed), _check_options(options, "episode")
         super().reset(seed=seed)
-        task = self._environment.task
+        task = self.dm_env.task
         if seed is not None:
             task.reseed(seed)
         task.next_episode = options.get("episode", task.next_episode)
-        timestep = self._environment.reset()
+        timestep = self.dm_env.reset()
         self._playing = True
         return self._shown(timestep.observation), {"seed": task.options.random, "episode_index": task.episode}
 
@@ -117,9 +113,9 @@ class Environment(gymnasium.Env[Any, Any]):
           gymnasium.error.ResetNeeded: if no episode has begun, or it is over.
         """
         _check_started(self._playing)
-        task = self._environment.task
+        task = self.dm_env.task
         diverged = task.num_divergences
-        timestep = self._environment.step(action)
+        timestep = self.dm_env.step(action)
         ended, lost = timestep.last(), task.num_divergences > diverged
         self._playing = not ended
         info = {}
@@ -130,13 +126,13 @@ class Environment(gymnasium.Env[Any, Any]):
 
     def render(self) -> Any:
         """Returns an image of the scene for people, uint8 [480, 480, 3]; None without a render mode."""
-        return None if self.render_mode is None else self._environment.render()
+        return None if self.render_mode is None else self.dm_env.render()
 
     def close(self) -> None:
-        self._environment.close()
+        self.dm_env.close()
 
     def __reduce__(self) -> NoReturn:  # Of copies and of pickles.
-        self._environment.__reduce__()
+        self.dm_env.__reduce__()
 
     def _shown(self, observation: Mapping[str, np.ndarray]) -> Observation:
         return observation["observations"] if self._is_flat else dict(observation)
@@ -150,6 +146,10 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
     - `disabled`: a reset with the option `reset_mask` starts it.
 
     Observations, rewards and infos are those of Gymnasium's own `SyncVectorEnv` of single environments.
+
+    Attributes:
+      batch: the batch behind this environment.
+      discount: as in `Environment`.
     """
 
     metadata: dict[str, Any] = {
@@ -186,33 +186,22 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
         self.autoreset_mode = _check_autoreset_mode(autoreset_mode)
         self._is_flat = checks.flag("flat_observation", flat_observation)
         _refuse_unknown(VectorEnvironment, domain, task_kwargs)
-        self._batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
+        self.batch = suite.load_batch(domain, task, num_envs, task_kwargs, num_threads)
+        played = self.batch.task
+        self.discount: float = played.discount
         if max_episode_steps is not None:
-            checks.integer("max_episode_steps", max_episode_steps, self._batch.task.rules.step_limit)
-        self._observation = self._batch.task.observer.blank(num_envs)
+            checks.integer("max_episode_steps", max_episode_steps, played.rules.step_limit)
+        self._observation = played.observer.blank(num_envs)
         self._ended = np.zeros(num_envs, bool)
         self._started = False
         self.render_mode = render_mode
-        self.metadata = {
-            **self.metadata,
-            "autoreset_mode": self.autoreset_mode,
-            "render_fps": _frames_per_second(self._batch.task),
-        }
-        self.single_observation_space = observation_space(self._batch.observation_spec(), self._is_flat)
-        self.single_action_space = gymnasium.spaces.Discrete(self._batch.action_spec().num_values)
+        told = {"autoreset_mode": self.autoreset_mode, "render_fps": _frames_per_second(played)}
+        self.metadata = {**self.metadata, **told}
+        self.single_observation_space = observation_space(played.observation_spec(), self._is_flat)
+        self.single_action_space = spaces.Discrete(played.rules.num_actions)
         self.observation_space = vector_utils.batch_space(self.single_observation_space, num_envs)
         self.action_space = vector_utils.batch_space(self.single_action_space, num_envs)
-        super().reset(seed=self._batch.task.options.random)  # `np_random_seed` is the seed that is played.
-
-    @property
-    def batch(self) -> suite.BatchEnvironment:
-        """The batch behind this environment."""
-        return self._batch
-
-    @property
-    def discount(self) -> float:
-        """Gamma of the returns that are scored; rewards are not discounted by the environment."""
-        return self._batch.task.discount
+        super().reset(seed=played.options.random)  # `np_random_seed` is the seed that is played.
 
     def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Observation, Infos]:
         """Starts the next episode everywhere; with a seed, the first of each: `environment_seed(seed, i)`.
@@ -226,7 +215,7 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
         mask = self._check_mask(options.get("reset_mask"), seed)
         super().reset(seed=seed)
         if seed is not None:
-            self._batch.reseed(seed)
+            self.batch.reseed(seed)
         infos = self._begin(mask, options.get("episode"))
         self._started = True
         return self._shown(), infos
@@ -242,11 +231,11 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
         _check_started(self._started)
         if self.autoreset_mode is vector_env.AutoresetMode.DISABLED and self._ended.any():
             raise error.ResetNeeded("an episode is over; reset it with options={'reset_mask': terminated | truncated}")
-        timestep = self._batch.step(actions)  # Starts the next episode where one had ended before.
+        timestep = self.batch.step(actions)  # Starts the next episode where one had ended before.
         rewards, ended = timestep.reward, timestep.last()
         lost = ended & (rewards == 0)  # Only a diverged simulation ends without a verdict.
         self._observation, self._ended = dict(timestep.observation), ended
-        batch = self._batch
+        batch = self.batch
         infos = _masked(_outcomes(batch.task, batch.steps, rewards, batch.correct_answers), ended)
         if self.autoreset_mode is vector_env.AutoresetMode.SAME_STEP and ended.any():
             last = list(vector_utils.iterate(self.observation_space, self._shown()))
@@ -269,7 +258,7 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
             return None
         per_side = math.ceil(math.sqrt(self.num_envs))
         size = min(rendering.SIZE_FOR_PEOPLE, _LARGEST_GRID // per_side)
-        images = self._batch.render(size)
+        images = self.batch.render(size)
         if self.render_mode == "rgb_array":
             return tuple(images)
         rows = math.ceil(self.num_envs / per_side)
@@ -278,14 +267,14 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
         return tiles.reshape(rows, per_side, size, size, 3).swapaxes(1, 2).reshape(rows * size, per_side * size, 3)
 
     def close_extras(self, **kwargs: Any) -> None:
-        self._batch.close()
+        self.batch.close()
 
     def __reduce__(self) -> NoReturn:  # Of copies and of pickles.
-        self._batch.__reduce__()
+        self.batch.__reduce__()
 
     def _begin(self, mask: np.ndarray, episode: int | None = None) -> Infos:
         """Starts episodes in some environments, bool [num_envs]; returns the infos."""
-        first = self._batch.reset(np.flatnonzero(mask), episode).observation
+        first = self.batch.reset(np.flatnonzero(mask), episode).observation
         for name, values in first.items():
             self._observation[name][mask] = values
         self._ended = self._ended & ~mask
@@ -293,7 +282,7 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
 
     def _beginnings(self, mask: np.ndarray) -> Infos:
         """Returns the infos of episodes that have begun: seeds and indices, which rebuild them."""
-        return _masked({"seed": self._batch.seeds, "episode_index": self._batch.episodes}, mask)
+        return _masked({"seed": self.batch.seeds, "episode_index": self.batch.episodes}, mask)
 
     def _shown(self) -> Observation:
         """Returns the observations, which nothing changes later."""

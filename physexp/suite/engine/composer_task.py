@@ -126,7 +126,7 @@ class ComposerTask(composer.Task):
     def initialize_episode(self, physics: Any, random_state: Any) -> None:
         task = self._declared
         fields, self._starts = task.begin(self.apparatus, self._ledger.hidden, self._ledger.nuisances)
-        for field, addresses, values in fields:
+        for field, (addresses, values) in fields:
             getattr(physics.model, field)[addresses] = values[0]
         physics.data.qpos[:] = self._starts.qpos[0]
         self._action = 0

@@ -202,16 +202,16 @@ class Task(abc.ABC):
 
     def begin(
         self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray, nuisances: np.ndarray
-    ) -> tuple[list[tuple[str, np.ndarray, np.ndarray]], apparatus_lib.Starts]:
+    ) -> tuple[list[tuple[str, tuple[np.ndarray, np.ndarray]]], apparatus_lib.Starts]:
         """Returns the model fields of N episodes with addresses, int [M], and values, [N, M], and their initial states.
 
         They follow from the hidden properties, [N, ...], and the nuisances, [N, 0] without variation.
         """
-        fields = _listed(self.hidden_fields(apparatus, hidden))
+        fields = list(self.hidden_fields(apparatus, hidden).items())
         if not nuisances.shape[1]:
             return fields, apparatus.start.repeated(len(nuisances))
         circumstances = self.circumstances(apparatus, nuisances)
-        return fields + _listed(circumstances.fields), apparatus.starts(circumstances, len(nuisances))
+        return fields + list(circumstances.fields.items()), apparatus.starts(circumstances, len(nuisances))
 
     def close(self) -> None:
         """Frees the renderer. A closed task can be played again."""
@@ -232,7 +232,3 @@ def features_and_pixels(
             factory.__name__ = f"{name}_{observed}".removeprefix("_")  # type: ignore[attr-defined]
             suite.add(observed, *filter(None, [name]))(factory)
     return suite
-
-
-def _listed(fields: declarations.Fields) -> list[tuple[str, np.ndarray, np.ndarray]]:
-    return [(field, addresses, values) for field, (addresses, values) in fields.items()]

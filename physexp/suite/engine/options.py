@@ -89,16 +89,13 @@ class Options:
 
     def check_step(self, shortest: float, meanwhile: str) -> None:
         """Raises ValueError for a control step shorter than a limit, s, in which something happens, in words."""
+        needed = f"at least {shortest} s, in which {meanwhile}"
         if self.control_timestep < shortest:
-            raise ValueError(
-                f"control_timestep is {self.control_timestep} s; give at least {shortest} s, in which {meanwhile}"
-            )
+            raise ValueError(f"control_timestep is {self.control_timestep} s; give {needed}")
         least = self._substeps_range[0] * self.physics_timestep
         if least < shortest - 1e-9:
-            raise ValueError(
-                f"step_variation is {self.step_variation:g}, with which control steps are as short as {least:g} s; "
-                f"give less: at least {shortest} s are needed, in which {meanwhile}"
-            )
+            short = f"with which control steps are as short as {least:g} s"
+            raise ValueError(f"step_variation is {self.step_variation:g}, {short}; give less, for {needed}")
 
     @property
     def substeps(self) -> int:

@@ -17,6 +17,7 @@ class Group:
     def __init__(self, task: contract.Task, apparatus: apparatus_lib.Apparatus, size: int, num_threads: int):
         self._task, self.apparatus = task, apparatus
         self._batch = Batch(apparatus.model, size, num_threads)
+        self.view = self._batch.bind  # Returns a field of `MjData` of all rows, not a copy.
         self._batch.reset(stage=mujoco.mjtStage.mjSTAGE_NONE)
         self._rest = self._batch.state[0].copy()
         # If all episodes start alike, one initial state and one first observation are enough.
@@ -59,7 +60,7 @@ class Group:
         self._batch.state[rows] = self._rest
         self._control[rows] = 0
         fields, starts = self._task.begin(self.apparatus, hidden, nuisances)
-        for field, addresses, values in fields:
+        for field, (addresses, values) in fields:
             self._batch.expand(field)[rows[:, None], addresses] = values
         if not self._are_alike:
             self._qpos[rows] = starts.qpos
@@ -100,7 +101,3 @@ class Group:
         positions, rotations = (values[rows].reshape(len(rows), self.apparatus.model.ngeom, -1) for values in fields)
         self.apparatus.indicate(positions, self._measured[rows])
         return positions, rotations
-
-    def view(self, field: str) -> np.ndarray:
-        """Returns a field of `MjData` of all rows, float64 [size, ...], not a copy."""
-        return self._batch.bind(field)
