@@ -22,18 +22,9 @@ import psutil
 from waiting import Patience, wait_until
 
 context = multiprocessing.get_context("forkserver")
-context.set_forkserver_preload(
-    [
-        "pytest",
-        "pandas",
-        "torch._dynamo",
-        "physexp.cli",
-        "physexp.analysis.training.publishing",
-        "physexp.analysis.replay",
-        "physexp.analysis.experiments.reproduce",
-        "physexp.suite.engine.rendering",  # It opens no context before it draws: one could not be forked.
-    ]
-)
+_OURS = ["cli", "analysis.training.publishing", "analysis.replay", "analysis.experiments.reproduce"]
+_OURS += ["suite.engine.rendering"]  # It opens no context before it draws: one could not be forked.
+context.set_forkserver_preload(["pytest", "pandas", "torch._dynamo", *(f"physexp.{name}" for name in _OURS)])
 
 
 class _Spawned(multiprocessing.context.ForkServerProcess):
@@ -93,13 +84,10 @@ class Process:
     """
 
     def __init__(self, function, *args, first=None, cwd=None, env=None, stderr=subprocess.PIPE):
-        """Starts `function(*args)`, after `first()`.
+        """Starts `function(*args)`, after `first()`: functions at the top level of a module, and values to pickle.
 
-        Args:
-          function, args, first: values that can be pickled; functions at the top level of a module.
-          cwd: its working directory; this process's by default.
-          env: all of its environment variables; this process's by default.
-          stderr: `subprocess.STDOUT` sends errors where the output goes.
+        `cwd` and `env`, all of its environment variables, are this process's by default; `stderr` may be
+        `subprocess.STDOUT`.
         """
         self.returncode = None
         forkserver.ensure_running()
@@ -227,11 +215,7 @@ def start(*words, **kwargs) -> Process:
 
 
 def run(*words, check: bool = False, **kwargs) -> subprocess.CompletedProcess:
-    """Runs `physexp` with these arguments in a process of its own, to its end.
-
-    Raises:
-      CalledProcessError: if its status is not 0 and `check` is set.
-    """
+    """Runs `physexp` with these arguments in a process of its own, to its end; with `check`, its status must be 0."""
     with start(*words, **kwargs) as process:
         output, errors = process.communicate()
     done = subprocess.CompletedProcess(["physexp", *words], process.returncode, output, errors)

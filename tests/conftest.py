@@ -7,10 +7,6 @@ import commands
 import pytest
 import trainers
 
-from physexp.agents.a3c import config as a3c
-from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import run as run_lib
-
 # Tests that run in the background, after `nohup` for example, ignore the signals that end a process, and so would the
 # processes that they start; but tests end those by signals.
 for _number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
@@ -39,10 +35,6 @@ def pytest_collection_modifyitems(items):
 @pytest.fixture
 def untrained(tmp_path):
     """A run whose checkpoint holds an untrained network."""
-    config = config_lib.TrainConfig(
-        domain="which_is_heavier", task="features", task_kwargs={"difficulty": 10.0}, agent=a3c.A3CConfig(num_workers=1)
-    )
-    run = run_lib.Run(tmp_path / "run")
-    run.create(config)
+    run = trainers.create(tmp_path / "run")
     trainers.save_first_checkpoint(run)
     return run

@@ -33,14 +33,9 @@ SMALL = {
 
 def create(path, algorithm="a3c", **agent):
     """A new run of Which is Heavier with a small agent."""
-    config = config_lib.TrainConfig(
-        domain="which_is_heavier",
-        task="features",
-        task_kwargs={"difficulty": 10.0},
-        agent=SMALL[algorithm].replace(**agent),
-    )
-    run = run_lib.Run(path)
-    run.create(config)
+    run, learner = run_lib.Run(path), SMALL[algorithm].replace(**agent)
+    options = {"difficulty": 10.0}
+    run.create(config_lib.TrainConfig(domain="which_is_heavier", task="features", task_kwargs=options, agent=learner))
     return run
 
 

@@ -9,22 +9,19 @@ import time
 
 import psutil
 
-IDLE_SECONDS = 60.0
-"""The longest time without any progress, s."""
-
-BUSY_SECONDS = 600.0
-"""The most processor time that the processes may use, s; it does not depend on the load of the machine."""
+_IDLE_SECONDS = 60.0  # The longest time without any progress.
+_BUSY_SECONDS = 600.0  # The most processor time that the processes may use; it does not depend on the load.
 
 
 class Patience:
     """Watches processes; over when they have idled for long, or used much time in vain."""
 
-    def __init__(self, pid: int | None = None, idle_seconds: float = IDLE_SECONDS, busy_seconds: float = BUSY_SECONDS):
+    def __init__(self, pid: int | None = None):
         """Watches `pid`, its descendants and the group that it leads; by default all descendants of this process.
 
         A process that is forked from the server of `commands` is in its parent's group, but is no descendant of it.
         """
-        self._pid, self._idle_seconds, self._busy_seconds = pid, idle_seconds, busy_seconds
+        self._pid = pid
         self._used: dict[int, float] = {}
         self._look()
         self._first, self._last_progress = self._total(), time.monotonic()
@@ -40,7 +37,7 @@ class Patience:
         if self._total() > before + 0.03 * (now - self._next_look + 1.0):  # Less is only polling.
             self._last_progress = now
         self._next_look = now + 1.0
-        return now - self._last_progress > self._idle_seconds or self._total() - self._first > self._busy_seconds
+        return now - self._last_progress > _IDLE_SECONDS or self._total() - self._first > _BUSY_SECONDS
 
     def __str__(self):
         idle = time.monotonic() - self._last_progress
@@ -71,12 +68,9 @@ class Patience:
         return sum(self._used.values())
 
 
-def wait_until(condition, name, **limits):
-    """Waits until a condition is true, and returns its value; fails if the watched processes make no progress.
-
-    See `Patience`.
-    """
-    patience = Patience(**limits)
+def wait_until(condition, name, pid=None):
+    """Waits until a condition is true, and returns its value; fails if `Patience` is over."""
+    patience = Patience(pid)
     while not (seen := condition()):
         assert not patience.is_over(), f"waited in vain for {name}: {patience}"
         time.sleep(0.02)
@@ -84,12 +78,7 @@ def wait_until(condition, name, **limits):
 
 
 def run(command, **kwargs) -> str:
-    """Runs a program to its end and returns its output; fails if the program does, or makes no progress.
-
-    Args:
-      command: the program and its arguments.
-      **kwargs: for `subprocess.Popen`.
-    """
+    """Runs a program to its end and returns its output; fails if the program does, or makes no progress."""
     with tempfile.TemporaryFile("w+", errors="replace") as written:
 
         def so_far():

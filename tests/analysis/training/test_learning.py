@@ -17,7 +17,11 @@ pytestmark = pytest.mark.long
 HIGH_ENTROPY = {"entropy_cost": 0.15, "final_entropy_cost": 0.03}
 SHORT = {
     "a3c": {"frames": 300_000, "num_workers": 2, "envs_per_worker": 64, **HIGH_ENTROPY},
-    "belief": {"frames": 7_000, "frames_per_update": 4, "answers_revealed": True},
+    "belief": {"frames": 3_000, "frames_per_update": 4, "answers_revealed": True},
+}
+LARGE_BONUS = {
+    "a3c": {"frames": 20_000},
+    "ppo": {"frames": 40_000, "num_environments": 256, "num_minibatches": 4},
 }
 PRIOR = (2.0, 0.0, 0.0, 0.0, -2.0, -2.0, -2.0, -2.0)
 
@@ -53,13 +57,12 @@ def test_a_large_bonus_makes_the_policy_the_priors_or_uniform(algorithm, kl_to_p
         tmp_path / "run",
         algorithm,
         seed=seeds.fresh_seed(),
-        frames=40_000,
         learning_rate=0.02,
         entropy_cost=100.0,
         final_entropy_cost=100.0,
         initial_logits=PRIOR,
         kl_to_prior=kl_to_prior,
-        **({"num_environments": 256, "num_minibatches": 4} if algorithm == "ppo" else {}),
+        **LARGE_BONUS[algorithm],
     )
     trainer.train(run)
     expected = np.exp(PRIOR) / np.exp(PRIOR).sum() if kl_to_prior else np.full(8, 1 / 8)
