@@ -54,23 +54,21 @@ class Ideal:
         checks.check_fields(self.options(**options))
         question = repr((task, sorted(asked.items()), discount, sorted(options.items())))
         if question not in self._solutions:
-            find = self._solve_revealed if asked.get("reveal") else self._solve_hidden
-            self._solutions[question] = find(task, asked, discount, **options)
+            self._solutions[question] = self._find(task, asked, discount, options)
         return self._solutions[question]
 
-    def _solve_hidden(self, task, task_kwargs, discount, **options) -> "ideal.Solution":
+    def _find(self, task, task_kwargs, discount, options) -> "ideal.Solution":
+        if task_kwargs.get("reveal"):
+            from physexp.analysis.ideal import revealed
+
+            for name, value in options.items():
+                raise ValueError(f"{name} is {value}; leave it out with reveal: the answer is known from the start")
+            return revealed.Solution(self._domain, task, task_kwargs, discount)
         if variation := task_kwargs.get("step_variation"):
             raise ValueError(
                 f"step_variation is {variation}; give 0: the ideal experimenter needs control steps of equal length"
             )
         return self._solve(task, task_kwargs, discount, **options)
-
-    def _solve_revealed(self, task, task_kwargs, discount, **options) -> "ideal.Solution":
-        from physexp.analysis.ideal import revealed
-
-        for name, value in options.items():
-            raise ValueError(f"{name} is {value}; leave it out with reveal: the answer is known from the start")
-        return revealed.Solution(self._domain, task, task_kwargs, discount)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

@@ -40,10 +40,12 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks
     if not bounds.is_certain(task_kwargs):
         if blocks is not None:
             raise ValueError(f"blocks is {blocks}; leave it out with noise or variation: the policy has to be played")
-        usual = _solve(task, bounds.made_certain(task_kwargs), discount)
+        certain = bounds.made_certain(task_kwargs)
+        usual = _solve(task, certain, discount)
         make_actor = usual.actor
         if not task_kwargs.get("variation"):
-            make_actor = noisy.players(usual, _NAME, task, "heights", task_kwargs)
+            responses = calibration.Responses(_NAME, task, "heights", certain, noisy.VALUES)
+            make_actor = functools.partial(noisy.Player, usual, responses, task_kwargs["noise"])
         return bounds.Solution(_NAME, task, task_kwargs, discount, make_actor, lambda: [usual.value])
     played = suite.load_task(_NAME, task, task_kwargs)
     prior = which_is_heavier.prior(played.options.difficulty)

@@ -42,27 +42,13 @@ class Solution(abc.ABC):
         """An upper bound on any experimenter's expected return: the value, if that is exact."""
         return self.value
 
-    @property
-    @abc.abstractmethod
-    def at_once(self) -> float:
-        """Expected return of the likeliest label, without any interaction."""
-
-    @property
-    @abc.abstractmethod
-    def random_value(self) -> float:
-        """Expected return of interactions drawn uniformly, with the best answers at the best moment."""
-
     @abc.abstractmethod
     def actor(self) -> core.Actor:
-        """Returns an actor that plays the policy in the real environment, from observations alone.
-
-        Raises:
-          ValueError: if the task's observations do not suffice.
-        """
+        """Returns an actor that plays from observations alone; raises ValueError if they do not suffice."""
 
     @abc.abstractmethod
     def judge(self, hidden: np.ndarray, actions: np.ndarray) -> Judgement:
-        """Returns the best possible beliefs and the values of the actions in an episode.
+        """Returns the best possible beliefs and the values of all actions in an episode.
 
         Args:
           hidden: the hidden property, [...].
@@ -80,30 +66,36 @@ class Solution(abc.ABC):
     def outcomes(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Returns N kinds of episodes of the policy.
 
-        Returns:
-          Numbers of interactions before the answer, int64 [N]; whether the answers are right, bool [N]; and the share
-          of each kind among all episodes, float64 [N].
+        They have a number of interactions, int64 [N]; a right answer or not, bool [N]; and a share of all episodes,
+        float64 [N].
         """
 
     def figures(self) -> dict[str, Any]:
         """Returns statistics of the policy, by name.
 
-        Returns:
-          `value` and `bound`, None if they are not finite; `accuracy`; `mean_interactions`; and `histogram`, the share
-          of episodes for each number of interactions.
+        They are `value` and `bound`, None if they are not finite; `accuracy`; `mean_interactions`; and `histogram`, the
+        share of episodes for each number of interactions.
         """
         interactions, right, shares = self.outcomes()
-        finite = {name: getattr(self, name) for name in ("value", "bound")}
         return {
-            **{name: value if math.isfinite(value) else None for name, value in finite.items()},
+            "value": self.value if math.isfinite(self.value) else None,
+            "bound": self.bound if math.isfinite(self.bound) else None,
             "accuracy": float(shares @ right),
             "mean_interactions": float(shares @ interactions),
             "histogram": {number: float(share) for number, share in enumerate(np.bincount(interactions, shares))},
         }
 
+    @abc.abstractmethod
+    def compared(self) -> dict[str, float]:
+        """Returns further statistics, by name, usually the expected returns of other policies.
+
+        Where they are known, they are `at_once`, of the likeliest label without any interaction; and `random_value`, of
+        interactions drawn uniformly, with the best answers at the best moment.
+        """
+
     def summary(self) -> dict[str, Any]:
-        """Returns the statistics of `figures` and further ones, usually `at_once` and `random_value`."""
-        return {**self.figures(), "at_once": self.at_once, "random_value": self.random_value}
+        """Returns the statistics of `figures` and of `compared`."""
+        return {**self.figures(), **self.compared()}
 
 
 class Player(core.EpisodicActor):

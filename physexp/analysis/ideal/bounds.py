@@ -34,8 +34,6 @@ def made_certain(task_kwargs: Mapping[str, Any]) -> dict[str, Any]:
 class Solution(base.Solution):
     """A policy, its mean return in played episodes, and an upper bound on any experimenter's expected return."""
 
-    at_once = random_value = math.nan  # Not computed.
-
     def __init__(
         self,
         domain: str,
@@ -45,7 +43,7 @@ class Solution(base.Solution):
         make_actor: Callable[[], core.Actor],
         find_bounds: Callable[[], Sequence[float]],
     ):
-        """Prepares the episodes, which are played on first use.
+        """Prepares the episodes, which are played on first use; raises ValueError for an unknown task or a bad option.
 
         Args:
           domain, task, task_kwargs: as for `suite.load`.
@@ -53,9 +51,6 @@ class Solution(base.Solution):
           make_actor: makes an actor that plays the policy.
           find_bounds: returns the values of informed experimenters in the first episode of each of the first
             environments of `SEED`; a single one if it is the same in all episodes.
-
-        Raises:
-          ValueError: for an unknown task or a bad option.
         """
         suite.load_task(domain, task, task_kwargs)  # Refuses bad options before any episode.
         self._played, self.discount = (domain, task, task_kwargs), discount
@@ -90,10 +85,10 @@ class Solution(base.Solution):
 
     @property
     def bound(self) -> float:
-        """The upper bound on any experimenter's expected return; `summary` has its standard error."""
+        """The upper bound on any experimenter's expected return."""
         return float(self._bounds.mean())
 
-    def actor(self) -> core.Actor:
+    def actor(self):
         return self._make_actor()
 
     def judge(self, hidden, actions):
@@ -103,9 +98,9 @@ class Solution(base.Solution):
         rewards, lengths = self._episodes
         return lengths - 1, rewards > 0, np.full(len(rewards), 1 / len(rewards))
 
-    def summary(self) -> dict[str, Any]:
-        """Returns the statistics of `figures`, and the standard errors `value_error` and `bound_error`."""
+    def compared(self):
+        """Returns the standard errors `value_error` and `bound_error`."""
         value_error, bound_error = float(stats.sem(self._returns)), 0.0
         if len(self._bounds) > 1:
             bound_error = math.hypot(value_error, stats.sem(self._bounds))
-        return {**self.figures(), "value_error": value_error, "bound_error": bound_error}
+        return {"value_error": value_error, "bound_error": bound_error}

@@ -16,19 +16,12 @@ _WIDTH = 4  # Actions explored at a time.
 
 @dataclasses.dataclass(frozen=True)
 class Criterion:
-    """The expected value that the search maximizes.
+    """The expected value that the search maximizes."""
 
-    Attributes:
-      discount: for each interaction.
-      cost: of each interaction.
-      known: value of an answer when the right label is known.
-      guesses: whether the policy may answer before, for 2 P - 1, P being the probability that the answer is right.
-    """
-
-    discount: float
-    cost: float
-    known: float
-    guesses: bool
+    discount: float  # For each interaction.
+    cost: float  # Of each interaction.
+    known: float  # Value of an answer when the right label is known.
+    guesses: bool  # Whether the policy may answer before, for 2 P - 1 if the answer is right with probability P.
 
     def answer(self, probability: float) -> float:
         """Returns the value of an answer that is right with some probability."""
@@ -43,21 +36,13 @@ class Criterion:
 
 @dataclasses.dataclass(frozen=True)
 class Node:
-    """A decision: an interaction and the decisions after each of its outcomes, or an answer.
+    """A decision: an interaction and the decisions after each of its outcomes, or an answer."""
 
-    Attributes:
-      support: the possible hypotheses.
-      action: the interaction, or None to answer.
-      label: the label to answer with.
-      expected: the observations after the interaction for each of them, arrays [size of the support, ...].
-      children: the next decision, for each hypothesis of the support.
-    """
-
-    support: Support
-    action: int | None
-    label: int
-    expected: Mapping[str, np.ndarray] = dataclasses.field(default_factory=dict)
-    children: Mapping[int, "Node"] = dataclasses.field(default_factory=dict)
+    support: Support  # The n possible hypotheses.
+    action: int | None  # The interaction, or None to answer.
+    label: int  # To answer with.
+    expected: Mapping[str, np.ndarray] = dataclasses.field(default_factory=dict)  # Observations after it, [n, ...].
+    children: Mapping[int, "Node"] = dataclasses.field(default_factory=dict)  # For each hypothesis of the support.
 
 
 class Search:
@@ -80,13 +65,10 @@ class Search:
     def run(
         self, state: State, left: int, max_depth: float = math.inf, max_steps: float = math.inf
     ) -> tuple[float, float]:
-        """Searches until the bounds meet, or the limits are reached; returns the bounds.
+        """Searches from a state on, with some actions left including the answer, until the bounds meet; returns them.
 
-        Args:
-          state: the start of the search.
-          left: actions left in the episode, including the answer.
-          max_depth: longest sequences of interactions to try.
-          max_steps: control steps that may be simulated.
+        It ends earlier when it has tried all sequences of `max_depth` interactions, or simulated `max_steps` control
+        steps.
         """
         end = self._hypotheses.steps + max_steps
         while True:

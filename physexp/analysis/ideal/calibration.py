@@ -10,6 +10,9 @@ from physexp import suite
 
 _NODES = 513
 
+Read = Callable[[Mapping[str, np.ndarray], int], float]
+"""Returns the hidden value of a thing, in (0, 1), from the observation after an interaction with it."""
+
 
 class Responses:
     """Readings of a thing for each of G hidden values, after it was touched at some steps; simulated when needed.
@@ -38,14 +41,8 @@ class Responses:
         return self._found[touched]
 
 
-def calibrate(
-    domain_name: str, task_name: str, feature: str, task_kwargs: Mapping[str, Any]
-) -> Callable[[Mapping[str, np.ndarray], int], float]:
-    """Returns a function of an observation and the interaction before it: the touched thing's hidden value, in (0, 1).
-
-    Raises:
-      ValueError: if different values give the same reading.
-    """
+def calibrate(domain_name: str, task_name: str, feature: str, task_kwargs: Mapping[str, Any]) -> Read:
+    """Returns a function that reads values; raises ValueError if different ones give the same reading."""
     responses = Responses(domain_name, task_name, feature, task_kwargs, np.linspace(0, 1, _NODES))
     readings = responses.after((True,))
     steps = np.diff(readings)

@@ -46,22 +46,14 @@ def split(
 
 @dataclasses.dataclass(eq=False)
 class History:
-    """A sequence of interactions: the states of all hypotheses after it, and the supports that it may leave.
+    """A sequence of interactions: the states of all hypotheses after it, and the supports that it may leave."""
 
-    Attributes:
-      snapshot: the states of the simulations.
-      supports: the supports that are followed further.
-      indistinguishable: which of their n members, in increasing order, have looked alike so far, bool [n, n].
-      successors: for each interaction that was tried and each support, the states that may follow, and their
-        probabilities.
-      representative: the history whose values are used for this one: itself, or an earlier one with the same state
-        within the tolerance.
-    """
-
-    snapshot: snapshots.Snapshot
-    supports: tuple[Support, ...]
-    indistinguishable: np.ndarray
+    snapshot: snapshots.Snapshot  # The states of the simulations.
+    supports: tuple[Support, ...]  # Those that are followed further; they have n members together.
+    indistinguishable: np.ndarray  # Which members, in increasing order, have looked alike so far, bool [n, n].
+    # For each interaction that was tried and each support, the states that may follow, and their probabilities.
     successors: "dict[int, dict[Support, list[tuple[float, State]]]]" = dataclasses.field(default_factory=dict)
+    # The history whose values are used: this one, or an earlier one with the same state within the tolerance.
     representative: "History" = dataclasses.field(init=False)
 
     def __post_init__(self):

@@ -62,9 +62,7 @@ class Hypotheses:
     ) -> list[tuple[np.ndarray, snapshots.Snapshot]]:
         """Tries interactions, each from the same states, with n hypotheses in increasing order.
 
-        Returns:
-          For each action, the distances between the observations after it, float64 [n, n] (see `distances`), and the
-          states after it.
+        Returns the `distances` between the observations after each of them, float64 [n, n], and the states after it.
         """
         observed, size = self._step(self._reading, snapshot, members, actions), len(members)
         outcomes = []
@@ -124,12 +122,8 @@ def distances(
 ) -> np.ndarray:
     """Returns the distances between N and M observations, [N, M].
 
-    Features: the largest distance between two readings of one thing, in the reading's unit. Images: the number of
-    pixels that differ.
-
-    Args:
-      observed, others: arrays by name, [N, ...] and [M, ...].
-      readings: the task's; arrays with other names are images.
+    Features, which are named in the task's readings: the largest distance between two readings of one thing, in the
+    reading's unit. Images: the number of pixels that differ.
     """
     found = []
     for name, values in observed.items():

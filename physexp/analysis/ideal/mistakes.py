@@ -25,21 +25,13 @@ KINDS: Mapping[str, str] = {
 
 @dataclasses.dataclass(frozen=True)
 class Actions:
-    """The judgement of N actions, from any number of episodes.
+    """The judgement of N actions, from any number of episodes."""
 
-    Attributes:
-      value: V, the value before each action, float64 [N].
-      worth: Q, the value of the action, float64 [N].
-      answering: the value of the best answer, float64 [N].
-      tells: whether the action could change the belief, bool [N].
-      bits: decrease of the entropy of the belief, float64 [N].
-    """
-
-    value: np.ndarray
-    worth: np.ndarray
-    answering: np.ndarray
-    tells: np.ndarray
-    bits: np.ndarray
+    value: np.ndarray  # V, the value before each action, float64 [N].
+    worth: np.ndarray  # Q, the value of the action, float64 [N].
+    answering: np.ndarray  # The value of the best answer, float64 [N].
+    tells: np.ndarray  # Whether the action could change the belief, bool [N].
+    bits: np.ndarray  # Decrease of the entropy of the belief, float64 [N].
 
 
 def actions(judgement: base.Judgement, taken: np.ndarray) -> Actions:

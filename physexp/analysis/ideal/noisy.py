@@ -6,35 +6,27 @@ looks one touch ahead (the value of information; Howard, 1966). It values untouc
 noise.
 """
 
-from collections.abc import Callable, Mapping
-import functools
-from typing import Any
-
 import numpy as np
 from scipy import special
 from scipy.stats import qmc
 
 from physexp.agents import core
-from physexp.analysis.ideal import base, bounds, calibration, odd_one_out
+from physexp.analysis.ideal import base, calibration, odd_one_out
 from physexp.suite.engine import priors
 
-_NODES = 257  # Of the values.
+VALUES = (np.arange(257) + 0.5) / 257
+"""The values that are told apart: the middles of equal parts of [0, 1]."""
 _OUTCOMES = 32  # Of a touch, to average over; drawn evenly (Sobol).
 _MAX_TOUCHES = 12  # Then it answers, or waits for the last step.
 
 
-def posterior(likelihoods: np.ndarray, values: np.ndarray, prior: priors.OddOneOut) -> tuple[np.ndarray, np.ndarray]:
-    """Returns the probability of each thing to have the largest value, and the distributions of the values.
+def posterior(likelihoods: np.ndarray, prior: priors.OddOneOut) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the probability of each thing to have the largest value, [N, K], and the distributions, [N, K, G].
 
-    Args:
-      likelihoods: of the readings of each thing, for each value, up to a factor for each thing; float64 [N, K, G].
-      values: the middles of G equal parts of [0, 1].
-      prior: distribution of the values.
-
-    Returns:
-      Probabilities, float64 [N, K] and [N, K, G]. Of two values in one part, either is as likely to be the larger one.
+    The likelihoods are those of the readings of each thing, for values in the middles of G equal parts of [0, 1], up to
+    a factor for each thing; float64 [N, K, G]. Of two values in one part, either is as likely to be the larger one.
     """
-    edges = np.linspace(0, 1, len(values) + 1)
+    edges = np.linspace(0, 1, likelihoods.shape[-1] + 1)
     # Every part has a positive probability, so that every reading is possible.
     chances = (np.diff(cdf(edges)) + np.finfo(float).tiny for cdf in (prior.common_cdf, prior.odd_cdf))
     common, odd = (chance * likelihoods for chance in chances)
@@ -54,24 +46,11 @@ def posterior(likelihoods: np.ndarray, values: np.ndarray, prior: priors.OddOneO
     return largest / largest.sum(1, keepdims=True), mixed
 
 
-def players(
-    exact: odd_one_out.Solution, domain_name: str, task_name: str, feature: str, task_kwargs: Mapping[str, Any]
-) -> Callable[[], core.Actor]:
-    """Returns a function that makes actors for the policy, which share their simulations.
-
-    Args:
-      exact: the ideal experimenter without noise.
-      domain_name, task_name, feature, task_kwargs: as for `calibration.Responses`, with the `noise`, m.
-    """
-    values = (np.arange(_NODES) + 0.5) / _NODES
-    responses = calibration.Responses(domain_name, task_name, feature, bounds.made_certain(task_kwargs), values)
-    return functools.partial(Player, exact, responses, task_kwargs["noise"])
-
-
 class Player(core.EpisodicActor):
     """Plays the policy; its state is the likelihood of the readings of each thing, and the steps of its touches."""
 
     def __init__(self, exact: odd_one_out.Solution, responses: calibration.Responses, noise: float):
+        """Takes the ideal experimenter without noise, the readings of `VALUES` without noise, and the noise, m."""
         self._exact, self._responses, self._noise = exact, responses, noise
         self._prior = exact.prior
         draws = qmc.Sobol(2, seed=0).random(_OUTCOMES)
@@ -83,7 +62,7 @@ class Player(core.EpisodicActor):
 
     def _begin(self, timestep):
         self._touched: list[tuple[bool, ...]] = [()] * self._prior.num_things
-        self._logs = np.zeros((self._prior.num_things, _NODES))
+        self._logs = np.zeros((self._prior.num_things, len(VALUES)))
         self._num_touches = 0
 
     def _choose(self, observation) -> int:
@@ -120,12 +99,12 @@ class Player(core.EpisodicActor):
         return -0.5 * ((read - self._responses.after(touched)) / self._noise) ** 2
 
     def _posterior(self, logs: np.ndarray):
-        return posterior(np.exp(logs - logs.max(-1, keepdims=True)), self._responses.values, self._prior)
+        return posterior(np.exp(logs - logs.max(-1, keepdims=True)), self._prior)
 
     def _value_of_touching(self, thing: int, density: np.ndarray) -> float:
         """Returns the expected return of touching a thing once more and answering then."""
         touched = (*self._touched[thing], True)
-        nodes = np.searchsorted(density.cumsum(), self._levels).clip(max=_NODES - 1)
+        nodes = np.searchsorted(density.cumsum(), self._levels).clip(max=len(VALUES) - 1)
         read = self._responses.after(touched)[nodes] + self._errors
         logs = np.repeat(self._logs[None], _OUTCOMES, axis=0)
         logs[:, thing] += self._log_likelihoods(read[:, None], touched)

@@ -15,7 +15,7 @@ from scipy import interpolate, special
 from scipy.stats import qmc
 
 from physexp.agents import core
-from physexp.analysis.ideal import base
+from physexp.analysis.ideal import base, calibration
 from physexp.suite.engine import priors, rules
 
 _LARGEST_NODES, _RATIO_NODES = 400, 33
@@ -24,9 +24,6 @@ _EPISODES = 2**17  # For the histogram; drawn evenly (Sobol), so that its error 
 _NEGLIGIBLE = 1e-9  # Part of a return.
 _EASIEST = 1e6  # The largest difficulty for which the grid is exact enough.
 
-Read = Callable[[Mapping[str, np.ndarray], int], float]
-"""Returns the value of the touched thing from the observation after an interaction."""
-
 
 def _posterior(values, largest, log_weight, prior) -> np.ndarray:
     """Returns the probability of each thing to have the largest value, given the statistics of the values, [N, K].
@@ -34,11 +31,10 @@ def _posterior(values, largest, log_weight, prior) -> np.ndarray:
     Only the largest touched thing has a probability above 0; untouched things share the rest.
     """
     touched = ~np.isnan(values)
-    unknown = (~touched).sum(axis=1)
-    chance = np.where(touched.any(axis=1), _largest_is_touched(unknown, largest, log_weight, prior), 0.0)
+    unknown, is_known = (~touched).sum(axis=1), touched.any(axis=1)
+    chance = np.where(is_known, _largest_is_touched(unknown, largest, log_weight, prior), 0.0)
     others = np.divide(1 - chance, unknown, out=np.zeros(len(values)), where=unknown > 0)
-    result = np.where(touched, 0.0, others[:, None])
-    rows = np.flatnonzero(touched.any(axis=1))
+    result, rows = np.where(touched, 0.0, others[:, None]), np.flatnonzero(is_known)
     result[rows, np.nanargmax(values[rows], axis=1)] = chance[rows]
     return result
 
@@ -80,7 +76,7 @@ class Solution(base.Solution):
     prior: priors.OddOneOut
     discount: float
     step_limit: float = math.inf
-    find_read: Callable[[], Read] | None = dataclasses.field(default=None, compare=False)
+    find_read: Callable[[], calibration.Read] | None = dataclasses.field(default=None, compare=False)
 
     def __post_init__(self):
         if self.prior.difficulty > _EASIEST:
@@ -90,30 +86,25 @@ class Solution(base.Solution):
     def value(self) -> float:
         return self._value(at_random=False)
 
-    @property
-    def at_once(self) -> float:
-        return base.answer_values(1 / self.prior.num_things)
-
-    @property
-    def random_value(self) -> float:
-        return self._value(at_random=True)
+    def compared(self):
+        return {"at_once": base.answer_values(1 / self.prior.num_things), "random_value": self._value(at_random=True)}
 
     def _value(self, at_random: bool) -> float:
+        at_once = base.answer_values(1 / self.prior.num_things)
         if self.step_limit == 1:
-            return self.at_once
+            return at_once
         touch = _touch(self.prior, self.discount, 0, self.step_limit, at_random)
-        return max(self.at_once, float(touch(np.zeros((1, 2)))[0]))
+        return max(at_once, float(touch((np.zeros(1), np.zeros(1)))[0]))
 
     def evaluate(self, known: np.ndarray, left: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Returns the posterior, and the value of one more touch of an unknown thing.
+        """Returns the posterior, and the value of one more touch of an unknown thing, -inf if there is none.
+
+        The posterior has the probability of each thing to have the largest value, float64 [N, K]; values are float64
+        [N].
 
         Args:
           known: the values found, in [0, 1], NaN for untouched things, float64 [N, K].
           left: number of actions left in the episode, at least 1; one for each row, [N], or one for all.
-
-        Returns:
-          The probability of each thing to have the largest value, float64 [N, K], and the value of a touch, float64
-          [N], -inf if all things are known.
         """
         largest, log_weight = _statistics(known, self.prior)
         touches = (~np.isnan(known)).sum(axis=1)
@@ -125,7 +116,7 @@ class Solution(base.Solution):
                 rows = (touches == number) & (useful == steps)
                 most, touch_in = largest[rows], _touch(self.prior, self.discount, number, steps)
                 ratio = np.exp(log_weight[rows] - self.prior.log_ratio(most)) if number else np.zeros(len(most))
-                touch[rows] = touch_in(_points(most, ratio))
+                touch[rows] = touch_in((most, ratio))
         return _posterior(known, largest, log_weight, self.prior), touch
 
     def actions(self, known: np.ndarray, left: float | np.ndarray) -> np.ndarray:
@@ -137,12 +128,10 @@ class Solution(base.Solution):
     def play(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Plays episodes of things with some values, float64 [N, K], without physics.
 
-        Returns:
-          Touches, int64 [N], and whether the answer was right, bool [N].
+        Returns the touches, int64 [N], and whether the answer was right, bool [N].
         """
-        known = np.full(values.shape, np.nan)
+        known, going = np.full(values.shape, np.nan), np.arange(len(values))
         touches, labels = np.zeros(len(values), np.int64), np.full(len(values), -1)
-        going = np.arange(len(values))
         while len(going):
             actions = self.actions(known[going], self.step_limit - touches[going])
             touching = actions < self.prior.num_things
@@ -172,12 +161,7 @@ class Solution(base.Solution):
         return self.judge_all(np.asarray(hidden)[None], [actions])[0]
 
     def judge_all(self, values: np.ndarray, actions: Sequence[np.ndarray]) -> list[base.Judgement]:
-        """Returns the judgements of N episodes, much faster than one after the other.
-
-        Args:
-          values: values of the things, float64 [N, K].
-          actions: the actions of each episode, N arrays int64 [T].
-        """
+        """Returns the judgements of N episodes, of values [N, K] and actions int64 [T]; faster than one by one."""
         ends = np.cumsum([len(taken) + 1 for taken in actions])[:-1]
         steps = np.concatenate([np.arange(len(taken) + 1) for taken in actions])
         are_touches = [taken[:, None] == np.arange(self.prior.num_things) for taken in map(np.asarray, actions)]
@@ -205,8 +189,8 @@ class Solution(base.Solution):
 @functools.lru_cache(maxsize=512)
 def _touch(
     prior: priors.OddOneOut, discount: float, known: int, left: float, at_random: bool = False
-) -> Callable[[np.ndarray], np.ndarray]:
-    """Returns the value of one more touch, as a function of states, points [N, 2] of (largest value found, t).
+) -> Callable[[tuple[np.ndarray, np.ndarray]], np.ndarray]:
+    """Returns the value of one more touch, as a function of states, two arrays: of the largest values found, and of t.
 
     The touch is of an unknown thing, or else drawn uniformly among all; fewer than all are known, and at least two
     actions left.
@@ -225,10 +209,10 @@ def _touch(
     elif again:
         value = _answer_value(num_things - known, largest, ratio, prior)
         if left > 2:
-            value = np.maximum(value, _touch(prior, discount, known, left - 1, True)(_points(largest, ratio)))
+            value = np.maximum(value, _touch(prior, discount, known, left - 1, True)((largest, ratio)))
         values += discount * again * value
     if not known:
-        return lambda points: np.full(len(points), values[0])
+        return lambda states: np.full(len(states[0]), values[0])
     shape = [len(axis) for axis in axes]
     return interpolate.RegularGridInterpolator(axes, values.reshape(shape), bounds_error=False, fill_value=None)
 
@@ -282,7 +266,7 @@ def _value_after(known, unknown, largest, ratio, value, prior, after) -> np.ndar
     else:
         largest, ratio = value, np.ones_like(value)
     answer = _answer_value(unknown - 1, largest, ratio, prior)
-    return answer if after is None else np.maximum(answer, after(_points(largest, ratio)))
+    return answer if after is None else np.maximum(answer, after((largest, ratio)))
 
 
 def _answer_value(unknown: int, largest, ratio, prior) -> np.ndarray:
@@ -290,7 +274,3 @@ def _answer_value(unknown: int, largest, ratio, prior) -> np.ndarray:
     log_weight = prior.log_ratio(largest) + np.log(ratio)
     chance = _largest_is_touched(np.full(largest.shape, unknown), largest, log_weight, prior)
     return base.answer_values(np.maximum(chance, (1 - chance) / unknown))
-
-
-def _points(largest, ratio) -> np.ndarray:
-    return np.stack([largest, ratio], axis=-1)

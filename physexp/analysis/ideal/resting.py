@@ -124,10 +124,7 @@ class _States:
 class Solution(base.Solution):
     """The best policy and its value, exact.
 
-    Attributes:
-      apparatus: the apparatus, with A interactions and L labels.
-      discount: for each interaction.
-      step_limit: number of steps in an unanswered episode.
+    An answer after n interactions earns discount^n, times -1 if it is wrong; an unanswered episode earns -1 at its end.
     """
 
     def __init__(
@@ -140,11 +137,8 @@ class Solution(base.Solution):
     ):
         """Finds the policy.
 
-        An answer after n interactions earns discount^n, times -1 if it is wrong; an unanswered episode earns -1 after
-        the last step.
-
         Args:
-          apparatus, discount, step_limit: see the class.
+          apparatus, discount, step_limit: the apparatus, gamma, and the number of steps in an unanswered episode.
           read: returns the reading in an observation; None if observations do not contain it.
           label: returns the right label for a hidden property; needed to judge episodes.
         """
@@ -169,19 +163,15 @@ class Solution(base.Solution):
             at_random = np.maximum(states.answer, discount * states.after(at_random).mean(axis=1))
             if all(np.array_equal(*pair) for pair in zip(before, (best, at_random, length), strict=True)):
                 break  # More steps change nothing.
-        self._value, self._random_value = float(best[0]), float(at_random[0])
+        self._value = float(best[0])
+        self._compared = {"at_once": float(states.answer[0]), "random_value": float(at_random[0])}
 
     @property
     def value(self) -> float:
         return self._value
 
-    @property
-    def at_once(self) -> float:
-        return float(self._states.answer[0])
-
-    @property
-    def random_value(self) -> float:
-        return self._random_value
+    def compared(self):
+        return self._compared
 
     def action(self, state: State, step: int) -> int:
         """Returns the best action in a state after `step` interactions, fewer than `step_limit`."""

@@ -24,13 +24,7 @@ _MAX_HISTORIES = 30_000  # Kept for judging: about 600 MB for 40 hypotheses.
 
 
 class Solution(base.Solution):
-    """The best policy; the search runs when a result of it is first needed.
-
-    Attributes:
-      hypotheses: the hypotheses about the hidden property.
-      discount: the agent's gamma.
-      objective: one of `OBJECTIVES`.
-    """
+    """The best policy; the search runs when a result of it is first needed."""
 
     def __init__(
         self,
@@ -43,7 +37,7 @@ class Solution(base.Solution):
         """Prepares the search.
 
         Args:
-          hypotheses, discount: see the class.
+          hypotheses, discount: the hypotheses about the hidden property, and the agent's gamma.
           resolution: the difference above which two observations are distinguished: in the readings' unit for features,
             in pixels for images. At 0 every bit counts, and the bound holds for every agent.
           objective: `return`, the expected discounted return; or `time`, the fewest interactions until the right label
@@ -55,37 +49,29 @@ class Solution(base.Solution):
         self._new_histories = functools.partial(histories_lib.Histories, hypotheses, resolution)
         self._tolerance, self._step_limit = tolerance, hypotheses.task.rules.step_limit
 
+    def _searching(self, **kwargs: Any) -> branch_and_bound.Search:
+        if self.objective == "return":
+            criterion = branch_and_bound.Criterion(self.discount, cost=0.0, known=1.0, guesses=True)
+        else:
+            criterion = branch_and_bound.Criterion(discount=1.0, cost=1.0, known=0.0, guesses=False)
+        return branch_and_bound.Search(criterion, self._new_histories(**kwargs))
+
     @functools.cached_property
-    def histories(self) -> histories_lib.Histories:
-        """The tree of sequences of interactions."""
-        return self._new_histories()
+    def _search(self) -> branch_and_bound.Search:
+        return self._searching()
+
+    @functools.cached_property
+    def _judging(self) -> branch_and_bound.Search:
+        return self._search if self._tolerance is None else self._searching(tolerance=self._tolerance)
 
     @functools.cached_property
     def _complete_histories(self) -> histories_lib.Histories:
         return self._new_histories(splits_determined=True)
 
     @functools.cached_property
-    def _search(self) -> branch_and_bound.Search:
-        return self._searching(self.histories)
-
-    @functools.cached_property
-    def _judging(self) -> branch_and_bound.Search:
-        return self._search if self._tolerance is None else self._new_judging()
-
-    def _new_judging(self) -> branch_and_bound.Search:
-        return self._searching(self._new_histories(tolerance=self._tolerance))
-
-    def _searching(self, histories: histories_lib.Histories) -> branch_and_bound.Search:
-        if self.objective == "return":
-            criterion = branch_and_bound.Criterion(self.discount, cost=0.0, known=1.0, guesses=True)
-        else:
-            criterion = branch_and_bound.Criterion(discount=1.0, cost=1.0, known=0.0, guesses=False)
-        return branch_and_bound.Search(criterion, histories)
-
-    @functools.cached_property
     def _found(self) -> tuple[float, float, branch_and_bound.Node]:
         """The value and the bound of the objective, and the policy."""
-        root = self.histories.start, self._step_limit
+        root = self._search.histories.start, self._step_limit
         low, high = self._search.run(*root, _MAX_DEPTH, _MAX_STEPS)
         sign = 1.0 if self.objective == "return" else -1.0
         return sign * low, sign * high, self._search.policy(*root)
@@ -133,7 +119,7 @@ class Solution(base.Solution):
         if self.objective != "return":
             raise ValueError(f"objective is {self.objective!r}; to judge actions, solve for the return")
         if self._judging.histories.count > _MAX_HISTORIES:
-            self._judging = self._new_judging()
+            self._judging = self._searching(tolerance=self._tolerance)
         known = self._judging.histories
         return finite.judge(known, self._hypothesis(hidden), actions, self._interaction_values)
 
@@ -178,23 +164,13 @@ class Solution(base.Solution):
         found = super().figures()
         return {**found, "mean_seconds": found["mean_interactions"] * self.hypotheses.task.options.control_timestep}
 
-    def summary(self) -> dict[str, Any]:
-        """Returns the statistics of `figures`, and for the return those of `random_play.bounds`."""
-        return self.figures() if self.objective != "return" else {**self.figures(), **self.random_bounds}
-
-    @property
-    def at_once(self) -> float:
-        return self.random_bounds["at_once"]
-
-    @property
-    def random_value(self) -> float:
-        """A lower bound on the return of random interactions with the best answers at the best moment."""
-        return self.random_bounds["random_value"]
+    def compared(self):
+        """Returns the returns of `random_play.bounds`, if the objective is the return."""
+        return self._random_bounds if self.objective == "return" else {}
 
     @functools.cached_property
-    def random_bounds(self) -> dict[str, float]:
-        """The returns of `random_play.bounds`."""
-        return random_play.bounds(self.histories, self.discount)
+    def _random_bounds(self) -> dict[str, float]:
+        return random_play.bounds(self._search.histories, self.discount)
 
 
 def curve(hypotheses: hypotheses_lib.Hypotheses, resolutions: Sequence[float], discount: float) -> list[dict[str, Any]]:
