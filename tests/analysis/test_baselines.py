@@ -13,17 +13,11 @@ TASKS = ["direct_features", "fist_features"]
 NUM_ACTORS = 32
 
 
-@pytest.fixture
-def seed():
-    """Another seed in each run."""
-    return fresh_seed()
-
-
-def _right(task, player, seed, num_rounds=1, **task_kwargs):
+def _right(task, player, num_rounds=1, **task_kwargs):
     """The share of right answers of a baseline, and its mean number of actions, in rounds of 32 episodes."""
     make = domains.find("towers").baselines[task][player]
     actors = [make() for _ in range(NUM_ACTORS)]
-    rewards, lengths = rollouts.play(actors, "towers", task, task_kwargs, num_rounds, seed)
+    rewards, lengths = rollouts.play(actors, "towers", task, task_kwargs, num_rounds, fresh_seed())
     return (rewards > 0).mean(), lengths.mean()
 
 
@@ -31,21 +25,21 @@ def _right(task, player, seed, num_rounds=1, **task_kwargs):
 @pytest.mark.parametrize(
     "task_kwargs", [{"variation": 1.0}, {"variation": 1.0, "cube_size": 0.095, "sliding_friction": 0.45}]
 )
-def test_the_rule_is_right_whatever_varies(seed, task, task_kwargs):
-    right, length = _right(task, "rule", seed, **task_kwargs)
+def test_the_rule_is_right_whatever_varies(task, task_kwargs):
+    right, length = _right(task, "rule", **task_kwargs)
     assert right > 0.8  # It is in 0.988 and more; seven wrong of 32 are less likely than one in a million.
     assert length < 6
 
 
 @pytest.mark.parametrize("task", TASKS)
-def test_the_lookup_is_right_but_for_towers_that_vary(seed, task):
-    right, length = _right(task, "lookup", seed)
+def test_the_lookup_is_right_but_for_towers_that_vary(task):
+    right, length = _right(task, "lookup")
     ideal = domains.find("towers").ideal(task, {}, 0.98, resolution=0.001)
     interactions, _, _ = ideal.outcomes()
     assert right == 1
     assert interactions.min() + 1 <= length <= interactions.max() + 1
     # It is in 0.62 with pushes and 0.31 with the fist; 116 of 128, where 0.65 are right, are less likely than 1e-9.
-    assert _right(task, "lookup", seed, 4, variation=1.0)[0] < 0.9
+    assert _right(task, "lookup", 4, variation=1.0)[0] < 0.9
 
 
 class _Counter(core.Actor):
@@ -70,7 +64,8 @@ class _Counter(core.Actor):
         self.told.append("updated")
 
 
-def test_actors_side_by_side_play_as_each_alone(seed):
+def test_actors_side_by_side_play_as_each_alone():
+    seed = fresh_seed()
     actors = [_Counter(number, label) for number, label in [(0, 0), (2, 4), (5, 1), (99, 2)]]
     rewards, lengths = rollouts.play(actors, "towers", "fist_features", {}, 2, seed)
     assert lengths.tolist() == [[1, 3, 6, 26]] * 2  # The last runs out of time.

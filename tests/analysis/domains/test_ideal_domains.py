@@ -17,13 +17,15 @@ from physexp.analysis.ideal import random_play, rollouts
 
 NAMES = [name for name, domain in domains.DOMAINS.items() if domain.ideal is not None]
 TASKS = [(domain, task) for domain, task in suite.tagged("features") if domain in NAMES]
+QUICK = {"strike": {"time_limit": 0.5}}  # At its usual time limit the search takes half a minute.
 
 
 @pytest.mark.parametrize(("domain", "task"), TASKS)
 def test_its_mean_return_in_the_real_environment_is_its_value(domain, task):
     discount = domains.find(domain).discount
-    solution = ideals.of(domain, task)
-    rewards, lengths = rollouts.play([solution.actor() for _ in range(48)], domain, task, {}, 8, fresh_seed())
+    options = QUICK.get(domain, {})
+    solution = ideals.of(domain, task, **options)
+    rewards, lengths = rollouts.play([solution.actor() for _ in range(48)], domain, task, options, 8, fresh_seed())
     returns = rewards * discount ** (lengths - 1)
     # A return is plus or minus the discount to the number of interactions. In some domains wrong answers are so rare
     # that a sample may have none, so its own spread cannot be used.
@@ -40,8 +42,9 @@ def test_its_mean_return_in_the_real_environment_is_its_value(domain, task):
 
 @pytest.mark.parametrize(("domain", "task"), TASKS)
 def test_its_belief_starts_at_the_prior_and_ends_at_its_answer(domain, task):
-    solution = ideals.of(domain, task)
-    environment = suite.load(domain, task, task_kwargs={"random": fresh_seed()})
+    options = QUICK.get(domain, {})
+    solution = ideals.of(domain, task, **options)
+    environment = suite.load(domain, task, task_kwargs={**options, "random": fresh_seed()})
     recorder = observers.Watcher()
     loop = environment_loop.EnvironmentLoop(environment, solution.actor(), [recorder])
     for _ in range(5):
@@ -54,10 +57,13 @@ def test_its_belief_starts_at_the_prior_and_ends_at_its_answer(domain, task):
         assert beliefs[-1].max() > beliefs[0].max()
 
 
-@pytest.mark.parametrize("domain", [name for name in NAMES if name != "towers"])
+@pytest.mark.parametrize(
+    "domain", [pytest.param(name, marks=[pytest.mark.long] * (name in QUICK)) for name in NAMES if name != "towers"]
+)
 def test_there_is_something_to_find_out(domain, monkeypatch):
     monkeypatch.setattr(random_play, "_NUM_SEQUENCES", 64)  # The standard error stays below 0.03.
     found = ideals.of(domain).summary()
+    assert {"value", "bound", "accuracy"} <= set(found) and sum(found["histogram"].values()) == pytest.approx(1)
     assert found["mean_interactions"] >= 2
     assert found["at_once"] <= 0.3 * found["value"]
     best_at_random = found.get("random_bound", found["random_value"])
@@ -68,10 +74,10 @@ def test_there_is_something_to_find_out(domain, monkeypatch):
 @pytest.mark.parametrize(
     ("domain", "difficulties", "task_kwargs"),
     [
-        ("which_is_heavier", (3.0, 5.0, 10.0), {}),
+        ("which_is_heavier", (3.0, 10.0), {}),
         ("threshold", (1, 2, 3), {}),
-        ("balance", (1, 2, 3), {}),
-        ("strings", (1, 1.5, 2, 3, 5), {}),
+        ("balance", (1, 3), {}),
+        ("strings", (1, 1.5, 3, 5), {}),
         ("sealed_box", (1, 2, 3), {"time_limit": 0.5}),
         ("strike", (1, 2, 3), {"time_limit": 0.5}),
     ],
@@ -81,13 +87,6 @@ def test_a_larger_difficulty_is_easier(domain, difficulties, task_kwargs):
     assert (np.diff([solution.value for solution in solutions]) > 0).all()
     if not task_kwargs:
         assert (np.diff([solution.figures()["mean_interactions"] for solution in solutions]) < 0).all()
-
-
-@pytest.mark.parametrize("domain", ["which_is_heavier", "balance", "strike"])  # One of each family.
-def test_a_summary_has_the_common_statistics(domain):
-    summary = ideals.of(domain, **({"time_limit": 0.4} if domain == "strike" else {})).summary()
-    assert {"value", "bound", "accuracy", "mean_interactions", "histogram", "at_once", "random_value"} <= set(summary)
-    assert sum(summary["histogram"].values()) == pytest.approx(1)
 
 
 def test_a_question_is_solved_once_whatever_its_seed():

@@ -6,10 +6,10 @@ from seeds import fresh_seed
 
 from physexp import suite
 from physexp.analysis import domains
-from physexp.analysis.ideal import bounds, rollouts
+from physexp.analysis.ideal import rollouts
 from physexp.suite.domains import which_is_heavier
 
-_DISCOUNT, _NUM_ACTORS, _NUM_ROUNDS = 0.95, 64, 10
+_DISCOUNT, _NUM_ACTORS, _NUM_ROUNDS = 0.95, 64, 8
 NOISE = 0.03  # m; a poke shows the lightest and the heaviest block 0.16 m apart.
 
 
@@ -65,28 +65,17 @@ def test_its_beliefs_agree_with_importance_sampling():
     np.testing.assert_allclose(actor.beliefs(), expected, atol=5 * error)
 
 
-def test_its_value_agrees_with_its_beliefs(played, monkeypatch):
-    monkeypatch.setattr(bounds, "NUM_EPISODES", 160)
-    solution = ideal(noise=NOISE)
-    expected = np.array(
-        [(2 * beliefs.max() - 1) * _DISCOUNT ** (len(actions) - 1) for _, actions, _, beliefs in played]
-    )
-    error = np.hypot(solution.summary()["value_error"], expected.std() / len(expected) ** 0.5)
-    assert abs(solution.value - expected.mean()) < 5 * error
-    assert solution.bound == ideal().value
-
-
 def test_it_touches_again_where_a_gap_is_small(played):
     gaps = which_is_heavier.mass_gaps(np.array([masses for masses, *_ in played]))
     is_again = np.array([len(set(actions)) < len(actions) for _, actions, *_ in played])
     again, once = gaps[is_again], gaps[~is_again]
     error = np.hypot(again.std() / len(again) ** 0.5, once.std() / len(once) ** 0.5)
-    assert once.mean() - again.mean() > 3 * error  # In 640 episodes, about 8.
+    assert once.mean() - again.mean() > 3 * error  # In 512 episodes, about 7.
 
 
 def test_it_delays_the_answer_if_readings_are_useless():
     """A guess costs 0.5, discounted: the least in the last of the 100 steps, where silence costs 1."""
-    actors = [ideal(noise=100.0).actor() for _ in range(4)]
+    actors = [ideal(noise=100.0).actor() for _ in range(2)]
     batch = suite.load_batch("which_is_heavier", "features", len(actors), {"noise": 100.0, "random": fresh_seed()})
     *others, last = (acted for _, acted, _ in rollouts.play_round(actors, batch, 0))
     assert len(others) == 99 and (np.array(others) < 4).all() and (last >= 4).all()

@@ -17,6 +17,8 @@ from physexp.analysis.ideal import bounds, histories, hypotheses, mistakes, roll
 from physexp.suite.domains.towers import PRIOR
 from physexp.suite.engine import declarations
 
+SHORT = {"time_limit": 1.0}  # Ten actions: a wandering fist may stand in fewer places.
+
 
 def solve(world, objective="return", discount=0.9, resolution=0.5):
     return search.Solution(world, resolution, discount, objective)
@@ -45,7 +47,7 @@ def test_an_action_that_reveals_the_count_is_taken_once():
         solution = solve(world, objective)
         assert solution.value == pytest.approx(value) and solution.bound == pytest.approx(value)
         assert solution.policy.action == 1
-        assert solution.summary()["histogram"] == {0: 0.0, 1: 1.0}
+        assert solution.figures()["histogram"] == {0: 0.0, 1: 1.0}
 
 
 def test_an_observation_decides_the_next_action():
@@ -65,7 +67,7 @@ def test_an_observation_decides_the_next_action():
     one, three = COUNTS.index(1), COUNTS.index(3)
     assert solution.policy.action == 0
     assert solution.policy.children[one].action == 1 and solution.policy.children[three].action == 2
-    assert solution.summary()["accuracy"] == 1.0
+    assert solution.figures()["accuracy"] == 1.0
     assert solve(MadeWorld(3, tells)).value == pytest.approx(0.9**2)
 
 
@@ -84,7 +86,7 @@ def test_it_guesses_if_another_interaction_costs_more(monkeypatch):
     monkeypatch.setattr(search, "_MAX_DEPTH", 3)
     guessing = solve(MadeWorld(2, useless))
     assert guessing.value == pytest.approx(0.9 * 0.6)
-    assert guessing.summary()["accuracy"] == pytest.approx(0.8)
+    assert guessing.figures()["accuracy"] == pytest.approx(0.8)
     # The search ended after three actions, so the bound is larger.
     assert guessing.bound > guessing.value
 
@@ -124,11 +126,11 @@ def test_actions_are_judged_by_the_best_return_after_them():
 
 def test_luck_is_zero_on_average_for_a_wandering_fist():
     """The fist moves at random, mostly to +x, and answers once a cube has moved."""
-    solution = ideals.of("towers", "fist_features")
+    solution = ideals.of("towers", "fist_features", **SHORT)
     generator, size = np.random.default_rng(fresh_seed()), 16
-    moves = generator.choice(4, (size, 25), p=[0.55, 0.15, 0.15, 0.15])
+    moves = generator.choice(4, (size, 10), p=[0.55, 0.15, 0.15, 0.15])
     actors = [glue.GlueRule(row, 4) for row in moves]
-    batch = suite.load_batch("towers", "fist_features", size, {"random": fresh_seed()})
+    batch = suite.load_batch("towers", "fist_features", size, {**SHORT, "random": fresh_seed()})
     taken: list[list[int]] = [[] for _ in range(size)]
     returns = np.zeros(size)
     for rows, acted, after in rollouts.play_round(actors, batch, 0):
@@ -143,7 +145,7 @@ def test_luck_is_zero_on_average_for_a_wandering_fist():
 
 def test_judged_beliefs_are_exact_after_a_detour():
     wandering = np.array(6), np.array([3, 2, 2, 1, 1, 0, 0, 0, 0])
-    solution = ideals.of("towers", "fist_features")
+    solution = ideals.of("towers", "fist_features", **SHORT)
     np.testing.assert_allclose(solution.judge(*wandering).beliefs, solution.beliefs(*wandering))
 
 

@@ -3,7 +3,6 @@
 import functools
 import math
 
-import ideals
 from made_worlds import COUNTS, PATTERNS, MadeWorld
 import numpy as np
 import pytest
@@ -69,18 +68,13 @@ def exact(discount, step_limit):
     return value((), tuple(range(PATTERNS)), step_limit)
 
 
-@pytest.mark.parametrize("discount, step_limit", [(0.9, 12), (0.9, 4), (0.5, 10)])
+@pytest.mark.parametrize("discount, step_limit", [(0.9, 12), (0.5, 4)])
 def test_the_exact_value_lies_between_the_bounds(discount, step_limit):
     found = random_play.bounds(histories.Histories(MadeWorld(3, bits, step_limit), 0.5), discount)
     error = 5 * 0.25 / math.sqrt(64)  # Five standard errors: sequences differ by less than a quarter from their mean.
     expected = exact(discount, step_limit)
     assert found["random_value"] <= found["random_bound"] + 1e-12
     assert found["random_value"] - error < expected < found["random_bound"] + error
-
-
-def test_random_interactions_earn_less_than_the_ideal():
-    found = ideals.of("towers", "direct_features").summary()
-    assert found["at_once"] < found["random_value"] <= found["random_bound"] <= found["value"] + 1e-9
 
 
 def test_they_are_in_the_summary_of_the_return_alone():
