@@ -206,10 +206,8 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
     def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> tuple[Observation, Infos]:
         """Starts the next episode everywhere; with a seed, the first of each: `environment_seed(seed, i)`.
 
-        Args:
-          seed: an integer in [0, 2**63).
-          options: `episode`, the index of the episode to start in place of the next one; `reset_mask`, bool
-            [num_envs], true for the environments to reset, which are all at first.
+        The options are `episode`, the index of the episode to start in place of the next one, and `reset_mask`, bool
+        [num_envs], true for the environments to reset, which are all at first.
         """
         seed, options = _SEED("seed", seed), _check_options(options, "episode", "reset_mask")
         mask = self._check_mask(options.get("reset_mask"), seed)

@@ -68,9 +68,7 @@ def test_only_the_right_label_earns_one_and_silence_loses_one(env):
     "domain, kind, num_interactions, num_labels, step_limit",
     [("which_is_heavier", "", 4, 4, 100), ("towers", "direct_", 20, 5, 26), ("towers", "fist_", 4, 5, 26)],
 )
-def test_the_numbers_of_the_papers_tasks_are_those_that_users_code_is_written_against(
-    domain, kind, num_interactions, num_labels, step_limit
-):
+def test_the_papers_tasks_have_the_papers_numbers(domain, kind, num_interactions, num_labels, step_limit):
     for observed in ("features", "pixels"):
         assert (domain, f"{kind}{observed}") in suite.ALL_TASKS and f"{kind}{observed}" in suite.TASKS_BY_DOMAIN[domain]
         environment = suite.load(domain, f"{kind}{observed}", task_kwargs={"random": 0})

@@ -259,7 +259,7 @@ LLVMPIPE = "llvmpipe (LLVM 15.0.6, 256 bits)"
 @pytest.mark.parametrize(
     "name, has_gpu, is_said", [(LLVMPIPE, True, True), (LLVMPIPE, False, False), ("NVIDIA H100/PCIe/SSE2", True, False)]
 )
-def test_drawing_by_software_on_a_machine_with_a_gpu_warns_once_in_all_processes(name, has_gpu, is_said, monkeypatch):
+def test_drawing_by_software_beside_a_gpu_warns_once_in_all_processes(name, has_gpu, is_said, monkeypatch):
     monkeypatch.setenv(gl._SAID, "")  # So that it is restored afterwards.
     monkeypatch.delenv(gl._SAID)
     monkeypatch.setattr(gl, "gpu_is_present", lambda: has_gpu)

@@ -49,7 +49,7 @@ def test_environment_seeds_collide_no_more_than_random_numbers_do(seed):
 
 
 @every_feature_task
-def test_an_episode_follows_from_seed_and_index_and_another_seed_has_others(seed, domain_name, task_name):
+def test_an_episode_follows_from_its_seed_and_its_index(seed, domain_name, task_name):
     env, alone, other = (suite.load(domain_name, task_name, {"random": value}) for value in (seed, seed, seed + 1))
     episodes = [_episode(env) for _ in range(6)]
     assert env.task.episode == 5

@@ -106,7 +106,7 @@ found["process"] = os.getpid()
 
 
 @pytest.mark.parametrize("num_threads", [1, 2])
-def test_a_forked_process_steps_a_batch_of_one_thread_and_has_none_for_one_of_several(num_threads):
+def test_a_fork_steps_a_batch_of_one_thread_and_no_other(num_threads):
     found, _ = interpreters.run(FORK.replace("NUM_THREADS", str(num_threads)))
     refusal = f"this batch was loaded in process {found['process']}, and this is a fork; load another"
     assert found["ended"] == 0

@@ -115,8 +115,7 @@ class BatchEnvironment:
           nuisances: their random variation, [N, number of nuisances] in [-1, 1], for analysis; drawn by default.
 
         Raises:
-          ValueError: for indices out of range, or for values without the shape, the type and the range of drawn ones;
-            all episodes stay as they were.
+          ValueError: for a value that no episode could have; all episodes stay as they were.
         """
         with self.in_use(environments) as chosen:
             if episode is not None:

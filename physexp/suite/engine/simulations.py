@@ -17,7 +17,7 @@ class Group:
     def __init__(self, task: contract.Task, apparatus: apparatus_lib.Apparatus, size: int, num_threads: int):
         self._task, self.apparatus = task, apparatus
         self._batch = Batch(apparatus.model, size, num_threads)
-        self.view = self._batch.bind  # Returns a field of `MjData` of all rows, not a copy.
+        self.view = self._batch.bind  # A field of `MjData` of all rows, not a copy.
         self._batch.reset(stage=mujoco.mjtStage.mjSTAGE_NONE)
         self._rest = self._batch.state[0].copy()
         # If all episodes start alike, one initial state and one first observation are enough.
