@@ -89,8 +89,8 @@ class Solution(abc.ABC):
     def compared(self) -> dict[str, float]:
         """Returns further statistics, by name, usually the expected returns of other policies.
 
-        Where they are known, they are `at_once`, of the likeliest label without any interaction; and `random_value`, of
-        interactions drawn uniformly, with the best answers at the best moment.
+        Most families have `at_once`, the return of the likeliest label without any interaction, and `random_value`, the
+        return of interactions drawn uniformly, with the best answers at the best moment.
         """
 
     def summary(self) -> dict[str, Any]:

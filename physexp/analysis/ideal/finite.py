@@ -1,4 +1,4 @@
-"""What all solvers of questions with finitely many hypotheses share: walks through information states."""
+"""Walks through the information states of a question with finitely many hypotheses."""
 
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, Protocol

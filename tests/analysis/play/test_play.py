@@ -130,7 +130,7 @@ def test_features_fit_the_terminal(columns):
         ("towers", "fist_features", ["How many rigid bodies is the tower made of?", "O is the fist"]),
     ],
 )
-def test_the_question_comes_first_in_words_and_what_is_no_action_is_asked_again(domain, task, words):
+def test_the_question_comes_first_and_a_wrong_word_is_asked_again(domain, task, words):
     shown = []
     scores = game.play(domain, task, seed=1, read=typed("nine", "99", "-1", "?", "q", "0"), show=shown.append)
     assert scores["you"].episodes == 0
