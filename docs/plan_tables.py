@@ -2,13 +2,13 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from physexp.analysis.experiments import EXPERIMENTS, base, claims, conditions
+from physexp.analysis.experiments import EXPERIMENTS, base, claims, conditions, report
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """Returns a Markdown table; nothing without rows."""
-    lines = ["| " + " | ".join(row) + " |" for row in rows]
-    return "\n".join(["| " + " | ".join(header) + " |", "|" + "---|" * len(header), *lines, ""]) if lines else ""
+    rows = list(rows)
+    return report.markdown_table([header, *rows]) + "\n" if rows else ""
 
 
 def changes() -> str:

@@ -31,8 +31,9 @@ def figures() -> Iterator[dict]:
         yield measuring.ratio(figure, 0.85, batched=drawn, bare=bare)
     ours, theirs = measuring.rates(bare_rendering("direct"), composer_rendering())
     figure = "a frame of our scene / of composer's default arena: direct"
-    durations = {"our_microseconds": 1e6 / ours, "composer_microseconds": 1e6 / theirs}
-    yield measuring.row(figure, ours / theirs, "x cheaper", 20, **durations)
+    ours_us, theirs_us = 1e6 / ours, 1e6 / theirs
+    value = theirs_us / ours_us
+    yield measuring.row(figure, value, "x cheaper", 20, our_microseconds=ours_us, composer_microseconds=theirs_us)
     for name, task in TASKS.items():
         environment = suite.load(*task, task_kwargs={"random": 0})
         batch, loop = measuring.rates(measuring.random_batch(task, BATCH), measuring.random_loop(environment))

@@ -173,7 +173,7 @@ class Results:
         return sorted(int(seed) for seed in set.intersection(*played))
 
     def made(self, name: str, otherwise: Any = None) -> Any:
-        """Returns what `keep` has stored under a name, or else another value.
+        """Returns the value that `keep` has stored under a name, or else another one.
 
         Raises:
           ValueError: if there is neither, or the file is damaged.
@@ -186,13 +186,13 @@ class Results:
         return otherwise
 
     def keep(self, name: str, made: Any) -> None:
-        """Stores what an experiment has prepared, in a JSON file."""
+        """Stores the result of an experiment's preparation in a JSON file."""
         path = self._path_of_made(name)
         path.parent.mkdir(parents=True, exist_ok=True)
         files.write_atomically(path, (json.dumps(made, indent=1) + "\n").encode())
 
     def make(self, name: str, report: Callable[[str], None], words: str, compute: Callable[[], Any]) -> None:
-        """Stores what a slow function returns, unless that is there; `report` is told the words before."""
+        """Stores the result of a slow function under a name, unless it is there; `report` is told the words before."""
         if not self._path_of_made(name).exists():
             report(words)
             self.keep(name, compute())
@@ -216,7 +216,7 @@ class Experiment:
       prepare: computes slow results that need no agent, stores them with the results, and reports lines of progress;
         None without such results.
       load: reads the data from the results: a DataFrame with a row for each episode, agent or step of a learning curve;
-        its `attrs` may hold more for the figure, such as what the ideal experimenter does.
+        its `attrs` may hold more for the figure, such as the behaviour of the ideal experimenter.
       statistics: the estimates of the claims from the data, by the ids of the claims.
       draw: draws a matplotlib figure of the data.
       table: returns a header and rows of words, shown below the figure; None for none.

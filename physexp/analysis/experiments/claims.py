@@ -140,11 +140,6 @@ def of_rows(statistic: Callable[[Any], estimates.Estimate]) -> Statistic:
     return lambda frame, condition: statistic(rows(frame, condition=named(condition)))
 
 
-def of_all(statistic: Callable[[Any], estimates.Estimate]) -> Statistic:
-    """Returns the statistic that has an estimate from all data, for an experiment with one condition, or over all."""
-    return lambda frame, condition: statistic(frame)
-
-
 def mean_of_agents(value: Callable[[Any], Any], middle: Callable[[Any], estimates.Estimate]) -> Statistic:
     """Returns the statistic that takes the mean of a value of each row by agent, and the middle of these."""
     return of_rows(lambda its: middle(value(its).groupby(its.training_seed).mean()))

@@ -14,7 +14,6 @@ from physexp.analysis.training import records
 
 DIFFICULTIES = (3.0, 5.0, 10.0)
 OBSERVATIONS = ("features", "pixels")
-ACTUATORS = ("direct", "fist")
 PATIENT_DISCOUNT = 0.99  # Waiting costs little.
 SEEDS = {"features": 10, "pixels": 5}  # Agents trained in each condition.
 
@@ -142,7 +141,7 @@ PATIENT = tuple(
 )
 """A3C at the paper's gamma of 0.99."""
 
-TOWERS = tuple(towers(actuator, kind) for actuator in ACTUATORS for kind in OBSERVATIONS)
+TOWERS = tuple(towers(actuator, kind) for actuator in ("direct", "fist") for kind in OBSERVATIONS)
 
 
 def by_actuator(observations: str) -> list[str]:

@@ -165,7 +165,7 @@ def _section(experiment: base.Experiment, data: Any, results: base.Results) -> l
         experiment.caption,
     ]
     if experiment.table and (table := experiment.table(data)):
-        paragraphs.append(_markdown_table(table))
+        paragraphs.append(markdown_table(table))
     finished = set(results.load("runs", ["run"]).run)
     seeds = collections.defaultdict(list)
     for job in sweep.jobs([experiment], conditions.OBSERVATIONS, conditions.SEEDS.__getitem__):
@@ -189,7 +189,7 @@ def _table_of_claims(title: str, rows: Sequence[Row]) -> list[str]:
     return [
         f"## {title}",
         f"{tally}; sanity checks: {len(rows) - len(counted)}.",
-        _markdown_table([_HEADER, *map(cells, rows)]),
+        markdown_table([_HEADER, *map(cells, rows)]),
         *dict.fromkeys(f'Why "{claim.text}" fails: {claim.reason}' for claim in failing),
     ]
 
@@ -220,7 +220,7 @@ def _anchor(experiment: str) -> str:
     return experiment.replace("_", "-")
 
 
-def _markdown_table(rows: Sequence[Sequence[str]]) -> str:
+def markdown_table(rows: Sequence[Sequence[str]]) -> str:
     """Returns a header and rows as a table."""
     lines = ["| " + " | ".join(row) + " |" for row in rows]
     return "\n".join([lines[0], "|" + "---|" * len(rows[0]), *lines[1:]])

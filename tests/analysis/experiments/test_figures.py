@@ -7,8 +7,7 @@ import re
 from xml.etree import ElementTree
 
 from made_data import made
-import matplotlib
-from matplotlib import image, pyplot
+from matplotlib import image
 import numpy as np
 import pytest
 
@@ -73,12 +72,6 @@ def test_the_picture_is_sharp_and_small_and_nothing_is_cut_off(name):
 @pytest.mark.parametrize("name", ["individual", "learners", "laboratory"])
 def test_the_same_data_make_the_same_figure(name):
     assert plots.svg(EXPERIMENTS[name].figure(made(name, num_agents=3))) == drawn(name)[1]
-
-
-def test_a_figure_changes_no_settings_and_opens_no_window():
-    before = dict(matplotlib.rcParams)
-    plots.png(EXPERIMENTS["mass_gap"].figure(made("mass_gap")))
-    assert not pyplot.get_fignums() and dict(matplotlib.rcParams) == before
 
 
 PARTS = [

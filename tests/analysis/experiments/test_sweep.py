@@ -99,7 +99,7 @@ def test_a_table_has_a_row_for_each_run(swept):
         assert row["mean_return"] / row["share_of_ideal"] == pytest.approx(0.8693, abs=2e-3)
 
 
-def test_an_agent_that_is_there_plays_new_trials_and_those_whose_rows_were_lost(swept, copied):
+def test_a_trained_agent_plays_new_trials_and_lost_ones(swept, copied):
     agents = [copied.run(job.config).agent_path for job in grid()]
     before = [path.stat().st_mtime_ns for path in agents]
     sweep.run(grid(num_episodes=20), copied, Here(), 1, print)
