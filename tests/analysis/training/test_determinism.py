@@ -18,7 +18,7 @@ from physexp.analysis.training import run as run_lib
 from physexp.analysis.training import trainer
 
 CHECKPOINT_SECONDS = 0.1
-FRAMES = 5_000  # Some seconds, with several checkpoints in each.
+FRAMES = 3_000  # Some seconds, with several checkpoints in each.
 
 
 @pytest.fixture(scope="module", params=["a3c", "belief"])

@@ -9,7 +9,7 @@ import trainers
 from physexp.analysis.training import progress, trainer
 from physexp.analysis.training import run as run_lib
 
-FRAMES = 1000
+FRAMES = 700
 COMMAND = ["train", "which_is_heavier", "features", "--agent", "ppo", "--num-threads", 1, "--num-environments", 32]
 COMMAND += ["--replay-every", 100]
 
