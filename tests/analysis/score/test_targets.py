@@ -6,8 +6,8 @@ from physexp.agents import pretrained
 from physexp.analysis.score import targets
 
 
-def names(target, observations="features"):
-    return [asked.name for asked in targets.find(target).choose([], observations)]
+def names(target):
+    return [asked.name for asked in targets.find(target).choose([], "features")]
 
 
 def described(name):
@@ -41,8 +41,10 @@ def test_targets_play_the_tasks_that_they_can():
 
 def test_each_agent_of_a_team_plays_its_own_task():
     assert names("a3c") == ["towers/direct_features", "towers/fist_features", "which_is_heavier/features"]
-    assert {"threshold/features", "strike/features"} < set(names("shipped"))
-    assert "threshold/pixels" in names("shipped", "pixels") and "threshold/features" not in names("shipped", "pixels")
+    team = targets.find("shipped")
+    features, pixels = ([asked.name for asked in team.choose([], kind)] for kind in ("features", "pixels"))
+    assert {"threshold/features", "strike/features"} < set(features) and "threshold/pixels" not in features
+    assert "threshold/pixels" in pixels and "threshold/features" not in pixels
     assert names("threshold/features,strings/features") == ["threshold/features", "strings/features"]
 
 
