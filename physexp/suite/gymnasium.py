@@ -236,10 +236,11 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
         batch = self.batch
         infos = _masked(_outcomes(batch.task, batch.steps, rewards, batch.correct_answers), ended)
         if self.autoreset_mode is vector_env.AutoresetMode.SAME_STEP and ended.any():
-            last = list(vector_utils.iterate(self.observation_space, self._shown()))
-            final = np.full(self.num_envs, None, object)
+            last, final = self._shown(), np.full(self.num_envs, None, object)
             for row in np.flatnonzero(ended):
-                final[row] = last[row]
+                final[row] = (
+                    {name: values[row] for name, values in last.items()} if isinstance(last, dict) else last[row]
+                )
             infos = {"final_obs": final, "_final_obs": ended, "final_info": infos, "_final_info": ended.copy()}
             infos |= self._begin(ended)
         else:
