@@ -70,7 +70,7 @@ def place(environment, thing):
 
 @pytest.fixture(scope="module", params=TASKS, ids=["/".join(names) for names in TASKS])
 def written(request, tmp_path_factory):
-    """A recorded episode, what was seen of it, its environment, its file and the contents of that."""
+    """A recorded episode, its observations, its environment, its file and the contents of the file."""
     episode, watcher, environment = record(*request.param)
     path = writing.write(tmp_path_factory.mktemp("replay") / "one.rrd", [lambda: [episode]])
     return episode, watcher, environment, path, recordings.contents(path)

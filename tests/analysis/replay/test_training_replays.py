@@ -10,7 +10,7 @@ from physexp.analysis.replay import training, writing
 from physexp.analysis.training import trainer
 
 
-def test_replays_of_one_instance_are_written_with_checkpoints_every_so_many_steps(tmp_path):
+def test_replays_of_one_instance_are_written_every_so_many_steps(tmp_path):
     run = trainers.create(tmp_path / "run", "ppo", frames=3000, checkpoint_seconds=0.2)
     config = dataclasses.replace(run.config, replay_every=1000)
     trainer.train(run, on_checkpoint=training.Writer(run, config))
