@@ -33,7 +33,7 @@ def write(path, found):
     path.write_text(json.dumps(found))
 
 
-@pytest.mark.parametrize("name", ["learning_heavier", "learners", "random_towers", "waiting"])
+@pytest.mark.parametrize("name", ["learning_towers", "learners", "random_towers", "waiting"])
 def test_the_stored_report_follows_from_the_stored_tables(name):
     found = EXPERIMENTS[name].test(EXPERIMENTS[name].load(base.Results(RESULTS)))
     stored = (RESULTS / "report.md").read_text()
