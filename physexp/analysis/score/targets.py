@@ -1,17 +1,20 @@
 """Finds all that can be scored, each as a `Target`: baselines, trained agents, teams of them, and users' functions."""
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 import dataclasses
 import functools
 from pathlib import Path
 import re
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from physexp.agents import config as agent_config
 from physexp.agents import core
 from physexp.analysis import domains
 from physexp.analysis.score import actors, protocol
 from physexp.analysis.training import config as config_lib
+
+if TYPE_CHECKING:
+    from physexp.analysis.training import finding  # Imports torch, without which other targets are found in no time.
 
 SHIPPED = "shipped"
 """The team of the best agents that come with the package."""
@@ -28,15 +31,14 @@ class Target:
       greedy: whether trained agents take their likeliest actions instead of drawing them.
       questions: the tasks that it can play; None for all, as far as is known before an actor is made.
       make: makes its actors; None for a user's function, which has a process of its own.
-      describe: returns how the agents of some tasks, by name, were trained: algorithm, seed, command, commit, frames,
-        seconds; of a team, algorithms and sums, and `agents` by the task's name.
+      agents: trained agents, by the name of the task that each plays.
     """
 
     name: str
     greedy: bool
     questions: tuple[protocol.Question, ...] | None
     make: actors.Make | None
-    describe: Callable[[Collection[str]], dict[str, Any]] = lambda tasks: {}
+    agents: "Mapping[str, finding.Agent]" = dataclasses.field(default_factory=dict)
 
     def choose(self, tasks: Sequence[str], observations: str) -> tuple[protocol.Question, ...]:
         """Returns the tasks of some names; by default those that it can play and that have some kind of observations.
@@ -51,6 +53,23 @@ class Target:
         if others := [question.name for question in found if question not in can]:
             raise ValueError(f"{self.name} does not play {others[0]}; it plays {', '.join(one.name for one in can)}")
         return found
+
+    def describe(self, tasks: Collection[str]) -> dict[str, Any]:
+        """Returns how the agents of some tasks, by name, were trained; nothing for other targets.
+
+        This is algorithm, seed, command, commit, frames and seconds; of a team, algorithms and sums, and `agents`.
+        """
+        each = {}
+        for task, agent in self.agents.items():
+            if task in tasks:
+                recorded, config = agent.provenance(), agent.config.agent
+                facts = {fact: recorded.get(fact) for fact in ("command", "commit", "frames", "seconds")}
+                each[task] = {"algorithm": config.title, "seed": config.seed, **facts}
+        if not _is_team(self.name):
+            return next(iter(each.values()), {})
+        sums = {name: sum(one[name] for one in each.values()) for name in ("frames", "seconds")}
+        algorithms = dict.fromkeys(one["algorithm"] for one in each.values())
+        return {"algorithm": ", ".join(algorithms), **sums, "agents": each}
 
 
 def find(name: str, greedy: bool = False) -> Target:
@@ -68,9 +87,7 @@ def find(name: str, greedy: bool = False) -> Target:
         return Target(name, greedy, None, actors.BASELINES[name])
     if makers := _baselines_of_domains().get(name):
         return Target(name, greedy, tuple(makers), lambda question, index: makers[question]())
-    if "," in name or _is_team(name):
-        return _team(name, greedy)
-    return _agent(name, greedy)
+    return _trained(name, greedy)
 
 
 def file_name(name: str) -> str:
@@ -81,8 +98,26 @@ def file_name(name: str) -> str:
     return "target"
 
 
-def _agent(name: str, greedy: bool) -> Target:
+def _trained(name: str, greedy: bool) -> Target:
+    """Returns an agent, or a team: names of agents and of teams with commas between them."""
     from physexp.agents import acting
+
+    agents: dict[str, finding.Agent] = {}
+    for part in name.split(","):
+        if _is_function(part) or part in actors.BASELINES or part in _baselines_of_domains():
+            raise ValueError(f"{part} is no trained agent; a team is of trained agents, so give it alone")
+        for agent in map(_agent, _shipped(part) if _is_team(part) else [part]):
+            if (task := agent.config.task_name) in agents:
+                raise ValueError(f"{name} has two agents for {task}; leave out one of them")
+            agents[task] = agent
+
+    def make(question: protocol.Question, index: int) -> core.Actor:
+        return acting.RecurrentActor(agents[question.name].network, index, greedy)
+
+    return Target(name, greedy, protocol.named([*agents]), make, agents)
+
+
+def _agent(name: str) -> "finding.Agent":
     from physexp.analysis.training import finding, publishing
 
     try:
@@ -90,50 +125,17 @@ def _agent(name: str, greedy: bool) -> Target:
     except ValueError as error:
         others = ", ".join([*actors.BASELINES, *_baselines_of_domains(), SHIPPED, *config_lib.ALGORITHMS])
         raise ValueError(f"{error}; or give {others}, or MODULE:FUNCTION") from None
-    config = agent.config
-    if not publishing.is_default(config):
-        options = ", ".join(f"{option} {agent_config.shown(value)}" for option, value in config.task_kwargs.items())
+    if not publishing.is_default(agent.config):
+        options = (f"{option} {agent_config.shown(value)}" for option, value in agent.config.task_kwargs.items())
         raise ValueError(
-            f"{name} was trained with {options}, and the score plays tasks without options: train an agent of "
-            f"{config.domain}/{config.task} without any"
+            f"{name} was trained with {', '.join(options)}, and the score plays tasks without options: train an agent "
+            f"of {agent.config.task_name} without any"
         )
-
-    def describe(tasks: Collection[str]) -> dict[str, Any]:
-        trained = agent.provenance()
-        found = {fact: trained.get(fact) for fact in ("command", "commit", "frames", "seconds")}
-        return {"algorithm": config.agent.title, "seed": config.agent.seed, **found}
-
-    def make(question: protocol.Question, index: int) -> core.Actor:
-        return acting.RecurrentActor(agent.network, index, greedy)
-
-    return Target(name, greedy, (protocol.question(config.domain, config.task),), make, describe)
-
-
-def _team(name: str, greedy: bool) -> Target:
-    """Returns a team, of names of agents and of teams with commas between them."""
-    members: dict[protocol.Question, Target] = {}
-    for part in name.split(","):
-        if _is_function(part) or part in actors.BASELINES or part in _baselines_of_domains():
-            raise ValueError(f"{part} is no trained agent; a team is of trained agents, so give it alone")
-        for member in _shipped(part) if _is_team(part) else [part]:
-            agent = _agent(member, greedy)
-            (question,) = agent.questions or ()
-            if question in members:
-                raise ValueError(f"both {members[question].name} and {member} play {question.name}; name one of them")
-            members[question] = agent
-
-    def describe(tasks: Collection[str]) -> dict[str, Any]:
-        each = {question.name: agent.describe(tasks) for question, agent in members.items() if question.name in tasks}
-        sums = {name: sum(one[name] for one in each.values()) for name in ("frames", "seconds")}
-        algorithms = dict.fromkeys(one["algorithm"] for one in each.values())
-        return {"algorithm": ", ".join(algorithms), **sums, "agents": each}
-
-    makers = {question: agent.make for question, agent in members.items() if agent.make}
-    return Target(name, greedy, tuple(members), lambda question, index: makers[question](question, index), describe)
+    return agent
 
 
 def _is_team(name: str) -> bool:
-    return name == SHIPPED or name in config_lib.ALGORITHMS
+    return "," in name or name == SHIPPED or name in config_lib.ALGORITHMS
 
 
 @functools.cache  # The cards of all agents are read.
@@ -147,7 +149,7 @@ def _shipped(learner: str) -> list[str]:
         config = finding.config_of(pretrained.card_named(name))
         is_wanted = "/" not in name if learner == SHIPPED else config.agent.algorithm == learner
         if is_wanted and publishing.is_default(config):
-            team.setdefault(f"{config.domain}/{config.task}", name)
+            team.setdefault(config.task_name, name)
     return list(team.values())
 
 
