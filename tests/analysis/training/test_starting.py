@@ -89,9 +89,9 @@ def test_a_run_dir_that_is_a_file_or_below_one_is_told(place, tmp_path, capsys):
 
 @pytest.fixture
 def starting(tmp_path):
-    """`physexp train` in a new folder with its worker, which plays for long before it learns anything."""
+    """`physexp train` in a new folder with its worker, which plays long episodes of slow physics before it learns."""
     options = ["--agent", "a3c", "--num-workers", 1, "--envs-per-worker", 3000, "--frames", 10**9]
-    with commands.start("train", *TASK, *options, "--run-dir", tmp_path / "a" / "run") as process:
+    with commands.start("train", "towers/fist_features", *options, "--run-dir", tmp_path / "a" / "run") as process:
         (worker,) = wait_until(lambda: trainers.workers(process), "a worker")
         yield process, worker
 
