@@ -127,9 +127,10 @@ def resting_domain(
     """Returns a domain whose apparatus rests between interactions, so that its ideal experimenter is exact.
 
     Args:
-      name, **facts: attributes of the domain.
+      name: name of the domain.
       apparatus: returns the apparatus for the task's options.
       read: returns the reading in an observation of features.
+      **facts: other attributes of the domain.
     """
 
     def solve(task: str, task_kwargs: Mapping[str, Any], discount: float) -> "resting.Solution":
@@ -154,9 +155,10 @@ def search_domain(
     """Returns a domain with finitely many hidden properties, whose ideal experimenter is found by search.
 
     Args:
-      name, **facts: attributes of the domain.
+      name: name of the domain.
       hypotheses: returns all values of the hidden property, [H, ...], and their probabilities, float64 [H].
       read_as: as for `hypotheses.Hypotheses`.
+      **facts: other attributes of the domain.
     """
 
     def solve(task: str, task_kwargs: Mapping[str, Any], discount: float) -> "search.Solution":
