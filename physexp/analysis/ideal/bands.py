@@ -39,7 +39,7 @@ class Clamped(resting.Apparatus):
             found = found.union(*(band for band in bands if band & found)) - {clamped}
         return found
 
-    def set_by(self, setting, interaction):
+    def set_by(self, setting, interaction, reading):
         """Returns the thing that is clamped after an interaction, or None."""
         thing = interaction - self._num_things
         return setting if thing < 0 else None if thing == setting else thing

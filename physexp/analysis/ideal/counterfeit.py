@@ -35,7 +35,7 @@ class Scale(resting.Apparatus):
         of_odd = np.repeat(sides, 2, axis=1) * np.tile([1, -1], self._num_things)
         return np.where(surplus[:, None] == 0, of_odd, surplus[:, None])
 
-    def set_by(self, setting, interaction):
+    def set_by(self, setting, interaction, reading):
         """Returns the sides of the things after an interaction."""
         thing, place = divmod(interaction, len(SIDES))
         return (*setting[:thing], SIDES[place], *setting[thing + 1 :])

@@ -37,8 +37,8 @@ class Apparatus(abc.ABC):
     def readings(self, setting: Hashable) -> np.ndarray:
         """Returns the reading after each interaction, for each right label, int [A, L]."""
 
-    def set_by(self, setting: Hashable, interaction: int) -> Hashable:
-        """Returns the setting after an interaction; by default it never changes."""
+    def set_by(self, setting: Hashable, interaction: int, reading: int) -> Hashable:
+        """Returns the setting after an interaction and its reading; by default it never changes."""
         return setting
 
     def canonical(self, state: State) -> tuple[State, Sequence[int]]:
@@ -61,12 +61,15 @@ class Apparatus(abc.ABC):
     def by_reading(self, state: State, interaction: int, readings: np.ndarray) -> dict[int, tuple[float, State]]:
         """Returns the information states after an interaction, and their probabilities, by the readings, int [L]."""
         (possible, setting), chances = state, self.posterior(state).tolist()
-        following, parts, shares = self.set_by(setting, interaction), dict[int, int](), dict[int, float]()
+        parts, shares = dict[int, int](), dict[int, float]()
         for label, reading in enumerate(readings.tolist()):
             if possible >> label & 1:
                 parts[reading] = parts.get(reading, 0) | 1 << label
                 shares[reading] = shares.get(reading, 0) + chances[label]
-        return {reading: (shares[reading], (part, following)) for reading, part in parts.items()}
+        return {
+            reading: (shares[reading], (part, self.set_by(setting, interaction, reading)))
+            for reading, part in parts.items()
+        }
 
     def after(self, state: State, interaction: int, reading: int) -> State:
         """Returns the information state after an interaction.
