@@ -17,7 +17,8 @@ def search(chances, moves, setting, discount, step_limit, choose):
 
     Args:
       chances: the probability of each label.
-      moves: returns, for a setting, the next setting and the function from a label to the reading, of each interaction.
+      moves: returns, for a setting, the next setting, or the function from the reading to it, and the function from a
+        label to the reading, of each interaction.
       setting: the first one.
       discount, step_limit: as for `resting.Solution`.
       choose: combines the values of all interactions: `max`, or `fmean` for random ones.
@@ -35,7 +36,8 @@ def search(chances, moves, setting, discount, step_limit, choose):
             groups = {}
             for label in labels:
                 groups.setdefault(reading(label), []).append(label)
-            found.append((following, [frozenset(group) for group in groups.values()]))
+            after = following if callable(following) else lambda seen, following=following: following
+            found.append([(frozenset(group), after(seen)) for seen, group in groups.items()])
         return found
 
     @functools.cache
@@ -44,8 +46,8 @@ def search(chances, moves, setting, discount, step_limit, choose):
         if steps == 1:
             return answer
         expected = [
-            sum(share(part) / share(labels) * value(part, following, steps - 1) for part in groups)
-            for following, groups in parts(labels, setting)
+            sum(share(part) / share(labels) * value(part, following, steps - 1) for part, following in groups)
+            for groups in parts(labels, setting)
         ]
         return max(answer, discount * choose(expected))
 
@@ -64,6 +66,16 @@ def levels(prior):
     """Ordered labels: test l is passed if the label is at most l."""
     tests = [(None, lambda label, level=level: label <= level) for level in range(len(prior))]
     return dict(enumerate(prior)), lambda setting: tests, None
+
+
+def specimens_of(prior, num_specimens):
+    """The same tests of several specimens, of which each test that is passed destroys one."""
+
+    def moves(left):
+        for level in range(len(prior)):
+            yield left.__sub__, lambda label, level=level: int(left > 0 and label <= level)
+
+    return dict(enumerate(prior)), moves, num_specimens
 
 
 def coins(num_things, num_suspects):
@@ -125,6 +137,21 @@ def test_a_search_over_placings_of_coins_finds_the_same_values(things, suspects,
 @pytest.mark.parametrize("weights", [np.full(8, 1 / 8), [0.3, 0.2, 0.1, 0.1, 0.1, 0.1, 0.05, 0.05]])
 def test_a_search_over_sets_of_graphs_finds_the_same_values(weights):
     agree(bands.Clamped(3, weights), graphs(weights), 0.9, 10)
+
+
+@pytest.mark.parametrize(
+    "prior, specimens, step_limit",
+    [(np.full(16, 1 / 16), 2, 16), (np.full(8, 1 / 8), 1, 10), ([0.4, 0.1, 0.3, 0.2], 3, 5)],
+)
+def test_a_search_over_tests_that_destroy_finds_the_same_values(prior, specimens, step_limit):
+    agree(intervals.Specimens(prior, specimens), specimens_of(prior, specimens), 0.95, step_limit)
+
+
+def test_the_only_specimen_is_tested_from_the_lowest_level_on():
+    # Labels 0 to 7 take 1, 2 ... 7 tests and again 7, for what fails the seventh test is the last label.
+    solution = resting.Solution(intervals.Specimens(np.full(8, 1 / 8), 1), 0.95, 10)
+    assert solution.value == pytest.approx(statistics.fmean(0.95**count for count in (1, 2, 3, 4, 5, 6, 7, 7)))
+    assert [solution.action((255 & ~(2**level - 1), 0), level) for level in range(7)] == list(range(7))
 
 
 def solve(prior, discount, step_limit):
