@@ -146,6 +146,10 @@ def test_an_option_out_of_range_is_refused(options, fragments):
         ("balance", {"control_timestep": 0.05}, ("control_timestep is 0.05 s; give at least 0.08 s",)),
         ("balance", {"difficulty": 1.5}, ("difficulty is 1.5; give 1, 2 or 3",)),
         ("strings", {"control_timestep": 0.09}, ("control_timestep is 0.09 s; give at least 0.1 s",)),
+        ("crush", {"control_timestep": 0.07}, ("control_timestep is 0.07 s; give at least 0.08 s",)),
+        # 89 control steps of up to 0.12 s before the last.
+        ("crush", {"time_limit": 9.0, "step_variation": 0.2}, ("time_limit is 9.0 s", "last 10.68 s", "10 s")),
+        ("crush", {"num_cans": 4}, ("num_cans is 4; give an integer >= 1 and <= 3",)),
         ("sealed_box", {"noise": 0.001}, ("noise is 0.001; give 0",)),
         ("strike", {"goal_distance": 0.4}, ("goal_distance is 0.4; give a number from 0.6 to 0.75 m",)),
     ],

@@ -6,11 +6,21 @@ path of a `base.Domain`.
 
 from importlib import metadata
 
-from physexp.analysis.domains import balance, base, sealed_box, strike, strings, threshold, towers, which_is_heavier
+from physexp.analysis.domains import (
+    balance,
+    base,
+    crush,
+    sealed_box,
+    strike,
+    strings,
+    threshold,
+    towers,
+    which_is_heavier,
+)
 
 __all__ = ["DOMAINS", "find"]
 
-_MODULES = (which_is_heavier, towers, threshold, balance, strings, sealed_box, strike)
+_MODULES = (which_is_heavier, towers, threshold, balance, strings, sealed_box, strike, crush)
 
 
 def _registered() -> dict[str, base.Domain]:

@@ -13,7 +13,8 @@ from physexp import suite
 from physexp.agents import environment_loop
 from physexp.analysis import domains
 from physexp.analysis.domains import base
-from physexp.analysis.ideal import random_play, rollouts
+from physexp.analysis.ideal import hypotheses, random_play, rollouts, search
+from physexp.suite.domains import crush
 
 NAMES = [name for name, domain in domains.DOMAINS.items() if domain.ideal is not None]
 TASKS = [(domain, task) for domain, task in suite.tagged("features") if domain in NAMES]
@@ -87,6 +88,21 @@ def test_a_larger_difficulty_is_easier(domain, difficulties, task_kwargs):
     assert (np.diff([solution.value for solution in solutions]) > 0).all()
     if not task_kwargs:
         assert (np.diff([solution.figures()["mean_interactions"] for solution in solutions]) < 0).all()
+
+
+def test_more_cans_are_easier_to_crush():
+    solutions = [ideals.of("crush", num_cans=number) for number in (1, 2, 3)]
+    assert (np.diff([solution.value for solution in solutions]) > 0.01).all()
+    assert (np.diff([solution.figures()["mean_interactions"] for solution in solutions]) < 0).all()
+
+
+def test_a_search_in_the_simulation_finds_the_value_of_presses():
+    """In short episodes, with a strength for each label, by the family that knows nothing of cans."""
+    strengths = crush.FORCE_SPACING * (np.arange(crush.NUM_FORCES) + 0.5)
+    options = {"time_limit": 0.3}
+    known = hypotheses.Hypotheses("crush", "features", strengths, crush.PRIOR, options)
+    found = search.Solution(known, 0.0, 0.95)
+    assert found.bound == pytest.approx(found.value) == pytest.approx(ideals.of("crush", **options).value)
 
 
 def test_a_question_is_solved_once_whatever_its_seed():
