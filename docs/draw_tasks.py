@@ -23,6 +23,7 @@ EPISODES = (
     ("strings", "pixels", 3, [0, 3, 1, 4, 0, 5, 2]),
     ("sealed_box", "pixels", 2, [3, 4, 4, 0, 4, 2, 4]),
     ("strike", "pixels", 0, [1, 0, 2, 1, 0, 1, 2]),
+    ("crush", "pixels", 6, [4, 8, 5, 6, 3, 7, 9]),
 )
 """Domain, task, index of the episode and actions of each row."""
 
