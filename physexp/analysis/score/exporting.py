@@ -10,7 +10,7 @@ import numpy as np
 
 from physexp import extras
 from physexp.analysis.data import episodes, provenance, tables
-from physexp.analysis.score import judging, playing, protocol, scoring, steps, targets
+from physexp.analysis.score import judging, log, playing, protocol, scoring, steps, targets
 
 FILE = "export.json"
 TABLE = "steps.parquet"
@@ -79,17 +79,16 @@ class _Writer:
         self._minari_folder, self._minari_name = folder / MINARI, minari_name
         self._data_set: Any = None
         self._pending: list[episodes.Episode] = []
-        self._returns: list[float] = []
-        self._num_pending = self._num_parts = self._num_steps = self._num_right = 0
+        self._num_pending = self._num_parts = 0
+        self._played: list[tuple[int, bool, float]] = []  # Actions, whether the answer is right, and the return.
 
     def add(self, episode: episodes.Episode) -> None:
         """Adds the next episode."""
         count = len(episode.actions)
+        returned = float(self.question.discount ** np.arange(count) @ episode.rewards)
+        self._played.append((count, bool(episode.rewards[-1] > 0), returned))
         self._pending.append(episode)
         self._num_pending += count
-        self._num_steps += count
-        self._num_right += bool(episode.rewards[-1] > 0)
-        self._returns.append(float(self.question.discount ** np.arange(count) @ episode.rewards))
         if self._num_pending >= _ROWS:
             self.write()
 
@@ -103,7 +102,7 @@ class _Writer:
             shutil.rmtree(self._folder, ignore_errors=True)  # Of an interrupted session.
             self._folder.mkdir(parents=True)
         path = self._folder / f"part-{self._num_parts:05d}.parquet"
-        tables.write(path, steps.table(self._schema, rows), compression="zstd")
+        tables.write(path, log.table(self._schema, rows), compression="zstd")
         if self._minari_name is not None:
             from physexp.analysis.score import data_set
 
@@ -114,15 +113,16 @@ class _Writer:
 
     def facts(self) -> dict[str, Any]:
         """Returns the task's question, the meanings of its columns, and means of its episodes; nothing without any."""
-        question, count = self.question, len(self._returns)
-        if not count:
+        if not self._played:
             return {}
+        question, count = self.question, len(self._played)
+        lengths, are_right, returns = zip(*self._played, strict=True)
         names = ("question", "discount", "step_limit", "num_interactions", "action_names", "label_names")
         return {
             "episodes": count,
-            "steps": self._num_steps,
-            "success_rate": self._num_right / count,
-            "mean_return": sum(self._returns) / count,
+            "steps": sum(lengths),
+            "success_rate": sum(are_right) / count,
+            "mean_return": sum(returns) / count,
             "judged": self._judge is not None,
             **{name: getattr(question, name) for name in names},
             "observations": {

@@ -1,6 +1,6 @@
 """The log of a score: a row for each action, with its evaluation against the ideal experimenter."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 import hashlib
 from pathlib import Path
 from typing import Any
@@ -92,11 +92,17 @@ def judged(question: protocol.Question, actions: np.ndarray, found: mistakes.Act
     return {**fields, "regret": found.value - found.worth, "mistake": costliest}
 
 
-def table(rows: Iterable[Mapping[str, Any]]) -> pyarrow.Table:
-    """Returns the table of the columns of some episodes, at least one."""
-    columns = list(rows)
-    joined = {name: np.concatenate([part[name] for part in columns]) for name in SCHEMA.names}
-    return pyarrow.table({name: pyarrow.array(joined[name]).cast(SCHEMA.field(name).type) for name in joined}, SCHEMA)
+def table(schema: pyarrow.Schema, parts: Sequence[Mapping[str, np.ndarray]]) -> pyarrow.Table:
+    """Returns the table of the columns of some episodes, at least one; lists have the values of arrays [T, ...]."""
+    columns = []
+    for name, kind in zip(schema.names, schema.types, strict=True):
+        values = np.concatenate([part[name] for part in parts])
+        if pyarrow.types.is_fixed_size_list(kind):
+            flat = pyarrow.array(values.ravel()).cast(kind.value_type)
+            columns.append(pyarrow.FixedSizeListArray.from_arrays(flat, type=kind))
+        else:
+            columns.append(pyarrow.array(values).cast(kind))
+    return pyarrow.table(columns, schema=schema)
 
 
 def write(folder: Path, found: pyarrow.Table) -> None:

@@ -21,9 +21,7 @@ _KINDS = {
     **dict.fromkeys(("target", "problem", "commit"), str),
     **dict.fromkeys(("greedy", "complete"), bool),
     "seconds": int | float,
-    "protocol": {"seed": int, "episodes": int, "tasks": list},
-    "agent": _TRAINED,
-    **dict.fromkeys(("versions", "tasks", "domains", "whole"), dict),
+    **dict.fromkeys(("protocol", "agent", "versions", "tasks", "domains", "whole"), dict),
 }
 """The types of the fields of `score.json`, which may come from strangers."""
 
@@ -77,9 +75,12 @@ def score(
             show(session.num_played // 2)
         judged = judging.judge(moves, lambda done: show((session.num_played + done) // 2))
         found = log.table(
-            {**columns, **log.judged(question, columns["action"], actions)}
-            for question, its in rows.items()
-            for columns, actions in zip(its, judged[question].actions, strict=True)
+            log.SCHEMA,
+            [
+                {**columns, **log.judged(question, columns["action"], actions)}
+                for question, its in rows.items()
+                for columns, actions in zip(its, judged[question].actions, strict=True)
+            ],
         )
         log.write(folder, found)
         metrics = scores.summary(scores.of_log(found, {question: one.ideal for question, one in judged.items()}))
@@ -103,9 +104,13 @@ def read(folder: Path) -> dict[str, Any]:
     version = found.get("version") if isinstance(found, dict) else None
     if version != protocol.VERSION:
         raise ValueError(f"{path} is of protocol {version!r}; this version of physexp plays {protocol.VERSION}")
-    agents = found["agent"].get("agents") if isinstance(found.get("agent"), dict) else None
-    members = dict.fromkeys(agents, _TRAINED) if isinstance(agents, dict) else dict | None
-    _check_kinds(path, found, {**_KINDS, "agent": {**_TRAINED, "agents": members}})
+    _check_kinds(path, found, _KINDS)
+    _check_kinds(path, found["protocol"], {"seed": int, "episodes": int, "tasks": list})
+    _check_kinds(path, found["agent"], _TRAINED)
+    members = found["agent"].get("agents") or {}
+    _check_kinds(path, members, dict.fromkeys(members, dict))
+    for member in members.values():
+        _check_kinds(path, member, _TRAINED)
     if not all(isinstance(name, str) for name in found["protocol"]["tasks"]):
         raise ValueError(f"{path} is faulty: tasks is {found['protocol']['tasks']!r}; score again")
     return found
@@ -114,11 +119,8 @@ def read(folder: Path) -> dict[str, Any]:
 def _check_kinds(path: Path, fields: Mapping[str, Any], kinds: Mapping[str, Any]) -> None:
     """Refuses a field of another type."""
     for name, kind in kinds.items():
-        value = fields.get(name)
-        if not isinstance(value, dict if isinstance(kind, dict) else kind):
+        if not isinstance(value := fields.get(name), kind):
             raise ValueError(f"{path} is faulty: {name} is {value!r}; score again")
-        if isinstance(kind, dict):
-            _check_kinds(path, value, kind)
 
 
 def check(num_episodes: int, maximum: int, timeout: float) -> None:

@@ -1,7 +1,5 @@
 """The table of steps: a row for each action, with the observations before and after it, and the hidden property."""
 
-from collections.abc import Mapping, Sequence
-
 import numpy as np
 import pyarrow
 
@@ -10,39 +8,25 @@ from physexp.analysis.ideal import base as ideal_base
 from physexp.analysis.score import log, protocol
 
 _KEYS, _TAKEN = list(log.TAKEN)[:5], list(log.TAKEN)[5:]
-_ENDED = pyarrow.schema(
-    [
-        ("terminated", pyarrow.bool_()),
-        ("truncated", pyarrow.bool_()),  # The simulation has diverged: the episode has no outcome.
-    ]
-)
 
 
 def schema(question: protocol.Question) -> pyarrow.Schema:
     """Returns names and types of the columns of a task; arrays are lists, their last index the fastest."""
     hidden, num_labels = protocol.drawn(question, 1)[0], len(question.label_names)
-    before, after = (
-        [
-            pyarrow.field(f"{prefix}observation_{name}", _type(spec.dtype, spec.shape))
-            for name, spec in question.observation_spec.items()
-        ]
-        for prefix in ("", "next_")
-    )
-    judged = {"belief": num_labels, "next_belief": num_labels, "values": question.num_actions}
+    seen = {name: _type(spec.dtype, spec.shape) for name, spec in question.observation_spec.items()}
+    counts = {"belief": num_labels, "next_belief": num_labels, "values": question.num_actions}
+    judged = counts if protocol.is_judged(question.domain) else {}
     return pyarrow.schema(
         [
             *_KEYS,
-            *before,
+            *((f"observation_{name}", kind) for name, kind in seen.items()),
             *_TAKEN,
-            *_ENDED,
-            *after,
-            pyarrow.field("hidden", _type(hidden.dtype, hidden.shape)),
-            pyarrow.field("answer", pyarrow.int32()),  # The right label.
-            *(
-                pyarrow.field(name, _type(np.dtype(float), (count,)))
-                for name, count in judged.items()
-                if protocol.is_judged(question.domain)
-            ),
+            ("terminated", pyarrow.bool_()),
+            ("truncated", pyarrow.bool_()),  # The simulation has diverged: the episode has no outcome.
+            *((f"next_observation_{name}", kind) for name, kind in seen.items()),
+            ("hidden", _type(hidden.dtype, hidden.shape)),
+            ("answer", pyarrow.int32()),  # The right label.
+            *((name, _type(np.dtype(float), (count,))) for name, count in judged.items()),
         ]
     )
 
@@ -72,18 +56,6 @@ def ends(episode: episodes.Episode) -> dict[str, np.ndarray]:
     return {"terminated": last & ~is_lost, "truncated": is_lost}
 
 
-def table(described: pyarrow.Schema, parts: Sequence[Mapping[str, np.ndarray]]) -> pyarrow.Table:
-    """Returns the table of the columns of some episodes, at least one, of a task with a schema."""
-    joined = {name: np.concatenate([part[name] for part in parts]) for name in described.names}
-    return pyarrow.table({field.name: _column(joined[field.name], field.type) for field in described}, described)
-
-
 def _type(dtype: np.dtype, shape: tuple[int, ...]) -> pyarrow.DataType:
     kind = pyarrow.from_numpy_dtype(dtype)
     return pyarrow.list_(kind, int(np.prod(shape))) if shape else kind
-
-
-def _column(values: np.ndarray, kind: pyarrow.DataType) -> pyarrow.Array:
-    if not pyarrow.types.is_fixed_size_list(kind):
-        return pyarrow.array(values).cast(kind)
-    return pyarrow.FixedSizeListArray.from_arrays(pyarrow.array(values.ravel()).cast(kind.value_type), type=kind)

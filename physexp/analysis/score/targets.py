@@ -59,7 +59,7 @@ class Target:
 
         This is algorithm, seed, command, commit, frames and seconds; of a team, algorithms and sums, and `agents`.
         """
-        each = {}
+        each: dict[str, dict[str, Any]] = {}
         for task, agent in self.agents.items():
             if task in tasks:
                 recorded, config = agent.provenance(), agent.config.agent

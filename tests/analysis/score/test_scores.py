@@ -21,7 +21,7 @@ def play(target, asked, count=COUNT):
         {**log.played(asked, one), **log.judged(asked, one.actions, actions)}
         for one, actions in zip(played, judged.actions, strict=True)
     ]
-    (found,) = scores.of_log(log.table(rows), {asked: judged.ideal})
+    (found,) = scores.of_log(log.table(log.SCHEMA, rows), {asked: judged.ideal})
     return found
 
 
