@@ -126,10 +126,8 @@ def draw(rows: Sequence[Row]):
                 axes.plot(max(report.LOWEST, row.domains[domain]["score"]), place + height, zorder=3, **look)
     for domain, look in looks.items():
         axes.plot([], [], linestyle="none", label=report.words(domain), **look)
-    axes.set_yticks(places, [plots.literal(text.plain(row.name)) for row in rows])
-    axes.tick_params(axis="y", length=0)
-    axes.set(xlim=(report.LOWEST - 0.03, 1.04), ylim=(-0.7, len(rows) - 0.3))
-    axes.set_xlabel("score: black, over all domains, with its 95 % interval; others, of each domain")
-    report.mark_ends(axes, len(rows))
+    label = "score: black, over all domains, with its 95 % interval; others, of each domain"
+    axes.set(xlim=(report.LOWEST - 0.03, 1.04), xlabel=label)
+    report.name_rows(axes, [plots.literal(text.plain(row.name)) for row in rows])
     axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
     return figure

@@ -4,6 +4,7 @@ The figure has the domains, the mistakes in each task, and the information from 
 """
 
 import base64
+import collections
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -95,16 +96,14 @@ def draw_domains(axes, found: Mapping[str, Any]) -> None:
         color = "black" if is_whole else _AGENT
         axes.plot([low, high], [place] * 2, color=color, linewidth=2.2, solid_capstyle="butt")
         axes.plot(center, place, "D" if is_whole else "o", color=color, markersize=5, zorder=3)
-        at_left = center > 0.5 or -0.5 < center < 0  # Not over a mark of `mark_ends`.
+        at_left = center > 0.5 or -0.5 < center < 0  # Not over a mark of `name_rows`.
         look = dict(ha="right" if at_left else "left", va="center", fontsize=7.5, bbox=_BACKGROUND)
         start = dict(xytext=(-5 if at_left else 5, 0), textcoords="offset points")
         axes.annotate(f"{row['score']:.3f}", (low if at_left else high, place), **start, **look)
         if not is_whole:
             axes.plot(max(LOWEST, of_random[name]), place, "|", color=plots.GREY, markersize=8, markeredgewidth=1.4)
-    axes.set_yticks(places, [words(name) for name, _ in rows])
-    axes.set(xlim=(LOWEST - 0.04, 1.06), ylim=(-0.7, len(rows) - 0.3), xlabel="score (grey: random actions)")
-    axes.tick_params(axis="y", length=0)
-    mark_ends(axes, len(rows))
+    axes.set(xlim=(LOWEST - 0.04, 1.06), xlabel="score (grey: random actions)")
+    name_rows(axes, [words(name) for name, _ in rows])
 
 
 def draw_mistakes(axes, found: Mapping[str, Any]) -> None:
@@ -118,10 +117,8 @@ def draw_mistakes(axes, found: Mapping[str, Any]) -> None:
             axes.barh(place, cost, left=end, height=0.62, **_look(kind))
             end += cost
     lowest = min(-0.1, *(task["score"] for task in found["tasks"].values()))
-    axes.set_yticks(places, [words(name) for name in found["tasks"]])
-    axes.set(xlim=(lowest - 0.04, 1.06), ylim=(-0.7, len(places) - 0.3), xlabel="score, and then the cost of mistakes")
-    axes.tick_params(axis="y", length=0)
-    mark_ends(axes, len(places))
+    axes.set(xlim=(lowest - 0.04, 1.06), xlabel="score, and then the cost of mistakes")
+    name_rows(axes, list(map(words, found["tasks"])))
 
 
 def draw_information(panels: Sequence[Any], found: Mapping[str, Any]) -> None:
@@ -140,19 +137,22 @@ def draw_information(panels: Sequence[Any], found: Mapping[str, Any]) -> None:
     panels[0].set_ylabel("bits")
 
 
-def mark_ends(axes, num_rows: int) -> None:
-    """Marks the scores 0, without an experiment, and 1, the ideal."""
+def name_rows(axes, names: Sequence[str]) -> None:
+    """Names the rows of scores, from top to bottom, and marks the scores 0, without an experiment, and 1, the ideal."""
+    axes.set_yticks(np.arange(len(names))[::-1], names)
+    axes.set_ylim(-0.7, len(names) - 0.3)
+    axes.tick_params(axis="y", length=0)
     for level, name in ((0.0, "no experiment"), (1.0, "ideal")):
         plots.reference(axes, level, "", vertical=True)
-        axes.text(level, num_rows - 0.35, name, ha="center", va="bottom", fontsize=6.5, color="0.3")
+        axes.text(level, len(names) - 0.35, name, ha="center", va="bottom", fontsize=6.5, color="0.3")
 
 
 def _random_scores(found: Mapping[str, Any]) -> dict[str, float]:
     """Returns the expected scores of random actions, by domain."""
-    of_domains: dict[str, list[float]] = {}
+    of_domains = collections.defaultdict(list)
     for name, task in found["tasks"].items():
         share = (task["random"] - task["floor"]) / (task["ideal"] - task["floor"])
-        of_domains.setdefault(name.partition("/")[0], []).append(share)
+        of_domains[name.partition("/")[0]].append(share)
     return {domain: float(np.mean(shares)) for domain, shares in of_domains.items()}
 
 
