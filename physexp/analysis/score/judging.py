@@ -50,9 +50,8 @@ def judge(
 ) -> dict[protocol.Question, Judged]:
     """Judges the episodes of tasks; leaves no process behind; raises BrokenExecutor if one was killed.
 
-    Args:
-      played: the episodes of each task; a single task is judged in this process.
-      show: called with the number of judged episodes, after each one of a single task, or else after each task.
+    `show` is called with the number of judged episodes: after each one of a single task, which is judged in this
+    process, or else after each task.
     """
     if len(played) == 1:
         ((question, its),) = played.items()

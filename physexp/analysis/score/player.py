@@ -23,41 +23,37 @@ class PlayerError(ValueError):
 
 
 class Player:
-    """The process of a user's agent; a context that ends it, and all that it has started."""
+    """The process of a user's agent."""
 
     def __init__(self, name: str, timeout: float):
-        """Takes the function, `module:function`, and the limit of each call, s."""
+        """Starts the process; takes the function, `module:function`, and the limit of each call, s."""
         self.name, self._timeout = name, timeout
-        self._process: Any = None
         self._question: protocol.Question | None = None  # Of the actor in the process.
+        context = processes.spawning()
+        self._connection, theirs = context.Pipe()
+        self._process = context.Process(target=user_agent.serve, args=(theirs, name), name=f"actor {name}")
+        with processes.without_script(), processes.inherited_by_workers():
+            self._process.start()
+        theirs.close()
 
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        if self._process is None:
-            return
+    def close(self) -> None:
+        """Ends the process, and all that it has started."""
+        assert self._process.pid is not None
         with contextlib.suppress(ProcessLookupError):  # It makes its group when it begins.
             os.killpg(self._process.pid, signal.SIGKILL)
         processes.kill(self._process)
         self._connection.close()
 
     def actor(self, question: protocol.Question, index: int) -> core.Actor:
-        """Returns an actor for the episode of an index in a task; the agent keeps one for all episodes of a task.
-
-        Raises:
-          PlayerError: if the agent fails.
-        """
-        if self._process is None:
-            self._start()
+        """Returns an actor for the episode of an index in a task; the agent keeps one for all episodes of a task."""
         if question is not self._question:
-            self.call(f"({question.name}, before the first episode)", question, self._timeout + _START_SECONDS)
+            self.call(f"({question.name}, before the first episode)", question, _START_SECONDS)
             self._question = question
         return _Actor(self, question, index)
 
-    def call(self, place: str, message: Any, timeout: float | None = None) -> dict[str, Any]:
+    def call(self, place: str, message: Any, longer: float = 0.0) -> dict[str, Any]:
         """Sends a message and returns the answer; raises PlayerError, with the place, if the agent fails."""
-        timeout = timeout or self._timeout
+        timeout = self._timeout + longer
         try:
             self._connection.send(message)
             if not self._connection.poll(timeout):
@@ -73,14 +69,6 @@ class Player:
         if "error" in answer:
             raise PlayerError(f"{self.name} failed: {answer['error']} {place}")
         return answer
-
-    def _start(self) -> None:
-        context = processes.spawning()
-        self._connection, theirs = context.Pipe()
-        self._process = context.Process(target=user_agent.serve, args=(theirs, self.name), name=f"actor {self.name}")
-        with processes.without_script(), processes.inherited_by_workers():
-            self._process.start()
-        theirs.close()
 
 
 class _Actor(core.Actor):

@@ -40,10 +40,8 @@ class Session:
     ) -> Iterator[tuple[protocol.Question, episodes.Episode]]:
         """Yields the first episodes of each task, in environments of a seed; stops at the first failure of an agent.
 
-        Raises:
-          OSError: if an episode cannot be kept.
-          player.PlayerError: if an agent fails before any episode is over.
-          ValueError: if a stored episode does not follow from its actions.
+        Raises PlayerError if it fails before any episode is over, and ValueError if a stored episode does not follow
+        from its actions.
         """
         for question in questions:
             kept = self._kept.get(question.name, ())
@@ -73,9 +71,7 @@ class Session:
     def write(self, name: str, facts: Mapping[str, Any], results: Mapping[str, Any]) -> dict[str, Any]:
         """Writes facts, the outcome, the provenance and results into a file of the folder; returns all of them.
 
-        Raises:
-          OSError: if it cannot be written.
-          player.PlayerError: if an agent has failed; the message says where the episodes before it are.
+        Raises PlayerError if an agent has failed; the message says where the episodes before it are.
         """
         folder, outcome = Path(self._file.name).parent, {"complete": not self.problem, "problem": self.problem}
         written = {**facts, **outcome, **provenance.made_since(self._begun), **results}
@@ -91,14 +87,8 @@ class Session:
 def session(folder: Path, target: targets.Target, timeout: float, facts: Mapping[str, Any]) -> Iterator[Session]:
     """Returns a context that alone writes into a folder; `played.jsonl` is removed at its end unless it raises.
 
-    A folder without any episode at the end is left as it was found.
-
-    Args:
-      folder: it is made, is empty, or holds some of these very episodes; ValueError if not, or if another process is
-        at work there.
-      target: the player of the episodes.
-      timeout: for each call of a user's function, s.
-      facts: all that the episodes depend on, as JSON has it.
+    A folder without any episode at the end is left as it was found. Raises ValueError for a folder that holds anything
+    but episodes with the same `facts`, which are all that they depend on, or in which another process is at work.
     """
     user_agent.refuse_here()
     with contextlib.ExitStack() as stack:
@@ -107,8 +97,9 @@ def session(folder: Path, target: targets.Target, timeout: float, facts: Mapping
         if not path.exists() and any(one.name != ".lock" for one in folder.iterdir()):
             raise ValueError(f"{folder} exists and is not empty; give another --output")
         file = stack.enter_context(path.open("a+b"))
-        kept = _kept(file, folder, json.loads(json.dumps(facts)))
-        found = Session(file, kept, target.make or stack.enter_context(player.Player(target.name, timeout)).actor)
+        kept = _kept(file, folder, facts)
+        make = target.make or stack.enter_context(contextlib.closing(player.Player(target.name, timeout))).actor
+        found = Session(file, kept, make)
         try:
             yield found
         except BaseException:
@@ -133,7 +124,7 @@ def _kept(file: IO[bytes], folder: Path, facts: Mapping[str, Any]) -> dict[str, 
         file.write(json.dumps(facts).encode() + b"\n")
         return {}
     file.truncate(size)
-    for place, theirs, ours in differences(lines[0], facts):
+    for place, theirs, ours in differences(lines[0], json.loads(json.dumps(facts))):
         raise ValueError(
             f"{folder} was begun with {' '.join(place)} {json.dumps(theirs)} instead of {json.dumps(ours)}; give the "
             "same, or another --output"

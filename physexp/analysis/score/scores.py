@@ -6,6 +6,7 @@ algorithm and trims single ones; here a single agent plays, the episodes of each
 trimmed.
 """
 
+import collections
 from collections.abc import Mapping, Sequence
 import contextlib
 import dataclasses
@@ -37,11 +38,6 @@ class Reference:
 
     interactions: float
     gains: np.ndarray
-
-    @property
-    def bits_per_interaction(self) -> float:
-        """Mean information from an interaction; 0 if there are none."""
-        return float(self.gains.sum() / self.interactions) if self.interactions else 0.0
 
 
 @functools.cache
@@ -130,7 +126,7 @@ def _of_task(
         "mean_interactions": float(interactions.mean()),
         "ideal_interactions": known and known.interactions,
         "bits_per_interaction": float(gains.sum() * len(length) / max(1, interactions.sum())),
-        "ideal_bits_per_interaction": known and known.bits_per_interaction,
+        "ideal_bits_per_interaction": known and float(known.gains.sum() / (known.interactions or 1.0)),
         "gains": gains.tolist(),
         "ideal_gains": known and known.gains.tolist(),
     }
@@ -161,9 +157,9 @@ def over(found: Sequence[TaskScore], questions: Sequence[protocol.Question]) -> 
       questions: all tasks, at least one; the score of a task that was not played is 0.
     """
     played = {one.question: (one.scores.mean(), one.resampled) for one in found}
-    of_tasks: dict[str, list[tuple[float, np.ndarray]]] = {}
+    of_tasks = collections.defaultdict(list)
     for question in questions:
-        of_tasks.setdefault(question.domain, []).append(played.get(question, (0.0, np.zeros(_RESAMPLES))))
+        of_tasks[question.domain].append(played.get(question, (0.0, np.zeros(_RESAMPLES))))
     means = {name: np.mean([mean for mean, _ in parts]) for name, parts in of_tasks.items()}
     resampled = {name: np.mean([drawn for _, drawn in parts], axis=0) for name, parts in of_tasks.items()}
     return {

@@ -23,13 +23,8 @@ _TOLERANCE = 1e-9  # Of floating-point numbers, on any machine.
 def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dict[str, Any]:
     """Plays the log of a folder again; returns the numbers of episodes and actions, the target and the score.
 
-    Args:
-      folder: a folder that `scoring.score` has written.
-      show: called with the number of episodes that have been played.
-
-    Raises:
-      OSError: if a file is missing.
-      ValueError: if anything differs; the line names it.
+    `show` is called with the number of episodes that have been played. Raises OSError if a file is missing, and
+    ValueError if anything differs; the line names it.
     """
     written, found = scoring.read(folder), log.read(folder)
     path, each = folder / log.FILE, written["protocol"]["episodes"]
