@@ -77,7 +77,7 @@ def played_by_the_ideal(domain: str, task: str, seed: int, index: int) -> record
     known = domains.find(domain)
     environment = suite.load(domain, task, task_kwargs={"random": seed})
     environment.task.next_episode = index
-    recorder = recording.EpisodeRecorder(environment, domain, task)
+    recorder = recording.EpisodeRecorder(domain, task)
     actor = known.ideal(task, {}, known.discount).actor()
     environment_loop.EnvironmentLoop(environment, actor, [recorder]).run_episode()
     episode = recorder.episode

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 import contextlib
 import dataclasses
+import functools
 from pathlib import Path
 import shlex
 from typing import Any, Literal
@@ -105,7 +106,7 @@ class Train:
             if config.replay_every:
                 from physexp.analysis.replay import training
 
-                on_checkpoint = training.Writer(run, config)
+                on_checkpoint = functools.partial(training.write, run, config)
             start = None if self.resume else config
 
             def report(row: dict[str, Any]) -> None:

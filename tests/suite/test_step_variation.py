@@ -47,7 +47,7 @@ def test_a_replay_shows_control_steps_of_the_task_s_length(seed):
     """An agent does not observe the length of an episode's control steps, so no clock may show it."""
     options = {"step_variation": 0.5}
     environment = suite.load(*TOWER, {"random": seed, **options})
-    recorder = replay.EpisodeRecorder(environment, *TOWER, options)
+    recorder = replay.EpisodeRecorder(*TOWER, options)
     recorder.observe_first(environment, environment.reset())
     lasts = environment.task.options.control_timestep
     for action in (0, 1, 4):

@@ -34,7 +34,7 @@ def figures() -> Iterator[dict]:
 def _recording(name: str, task: measuring.Task) -> dict:
     """Returns the share of time that recording adds to the same episodes of a trained agent."""
     environment, actor = suite.load(*task, task_kwargs={"random": 0}), pretrained.load(*task).actor(greedy=True)
-    recorder = replay.EpisodeRecorder(environment, *task, {}, actor)
+    recorder = replay.EpisodeRecorder(*task, {}, actor)
     loops = [environment_loop.EnvironmentLoop(environment, actor, observers) for observers in ([], [recorder])]
     seconds = np.zeros((_PAIRS, 2))
     for pair in range(_PAIRS):

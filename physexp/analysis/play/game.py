@@ -96,7 +96,7 @@ def play(
     """
     kwargs = dict(task_kwargs or {})
     environment = suite.load(domain, task, task_kwargs={**kwargs, "random": seed})
-    observers = _viewers(environment, domain, task, kwargs) if view else []
+    observers = _viewers(domain, task, kwargs) if view else []
     rules = _rules(environment)
     show(rules)
     others, discount = _others(domain, task, kwargs, show)
@@ -119,11 +119,11 @@ def play(
         show("\n".join(f"{name:20} {score}" for name, score in scores.items()) + "\n")
 
 
-def _viewers(environment: suite.Environment, domain, task, kwargs) -> list[environment_loop.Observer]:
+def _viewers(domain: str, task: str, kwargs: Mapping[str, Any]) -> list[environment_loop.Observer]:
     """Returns observers that show the scene in the viewer."""
     from physexp.analysis.replay import live, recording, viewing  # The import takes a second.
 
-    recorder = recording.EpisodeRecorder(environment, domain, task, kwargs, agent="you")
+    recorder = recording.EpisodeRecorder(domain, task, kwargs, agent="you")
     return [recorder, live.Live(recorder, viewing.Viewer())]
 
 

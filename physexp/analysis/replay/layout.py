@@ -1,7 +1,6 @@
 """Layout of a recording: the scene at the left, observations and beliefs at the right."""
 
 from collections.abc import Sequence
-import itertools
 from typing import Any
 
 import numpy as np
@@ -44,12 +43,13 @@ class _Views:
     def arranged(self) -> rrb.Container:
         """Returns all views: in one column if the episode has a root, beside that of another episode."""
         scene, about = self._scene(), self._texts()
-        seen, now, thoughts = self._readings(), self._belief_now(), self._thoughts()
+        seen, thoughts = self._readings(), self._thoughts()
+        now = [self._text("belief/now", "belief and policy, now")] if len(self._episode.policies) else []
         if self._root:
             middle = rrb.Horizontal(*now, *seen, column_shares=[5, 4][: len(now) + len(seen)])
-            rows: list[rrb.Container | rrb.View] = [scene, about, middle, *_tabs([*itertools.chain(*thoughts)])]
+            rows: list[rrb.Container | rrb.View] = [scene, about, middle, *_tabs(sum(thoughts, []))]
             return rrb.Vertical(*rows, row_shares=[5, 4, 4, 4][: len(rows)])
-        rows = [*seen, *now, *itertools.chain(*map(_tabs, thoughts))]
+        rows = [*seen, *now, *(tabs for views in thoughts for tabs in _tabs(views))]
         left = rrb.Vertical(scene, about, row_shares=[3, 2])
         return rrb.Horizontal(left, rrb.Vertical(*rows, row_shares=[5, 4, 4, 4][: len(rows)]), column_shares=[3, 2])
 
@@ -98,9 +98,6 @@ class _Views:
             paths, limits = zip(*curves, strict=True)
             views.append(self._plot(title, paths, readings.joined_limits(limits)))
         return _tabs(views)
-
-    def _belief_now(self) -> list[rrb.View]:
-        return [self._text("belief/now", "belief and policy, now")] if len(self._episode.policies) else []
 
     def _thoughts(self) -> list[list[rrb.View]]:
         """Returns groups of plots of beliefs and policies."""

@@ -1,4 +1,4 @@
-"""Film of an episode that follows from its observations alone, to be drawn before the answer."""
+"""Poses of an episode that follows from its observations alone, to be drawn before the answer."""
 
 from collections.abc import Mapping, Sequence
 
@@ -8,13 +8,13 @@ import numpy as np
 from physexp.analysis.data import readings
 from physexp.suite.engine import composer_task
 
-Film = tuple[np.ndarray, np.ndarray, np.ndarray]
+Poses = tuple[np.ndarray, np.ndarray, np.ndarray]
 """Positions, m [F, K, 3], rotations, [F, K, 3, 3], and whether the observations determine the positions, bool [K]."""
 
 
-def film(
+def poses(
     task: composer_task.ComposerTask, geoms: np.ndarray, observations: Mapping[str, np.ndarray], ends: Sequence[int]
-) -> Film:
+) -> Poses:
     """Returns the poses of K geoms in all frames up to the last observation.
 
     Each reading moves from one observation to the next by the clock, slowly at both ends. Readings alone place geoms:
@@ -35,7 +35,7 @@ def film(
     return positions[:, geoms], rotations[:, geoms], are_placed[geoms]
 
 
-def _placed(task: composer_task.ComposerTask, shown: Mapping[str, np.ndarray], size: int) -> Film:
+def _placed(task: composer_task.ComposerTask, shown: Mapping[str, np.ndarray], size: int) -> Poses:
     """Returns the poses of all geoms from the readings of joints and positions, [size, S] by name."""
     model, start = task.apparatus.model, task.apparatus.start.shown
     joints, displacements = {}, {}

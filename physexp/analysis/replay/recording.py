@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping, Sequence
 import dataclasses
-import functools
 import re
 from typing import Any
 
@@ -16,10 +15,7 @@ from physexp.analysis.replay import observed
 from physexp.analysis.training import config as config_lib
 from physexp.suite.engine import contract, rendering
 
-MakeTask = Callable[..., contract.Task]
-"""Makes a task from its options as keyword arguments."""
-
-_KINDS = {"BOX": "box", "SPHERE": "sphere", "ELLIPSOID": "ellipsoid", "CYLINDER": "cylinder", "CAPSULE": "capsule"}
+_KINDS = ("box", "sphere", "ellipsoid", "cylinder", "capsule")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -64,7 +60,7 @@ class Film(episodes.Episode):
       times: times of the physics steps, those that play out the answer included, s, float64 [F]; stretched with
         `step_variation`, so that an action takes `control_timestep`.
       num_played: number of physics steps before the answer.
-      positions, rotations: poses that follow from the observations, see `observed.film`, and true poses while the
+      positions, rotations: poses that follow from the observations, see `observed.poses`, and true poses while the
         answer is played out, float64 [F, K, 3] and [F, K, 3, 3].
       true_positions, true_rotations: poses in the simulation.
       controls: actuator controls of the physics steps, float64 [F, nu].
@@ -98,24 +94,23 @@ class EpisodeRecorder(episodes.Recorder):
 
     def __init__(
         self,
-        environment: suite.Environment,
         domain: str,
         task: str,
         task_kwargs: Mapping[str, Any] | None = None,
         actor: core.Actor | None = None,
         agent: str = "",
-        make_task: MakeTask | None = None,
+        make_task: Callable[..., contract.Task] | None = None,
     ):
         """Prepares to record.
 
         Args:
-          environment: environment to record.
-          domain, task, task_kwargs: arguments that it was loaded with.
+          domain, task, task_kwargs: arguments that the environment was loaded with.
           actor: player, whose `policy`, `value` and `belief` are recorded if it has them.
           agent: name of the player.
-          make_task: makes the task again, if `suite.load` does not know it.
+          make_task: makes the task from its options, if `suite.load` does not know it.
         """
-        self._actor, self._make_task = actor, make_task or functools.partial(_load_task, domain, task)
+        self._actor = actor
+        self._make_task = make_task or (lambda **options: suite.load_task(domain, task, options))
         chosen = {name: value for name, value in (task_kwargs or {}).items() if name != "random"}
         self._facts: dict[str, Any] = {"domain": domain, "task": task, "agent": agent, "task_kwargs": chosen}
         self._rebuilder: _Rebuilder | None = None
@@ -158,10 +153,6 @@ class EpisodeRecorder(episodes.Recorder):
         )
 
 
-def _load_task(domain: str, task: str, **task_kwargs: Any) -> contract.Task:
-    return suite.load_task(domain, task, task_kwargs)
-
-
 class _Rebuilder:
     """Plays episodes again and records all poses."""
 
@@ -194,7 +185,7 @@ class _Rebuilder:
         geoms = _geoms(model, [model.geom(geom.full_identifier).id for geom in (room.floor, room.mat)])
         times, positions, rotations, controls = (np.array(values) for values in zip(*self._poses, strict=True))
         positions, rotations = positions[:, geoms], rotations[:, geoms]
-        seen_positions, seen_rotations, are_placed = observed.film(task, geoms, episode.observations, ends)
+        seen_positions, seen_rotations, are_placed = observed.poses(task, geoms, episode.observations, ends)
         return {
             "declared": task,
             "shapes": _shapes(model, geoms, np.isin(geoms, task.apparatus.moving_geoms), are_placed),
@@ -226,7 +217,8 @@ def _geoms(model: mujoco.MjModel, floor: Sequence[int]) -> np.ndarray:
 
 def _shapes(model: mujoco.MjModel, geoms: np.ndarray, are_moving: np.ndarray, are_placed: np.ndarray) -> Shapes:
     """Returns the shapes of some geoms."""
-    kinds = [_KINDS.get(mujoco.mjtGeom(kind).name.removeprefix("mjGEOM_"), "box") for kind in model.geom_type[geoms]]
+    kinds = [mujoco.mjtGeom(kind).name.removeprefix("mjGEOM_").lower() for kind in model.geom_type[geoms]]
+    kinds = [kind if kind in _KINDS else "box" for kind in kinds]
     return Shapes(
         names=_names([model.geom(geom).name for geom in geoms]),
         kinds=tuple(kinds),
@@ -289,7 +281,7 @@ def reenact(
     environment = suite.load(config.domain, config.task, task_kwargs={**config.task_kwargs, "random": seed})
     environment.task.next_episode = index
     actor = acting.RecurrentActor(network)
-    recorder = EpisodeRecorder(environment, config.domain, config.task, config.task_kwargs, actor, agent)
+    recorder = EpisodeRecorder(config.domain, config.task, config.task_kwargs, actor, agent)
     player = actor if actions is None else _Beside(actor, actions)
     environment_loop.EnvironmentLoop(environment, player, [recorder]).run_episode()
     recorded = recorder.episode

@@ -37,7 +37,7 @@ def play(domain, task, actions, path=None, hidden=None, **task_kwargs):
         return made
 
     environment, screen = suite.Environment(make_task()), _Screen(path)
-    recorder = replay.EpisodeRecorder(environment, domain, task, task_kwargs, agent="you", make_task=make_task)
+    recorder = replay.EpisodeRecorder(domain, task, task_kwargs, agent="you", make_task=make_task)
     observers = [recorder, live.Live(recorder, screen)] if path else [recorder]
     timestep = environment.reset()
     for observer in observers:

@@ -56,7 +56,7 @@ def record(domain, task, interactions=5, make_task=None):
     played = suite.load_task(domain, task, options) if make_task is None else make_task(**options)
     environment = suite.Environment(played)
     actor, watcher = Careless(environment, interactions, options["random"]), observers.Watcher()
-    recorder = replay.EpisodeRecorder(environment, domain, task, options, actor, "a careless agent", make_task)
+    recorder = replay.EpisodeRecorder(domain, task, options, actor, "a careless agent", make_task)
     environment_loop.EnvironmentLoop(environment, actor, [watcher, recorder]).run_episode()
     return recorder.episode, watcher, environment
 
@@ -101,7 +101,7 @@ def test_poses_are_kept_at_every_physics_step_and_end_where_the_physics_is(writt
 
 def test_a_recorder_with_another_difficulty_is_refused():
     environment = suite.load("which_is_heavier", "features", task_kwargs={"random": fresh_seed(), "difficulty": 3})
-    recorder = replay.EpisodeRecorder(environment, "which_is_heavier", "features", {"difficulty": 10})
+    recorder = replay.EpisodeRecorder("which_is_heavier", "features", {"difficulty": 10})
     recorder.observe_first(environment, environment.reset())
     recorder.observe(environment, environment.step(0), 0)
     with pytest.raises(RuntimeError, match="is not what was seen: heights differs; record the environment with"):

@@ -1,6 +1,7 @@
 """Training writes replays of the agent into the run's folder."""
 
 import dataclasses
+import functools
 
 import recordings
 from rerun.chunk import RrdReader
@@ -13,7 +14,7 @@ from physexp.analysis.training import trainer
 def test_replays_of_one_instance_are_written_every_so_many_steps(tmp_path):
     run = trainers.create(tmp_path / "run", "ppo", frames=3000, checkpoint_seconds=0.2)
     config = dataclasses.replace(run.config, replay_every=1000)
-    trainer.train(run, on_checkpoint=training.Writer(run, config))
+    trainer.train(run, on_checkpoint=functools.partial(training.write, run, config))
     frames = sorted(int(path.stem) for path in (run.path / "replays").iterdir())
     assert 1 <= len(frames) <= 3
     assert all(later - earlier >= 1000 for earlier, later in zip([0, *frames], frames, strict=False))
@@ -34,5 +35,5 @@ def test_a_run_that_goes_on_counts_steps_from_its_last_replay(tmp_path, monkeypa
     written = []
     monkeypatch.setattr(writing, "write", lambda path, groups: written.append(path.name))
     for frames in (4999, 5000):
-        training.Writer(run, config)(frames, network.state_dict())
+        training.write(run, config, frames, network.state_dict())
     assert written == ["000000000005000.rrd"]
