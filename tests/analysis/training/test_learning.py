@@ -1,6 +1,6 @@
 """A short real training run learns to experiment; an action prior holds as long as the entropy bonus says so.
 
-That PPO learns is tested with the README.
+That the belief learner learns is tested with the README.
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ pytestmark = pytest.mark.long
 HIGH_ENTROPY = {"entropy_cost": 0.15, "final_entropy_cost": 0.03}
 SHORT = {
     "a3c": {"frames": 300_000, "num_workers": 2, "envs_per_worker": 64, **HIGH_ENTROPY},
-    "belief": {"frames": 3_000, "frames_per_update": 4, "answers_revealed": True},
+    "ppo": {"frames": 60_000, "num_environments": 64, "num_minibatches": 2, **HIGH_ENTROPY},
 }
 LARGE_BONUS = {
     "a3c": {"frames": 20_000},
