@@ -48,7 +48,6 @@ class BatchEnvironment:
         self._closed = False
         self._all = np.arange(self.num_environments)
         self.reseed(task.options.random)
-        self._renderer: rendering.Renderer | None = None  # Of images for people.
 
     def reseed(self, random: Any) -> None:
         """Takes another seed: every environment starts its first episode next; `random` as in `task_kwargs`."""
@@ -210,18 +209,13 @@ class BatchEnvironment:
             images = np.zeros((len(chosen), size, size, 3), np.uint8)
             for group, members in self.by_structure(chosen):
                 rows = chosen[members]
-                if self._renderer is None or self._renderer.size != size:
-                    self._close_renderer()
-                    self._renderer = rendering.Renderer(group.apparatus.model, group.apparatus.moving_geoms, size=size)
-                positions, rotations = group.poses(rows)
-                self._renderer.render(positions, rotations, rows, images)
+                self.task.observer.renderer(group.apparatus, size).render(*group.poses(rows), rows, images)
             return images
 
     def close(self) -> None:
         """Frees the simulations. Closing twice does nothing."""
         with self._guard:
             self._groups = {}
-            self._close_renderer()
             self.task.close()
             self._closed = True
 
@@ -233,11 +227,6 @@ class BatchEnvironment:
         """Keeps other threads out; yields the indices of some environments, int64 [N], by default of all."""
         with self._guard:
             yield self._choose(environments)
-
-    def _close_renderer(self) -> None:
-        if self._renderer is not None:
-            self._renderer.close()
-            self._renderer = None
 
     def _choose(self, environments: Any) -> np.ndarray:
         if self._closed:

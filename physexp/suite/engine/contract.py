@@ -214,7 +214,7 @@ class Task(abc.ABC):
         return fields + list(circumstances.fields.items()), apparatus.starts(circumstances, len(nuisances))
 
     def close(self) -> None:
-        """Frees the renderer. A closed task can be played again."""
+        """Frees the renderers. A closed task can be played again."""
         self.observer.close()
 
 

@@ -28,7 +28,6 @@ class Environment(composer.Environment):
         self._guard = guard.Guard("environment")
         self._flat = checks.flag("flat_observation", flat_observation)
         raises = checks.flag("raise_exception_on_physics_error", raise_exception_on_physics_error)
-        self._renderer: rendering.Renderer | None = None  # Of images for people.
         self._compiled: dict[int, tuple[apparatus_lib.Apparatus, mjcf.Physics]] = {}  # By structure.
         self._current: tuple[int, int] | None = None  # The structure in use, and the physics steps in a control step.
         super().__init__(composer_task.ComposerTask(task), random_state=0, raise_exception_on_physics_error=raises)
@@ -60,13 +59,12 @@ class Environment(composer.Environment):
         with self._guard:
             self._check_open()
             size, apparatus, physics = rendering.SIZE_FOR_PEOPLE, self._task.apparatus, self.physics
-            if self._renderer is None:  # All structures of a task have the same geoms: one renderer draws them all.
-                self._renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms, size=size)
             positions = physics.data.geom_xpos[None].copy()
             apparatus.indicate(positions, self._task.measured)
             image = np.zeros((size, size, 3), np.uint8)
             poses = positions, physics.data.geom_xmat[None]
-            self._renderer.render(*poses, np.zeros(1, np.intp), image[None], colors=physics.model.geom_rgba)
+            renderer = self._task.observer.renderer(apparatus, size)
+            renderer.render(*poses, np.zeros(1, np.intp), image[None], colors=physics.model.geom_rgba)
             return image
 
     def close(self) -> None:
@@ -76,8 +74,6 @@ class Environment(composer.Environment):
                 physics.free()
             self._compiled = {}
             self._task.close()
-            if self._renderer is not None:
-                self._renderer.close()
             self._physics = self._physics_proxy = None
 
     def __reduce__(self) -> NoReturn:  # Of copies and of pickles.

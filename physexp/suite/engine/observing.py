@@ -27,7 +27,7 @@ class Observer:
     def __init__(self, task: Any):
         """Keeps what a task, of `contract.Task`, declares. A GL context is made when the first image is drawn."""
         self._options, self._num_labels, self._pixels = task.options, task.num_labels, task.pixels
-        self._renderer: rendering.Renderer | None = None
+        self._renderers: dict[int, rendering.Renderer] = {}  # By size.
         self.fields = apparatus_lib.LOOKED_AT if task.pixels else ("sensordata",)
         self.readings = dict(task.readings)
         if self._options.reveal:
@@ -80,11 +80,15 @@ class Observer:
             for name in apparatus.readings:
                 observations[name][rows] = apparatus.read(name, shown["sensordata"])
             return
-        if self._renderer is None:  # All structures of a task have the same geoms: one renderer draws them all.
-            self._renderer = rendering.Renderer(apparatus.model, apparatus.moving_geoms)
         apparatus.indicate(shown["geom_xpos"], shown["sensordata"])
         poses = shown["geom_xpos"], shown["geom_xmat"]
-        self._renderer.render(*poses, rows, observations["pixels"], starts.camera[rows])
+        self.renderer(apparatus).render(*poses, rows, observations["pixels"], starts.camera[rows])
+
+    def renderer(self, apparatus: apparatus_lib.Apparatus, size: int = rendering.SIZE) -> rendering.Renderer:
+        """Returns the renderer of images of a size; all structures of a task have the same geoms, so it draws each."""
+        if size not in self._renderers:
+            self._renderers[size] = rendering.Renderer(apparatus.model, apparatus.moving_geoms, size=size)
+        return self._renderers[size]
 
     def complete(self, ledger: episodes.Ledger, rows: np.ndarray, observations: Mapping[str, np.ndarray]) -> None:
         """Adds noise, and the right answers if they are observed, to the observations of some environments, int [N].
@@ -101,7 +105,7 @@ class Observer:
             observations[ANSWER][rows] = ledger.answers[rows, None] == np.arange(self._num_labels)
 
     def close(self) -> None:
-        """Frees the renderer; the next image makes another."""
-        if self._renderer is not None:
-            self._renderer.close()
-            self._renderer = None
+        """Frees the renderers; the next image makes another."""
+        for renderer in self._renderers.values():
+            renderer.close()
+        self._renderers.clear()
