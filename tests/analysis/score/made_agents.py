@@ -94,8 +94,7 @@ _MODULE = textwrap.dedent(
         subprocess.Popen([sys.executable, "-c", textwrap.dedent(_PROGRAM)])
         while not Path("program").exists():
             time.sleep(0.01)
-        ends = {"hang": _hang, "return": lambda: 8}
-        return _after_two_episodes(ends[os.environ["END"]])
+        return _after_two_episodes(_hang)
 
 
     def chooses_text(question):

@@ -83,20 +83,14 @@ def test_a_failing_agent_gives_one_line_and_earlier_episodes_are_kept(target, sa
     assert not [child for child in multiprocessing.active_children() if child.name.startswith("actor")]
 
 
-@pytest.mark.parametrize("end", ["hang", "return"])
-def test_programs_of_an_agent_inherit_no_mask_and_end_with_it(end, monkeypatch):
-    monkeypatch.setenv("END", end)
-    if end == "return":
-        score("made:starts_a_program", timeout=5.0)
-    else:
-        failure_of("made:starts_a_program", timeout=5.0)
+def test_programs_of_an_agent_inherit_no_mask_and_end_with_it():
+    failure_of("made:starts_a_program", timeout=5.0)
     number, blocked, *handlers = json.loads(Path("program").read_text())
     assert not blocked and handlers == ["default_int_handler", 0, 0]  # Python's own, and the system's.
     waiting.wait_until(lambda: not psutil.pid_exists(number), "the end of the program")
 
 
-def test_programs_of_an_agent_end_when_the_score_is_killed(here, monkeypatch):
-    monkeypatch.setenv("END", "hang")
+def test_programs_of_an_agent_end_when_the_score_is_killed(here):
     words = ["score", "made:starts_a_program", "--tasks", "threshold/features", "--output", "kept"]
     with commands.start(*words, cwd=here) as process:
         waiting.wait_until((here / "hanging").exists, "the third episode", pid=process.pid)
