@@ -147,13 +147,8 @@ def _call(function: Any, name: str, kwargs: Any, *args: Any) -> Any:
     allowed = [parameter.name for parameter in list(inspect.signature(function).parameters.values())[len(args) :]]
     unknown = set(kwargs) - set(allowed)
     if unknown:
-        raise ValueError(f"{name} has {', '.join(sorted(map(_spelled, unknown)))}; allowed: {', '.join(allowed)}")
+        raise ValueError(f"{name} has {', '.join(sorted(map(checks.shown, unknown)))}; allowed: {', '.join(allowed)}")
     return function(*args, **kwargs)
-
-
-def _spelled(key: Any) -> str:
-    """Returns a name as a message shows it: in quotes unless it is a plain word."""
-    return key if isinstance(key, str) and key.isidentifier() else checks.shown(key)
 
 
 def _checked(name: str, kwargs: Any) -> dict[str, Any]:

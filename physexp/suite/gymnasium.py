@@ -172,9 +172,8 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
         """Loads a batch.
 
         Args:
-          domain, task, task_kwargs: as for `suite.load`.
+          domain, task, task_kwargs, num_threads: as for `suite.load_batch`.
           num_envs: number of environments.
-          num_threads: threads that simulate.
           render_mode: `rgb_array` for an image of each environment, as Gymnasium's wrappers want them, `rgb_array_grid`
             for one image of all, or None.
           flat_observation: observe one vector of all arrays, sorted by name.
