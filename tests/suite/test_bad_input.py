@@ -137,26 +137,29 @@ def test_an_option_out_of_range_is_refused(options, fragments):
 
 
 @pytest.mark.parametrize(
-    "domain, options, fragments",
+    "name, options, fragments",
     [
-        ("threshold", {"control_timestep": 0.05}, ("control_timestep is 0.05 s; give at least 0.06 s",)),
-        ("threshold", {"time_limit": 20.0}, ("time_limit is 20.0 s; give at most 10 s",)),
+        ("threshold/features", {"control_timestep": 0.05}, ("control_timestep is 0.05 s; give at least 0.06 s",)),
+        ("threshold/features", {"time_limit": 20.0}, ("time_limit is 20.0 s; give at most 10 s",)),
         # 99 control steps of up to 0.14 s before the last.
-        ("threshold", {"time_limit": 10.0, "step_variation": 0.4}, ("time_limit is 10.0 s", "last 13.86 s", "10 s")),
-        ("balance", {"control_timestep": 0.05}, ("control_timestep is 0.05 s; give at least 0.08 s",)),
-        ("balance", {"difficulty": 1.5}, ("difficulty is 1.5; give 1, 2 or 3",)),
-        ("strings", {"control_timestep": 0.09}, ("control_timestep is 0.09 s; give at least 0.1 s",)),
-        ("crush", {"control_timestep": 0.07}, ("control_timestep is 0.07 s; give at least 0.08 s",)),
+        ("threshold/features", {"time_limit": 10.0, "step_variation": 0.4}, ("is 10.0 s", "last 13.86 s", "10 s")),
+        ("balance/features", {"control_timestep": 0.05}, ("control_timestep is 0.05 s; give at least 0.08 s",)),
+        ("balance/features", {"difficulty": 1.5}, ("difficulty is 1.5; give 1, 2 or 3",)),
+        ("strings/features", {"control_timestep": 0.09}, ("control_timestep is 0.09 s; give at least 0.1 s",)),
+        ("crush/features", {"control_timestep": 0.07}, ("control_timestep is 0.07 s; give at least 0.08 s",)),
         # 89 control steps of up to 0.12 s before the last.
-        ("crush", {"time_limit": 9.0, "step_variation": 0.2}, ("time_limit is 9.0 s", "last 10.68 s", "10 s")),
-        ("crush", {"num_cans": 4}, ("num_cans is 4; give an integer >= 1 and <= 3",)),
-        ("sealed_box", {"noise": 0.001}, ("noise is 0.001; give 0",)),
-        ("strike", {"goal_distance": 0.4}, ("goal_distance is 0.4; give a number from 0.6 to 0.75 m",)),
+        ("crush/features", {"time_limit": 9.0, "step_variation": 0.2}, ("is 9.0 s", "last 10.68 s", "10 s")),
+        ("crush/features", {"num_cans": 4}, ("num_cans is 4; give an integer >= 1 and <= 3",)),
+        ("sealed_box/features", {"noise": 0.001}, ("noise is 0.001; give 0",)),
+        ("strike/features", {"goal_distance": 0.4}, ("goal_distance is 0.4; give a number from 0.6 to 0.75 m",)),
+        ("threshold/features", {"variation": 0.5}, ("variation is 0.5; give 0 where episodes differ in nothing else",)),
+        ("towers/fist_pixels", {"noise": 0.01}, ("noise is 0.01; give 0 where no reading in metres is observed",)),
+        ("strings/pixels", {"reveal": True}, ("reveal is True; give False where images are", "a task with features")),
     ],
 )
-def test_options_that_make_no_question_are_refused(domain, options, fragments):
+def test_options_that_make_no_question_are_refused(name, options, fragments):
     with _refuses(*fragments):
-        suite.load(domain, "features", options)
+        suite.load(*name.split("/"), options)
 
 
 @pytest.mark.parametrize("value", [np.float32(0.1), np.float32(0.3), 0.1 * 3, 60.0])

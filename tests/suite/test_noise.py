@@ -56,9 +56,3 @@ def test_readings_with_noise_have_no_bounds(domain, task):
     for name, spec in noisy.observation_spec().items():
         assert not hasattr(spec, "minimum") and hasattr(exact.observation_spec()[name], "minimum")
         assert spec.shape == exact.observation_spec()[name].shape
-
-
-@pytest.mark.parametrize("domain, task", [("threshold", "features"), ("towers", "fist_pixels")])
-def test_noise_is_refused_where_no_position_is_read(domain, task):
-    with pytest.raises(ValueError, match="^noise is 0.01; give 0 where no reading in metres is observed$"):
-        suite.load(domain, task, {"noise": NOISE})

@@ -48,12 +48,6 @@ def test_the_specs_have_the_answer_and_its_bounds(name):
     assert {key: spec for key, spec in revealing.items() if key != "answer"} == dict(plain)
 
 
-def test_images_are_not_revealed_with():
-    refusal = "^reveal is True; give False where images are observed, or choose a task with features$"
-    with pytest.raises(ValueError, match=refusal):
-        suite.load_task("strings", "pixels", {"reveal": True})
-
-
 @every_revealing_task
 def test_its_ideal_experimenter_answers_at_once_and_is_never_wrong(domain, task, seed):
     solution = domains.find(domain).ideal(task, {"reveal": True}, 0.9)

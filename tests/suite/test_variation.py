@@ -161,8 +161,3 @@ def test_images_are_those_of_a_displaced_camera(seed, domain, task):
     differences = np.abs(images.astype(int) - plain).mean(axis=(1, 2, 3))
     assert differences.min() > 0 and differences.max() < 25
     batch.close()
-
-
-def test_variation_is_refused_where_nothing_varies():
-    with pytest.raises(ValueError, match="^variation is 0.5; give 0 where episodes differ in nothing else$"):
-        suite.load("threshold", "features", {"variation": 0.5})
