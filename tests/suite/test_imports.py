@@ -4,7 +4,6 @@ import _ctypes
 import shutil
 
 import interpreters
-import pytest
 
 # A GL context of dm_control or of mujoco is an object, with one of these among the classes of its class.
 LOOK_AROUND = """
@@ -18,19 +17,13 @@ def look_around():
         "contexts": sum(not contexts.isdisjoint(names) for names in classes),
         "loaded": sorted({name.split(".")[0] for name in sys.modules}),
         "physexp": sorted(name for name in sys.modules if name.startswith("physexp")),
-        "backend": os.environ.get("MUJOCO_GL"),
     }
 """
 
 
-@pytest.mark.parametrize("module", ["physexp", "physexp.suite"])
-def test_importing_starts_no_thread_or_process_and_opens_no_context(module):
-    found, _ = interpreters.run(f"{LOOK_AROUND}\nimport {module}\nfound.update(look_around())")
-    assert (found["children"], found["threads"], found["contexts"]) == (0, 1, 0)
-
-
-def test_importing_the_suite_imports_no_torch_and_no_plots():
+def test_importing_starts_no_thread_or_process_opens_no_context_and_imports_no_torch_or_plots():
     found, _ = interpreters.run(f"{LOOK_AROUND}\nimport physexp.suite\nfound.update(look_around())")
+    assert (found["children"], found["threads"], found["contexts"]) == (0, 1, 0)
     unwanted = {"torch", "matplotlib", "pandas", "pyarrow", "rerun", "gymnasium", "ray", "tensorboard"}
     assert not unwanted & set(found["loaded"])
     assert [name for name in found["physexp"] if not name.startswith("physexp.suite")] == ["physexp", "physexp.checks"]
