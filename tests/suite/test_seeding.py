@@ -1,9 +1,6 @@
 """A seed reaches everything, and an episode depends on nothing but its seed and its index."""
 
 import itertools
-import os
-import subprocess
-import sys
 
 from chance import P_VALUE
 import numpy as np
@@ -32,13 +29,6 @@ def _hidden(env, episodes: int) -> list[bytes]:
         env.reset()
         hidden.append(np.copy(env.task.hidden).tobytes())
     return hidden
-
-
-def test_environment_seeds_are_the_same_in_another_process(seed):
-    code = f"from physexp import suite; print([suite.environment_seed({seed}, i) for i in range(5)])"
-    env = {**os.environ, "PYTHONHASHSEED": "1"}
-    printed = subprocess.run([sys.executable, "-c", code], env=env, capture_output=True, text=True, check=True).stdout
-    assert printed.strip() == str([suite.environment_seed(seed, i) for i in range(5)])
 
 
 def test_environment_seeds_collide_no_more_than_random_numbers_do(seed):

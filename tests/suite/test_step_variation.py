@@ -32,17 +32,6 @@ def test_all_control_steps_of_an_episode_are_equally_long(seed):
     assert len(lengths) > 1 and all(0.05 <= length <= 0.15 + 1e-9 for length in lengths)
 
 
-def test_the_fist_goes_as_far_in_a_control_step_as_it_has_time_to(seed):
-    """The fist moves at 1 m/s, once it has picked up speed."""
-    batch = suite.load_batch(*TOWER, 8, {"random": seed, "step_variation": 0.5})
-    batch.reset()
-    first, second = (batch.step(np.full(8, 2)).observation["fist_position"][:, 1] for _ in range(2))
-    moved = np.abs(second - first)
-    lasted = batch.task.options.draw_substeps(batch.seeds, batch.episodes) * batch.task.options.physics_timestep
-    assert np.unique(lasted).size > 1
-    np.testing.assert_allclose(moved, lasted * 1.0, atol=2e-3)
-
-
 def test_a_replay_shows_control_steps_of_the_task_s_length(seed):
     """An agent does not observe the length of an episode's control steps, so no clock may show it."""
     options = {"step_variation": 0.5}
