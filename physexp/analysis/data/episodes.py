@@ -114,14 +114,9 @@ class Episodes:
         episode: int,
         hidden: np.ndarray | None = None,
     ) -> "Episodes":
-        """Returns the episodes of a round in N environments.
+        """Returns the episodes of a round in N environments, which all have the index `episode`.
 
-        Args:
-          played: the round.
-          num_interactions: the number of interactions of the task, whose labels follow them.
-          seed: seeds of the environments, int64 [N].
-          episode: the index of all episodes of the round.
-          hidden: the hidden property in each environment, [N, ...], where it is known.
+        `num_interactions` is that of the task, whose labels follow them; `seed` and `hidden` are as in `Episodes`.
         """
         num_episodes = len(played.lengths)
         is_played = np.arange(len(played.actions)) < played.lengths[:, None]

@@ -28,13 +28,10 @@ Filters = Sequence[tuple[str, str, Any]]
 
 
 def load(results: Path, table: str, columns: Sequence[str] | None = None, filters: Filters = ()) -> Any:
-    """Returns rows of a table of stored results as a pandas DataFrame.
+    """Returns rows of a table of the folder `results` as a pandas DataFrame, by default all rows and columns.
 
-    Args:
-      results: the folder of the results.
-      table: `runs`, `curves`, `evaluations` or `episodes`; raises FileNotFoundError if there is no such table.
-      columns: names of columns, all by default; raises ValueError for an unknown one and for a damaged file.
-      filters: which rows; all by default.
+    The table is `runs`, `curves`, `evaluations` or `episodes`; raises FileNotFoundError if there is none, and
+    ValueError for an unknown column and for a damaged file.
     """
     return read(results, table, columns, filters).to_pandas()
 

@@ -20,10 +20,7 @@ class Cluster:
     """Does jobs on the machines of a cluster, one on each core; a context in which this process belongs to it."""
 
     def __init__(self, address: str):
-        """Joins a cluster.
-
-        Args:
-          address: of the cluster's head, `HOST:PORT`; `auto` for the cluster that runs on this machine.
+        """Joins the cluster whose head has an address, `HOST:PORT`; `auto` for the one that runs on this machine.
 
         Raises:
           ValueError: if there is no such cluster, it does not answer, it demands a token that this process does not

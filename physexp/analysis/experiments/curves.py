@@ -18,15 +18,10 @@ Lines = tuple[np.ndarray, np.ndarray]
 
 
 def moving_mean(run, along: str = "frames", of: str = "success_rate") -> tuple[np.ndarray, np.ndarray]:
-    """Averages over the last `_WINDOW` episodes, or over those between two rows if they are more.
+    """Averages a run over the last `_WINDOW` episodes, or over those between two rows if they are more.
 
-    Args:
-      run: the rows of a run.
-      along: a column.
-      of: the column to average, which has means over the episodes since the row before.
-
-    Returns:
-      The position on the column `along` of the middle of these episodes, and the mean over them; [rows] both.
+    The column `of` has means over the episodes since the row before. Returns the position on the column `along` of the
+    middle of these episodes, and the mean over them; [rows] both.
     """
     run = run.sort_values("frames")
     episodes, places = (np.concatenate([[0], run[column]]) for column in ("episodes", along))

@@ -39,12 +39,8 @@ class Row(NamedTuple):
 def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Path:
     """Draws every figure and tests every claim with data; returns the path of the Markdown.
 
-    Args:
-      results: the folder with the data.
-      tell: called with lines about the progress.
-
     Raises:
-      ValueError: if there is no such folder.
+      ValueError: if the folder of the results does not exist.
     """
     if not results.path.is_dir():
         raise ValueError(f"{results.path} is no folder; `physexp reproduce` makes one with results")

@@ -36,15 +36,9 @@ def run(
 ) -> None:
     """Does everything for some experiments that is not done yet.
 
-    Args:
-      experiments: the experiments.
-      results: the folder for their data.
-      observations: kinds of observations whose agents are trained.
-      num_seeds: agents in each condition; by default `conditions.SEEDS`.
-      num_processes: agents trained at a time; by default one for each core.
-      frames: environment steps of training, for a rehearsal; by default each condition's own budget.
-      cluster: the address of a Ray cluster to train on; by default agents are trained on this machine.
-      tell: called with lines about the progress.
+    Agents with some kinds of observations are trained: in each condition `num_seeds`, by default `conditions.SEEDS`,
+    for as many environment steps as its budget, or `frames` in a rehearsal; so many at a time as the machine has cores,
+    or `num_processes`, or on the Ray cluster of an address.
 
     Raises:
       ValueError: for numbers out of range, a cluster that cannot be joined, or a folder with other runs.

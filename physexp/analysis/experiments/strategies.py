@@ -162,9 +162,7 @@ def _draw_contents(axes, frame) -> None:
 def shares_left(pucks, actions) -> dict[str, np.ndarray]:
     """Returns the share of the prior's variance that is left at the answer, by property, of logarithms, float64 [N].
 
-    Args:
-      pucks: the hidden pucks, indices, int [N].
-      actions: of each episode.
+    `pucks` are the indices of the hidden pucks, int [N], and `actions` those of each episode.
     """
     frictions = np.array([friction for _, friction, _ in strike.PUCKS])
     masses, _ = strike.properties(np.arange(len(frictions)), strike.Options().goal_distance)
