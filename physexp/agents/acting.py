@@ -51,15 +51,10 @@ def play_round(
     keep_inputs: bool = False,
     keep_behaviour: bool = False,
 ) -> rounds.Round:
-    """Plays one whole episode in each environment of a batch.
+    """Plays one whole episode, that of an index, in each environment of a batch.
 
-    Args:
-      network: the policy.
-      environment: the batch.
-      episode: index of the episode that every environment starts.
-      choose: chooses the actions, as `drawn(generator)` and `likeliest` do.
-      keep_inputs: keep the encoded observations with the graph that made them, to learn with the same parameters.
-      keep_behaviour: keep observations, log probabilities and values, to learn with other parameters.
+    `keep_inputs` keeps the encoded observations with the graph that made them, to learn with the same parameters, and
+    `keep_behaviour` observations, log probabilities and values, to learn with other parameters.
     """
     timestep = environment.reset(episode=episode)
     active = np.arange(environment.num_environments)

@@ -44,11 +44,8 @@ class Checkpointer:
     ) -> tuple[dict[str, torch.Tensor], dict[str, Any]] | None:
         """Returns the tensors and facts of the newest checkpoint that is whole, or None if there is none at all.
 
-        `tell` gets a line for each one that is damaged, if there is one before it that is whole.
-
-        Raises:
-          OSError: if a file cannot be read.
-          ValueError: if all are damaged, or `accept` refuses the newest that is whole; it names the file.
+        `tell` gets a line for each one that is damaged, if there is one before it that is whole. Raises OSError if a
+        file cannot be read, and ValueError if all are damaged, or `accept` refuses the newest that is whole.
         """
         damaged: list[str] = []
         for path in reversed(self.paths()):

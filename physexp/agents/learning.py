@@ -140,12 +140,8 @@ def actor_critic_gradients(
     )
     loss = policy + config.baseline_cost * baseline - entropy_cost * entropy
     gradients, norm = clipped_gradients(network, loss, episodes)
-    return gradients, {
-        "policy_loss": policy.item(),
-        "baseline_loss": baseline.item(),
-        "entropy": entropy.item(),
-        "gradient_norm": norm,
-    }
+    means = {"policy_loss": policy.item(), "baseline_loss": baseline.item(), "entropy": entropy.item()}
+    return gradients, {**means, "gradient_norm": norm}
 
 
 def clipped_gradients(

@@ -46,15 +46,10 @@ class LSTM(nn.LSTM):
         return hidden, (hidden[None], cell[None])
 
     def unroll(self, projected: torch.Tensor, batch_sizes: torch.Tensor) -> torch.Tensor:
-        """Computes whole sequences from a state of zeros, with gradients.
+        """Computes whole sequences from a state of zeros, with gradients; returns packed outputs, [N, H].
 
-        Args:
-          projected: what `project` returned for N inputs, packed: the longest sequence first, all first steps, then
-            all second steps, and so on.
-          batch_sizes: how many sequences have a t-th step, int64 [T]; they sum to N.
-
-        Returns:
-          Outputs, packed alike, [N, H].
+        The inputs are what `project` returned for N inputs, packed: the longest sequence first, all first steps, then
+        all second steps, and so on. `batch_sizes` has how many sequences have a t-th step, int64 [T].
         """
         if projected.is_cuda:
             outputs: torch.Tensor = self(nn.utils.rnn.PackedSequence(projected, batch_sizes))[0].data

@@ -53,11 +53,8 @@ def load(
 ) -> Pretrained:
     """Loads a trained agent from a folder; for the other arguments see `agents.load_pretrained`.
 
-    Without options it is the only agent of the task, or the one whose card says that it is the task's default.
-
-    Raises:
-      OSError: if its file cannot be read.
-      ValueError: if there is no such agent; it lists the agents that there are. Also if the file is damaged.
+    Without options it is the only agent of the task, or the one whose card says that it is the task's default. Raises
+    OSError if its file cannot be read, and ValueError if it is damaged, or if there is no such agent.
     """
     folder = Path(folder).expanduser()
     wanted = name(domain, task, options)
@@ -129,11 +126,7 @@ def save(network: networks.RecurrentNetwork, card: Mapping[str, Any], folder: Pa
 
     Floating-point weights are kept in half precision. Frozen parameters that follow from the agent's seed are not
     stored but drawn again when the agent is loaded. The card has `domain`, `task`, `task_kwargs`, `seed` and `network`
-    as `load` reads them.
-
-    Raises:
-      OSError: if it cannot be written.
-      ValueError: if weights are not finite in half precision; nothing is written then.
+    as `load` reads them. Raises ValueError, and writes nothing, if weights are not finite in half precision.
     """
     weights = tensors_lib.halved(network.state_dict())
     drawn = halve(_make(card["network"], card["seed"])).state_dict()

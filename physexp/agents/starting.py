@@ -15,11 +15,8 @@ def make_network(kind: type[Network], task: core.Specs, config: config_lib.Agent
     """Returns a network of a kind for a task's specs, its weights drawn from the configuration's seed."""
     with devices.own_torch():
         torch.default_generator.manual_seed(config.seed)
-        return kind(
-            task.observation_spec(),
-            task.action_spec().num_values,
-            **kind.hyperparameters(task, config),
-        )
+        num_actions = task.action_spec().num_values
+        return kind(task.observation_spec(), num_actions, **kind.hyperparameters(task, config))
 
 
 def initial_network(environment: core.Batch, config: config_lib.ActorCriticConfig) -> networks.RecurrentActorCritic:

@@ -22,10 +22,7 @@ _NO_METRICS = dict.fromkeys(("belief_loss", "value_loss", "gradient_norm"), math
 
 
 class Belief(synchronous.SynchronousAgent):
-    """Keeps a belief about the answer, and estimates the value of each interaction; one process.
-
-    It plays rounds of episodes, keeps them, and learns from all that it keeps.
-    """
+    """Keeps a belief about the answer, and estimates the value of each interaction."""
 
     variables: learning.Variables
 
@@ -104,11 +101,8 @@ class Belief(synchronous.SynchronousAgent):
         self.variables.apply(gradients, learning_rate)
         with torch.no_grad():
             torch._foreach_lerp_(list(averaged.parameters()), list(network.parameters()), 1 - _EMA_DECAY)
-        return {
-            "belief_loss": belief_loss.mean().item(),
-            "value_loss": value_loss.mean().item(),
-            "gradient_norm": norm,
-        }
+        means = {"belief_loss": belief_loss.mean().item(), "value_loss": value_loss.mean().item()}
+        return {**means, "gradient_norm": norm}
 
     def _measure_changes(self, played: rounds.Round) -> None:
         """Updates the unit of inputs: their root mean square change since the start of the episode."""

@@ -15,20 +15,13 @@ def answer_values(beliefs: torch.Tensor) -> torch.Tensor:
 
 
 def label_posterior(logits: torch.Tensor, answers: torch.Tensor, are_right: torch.Tensor) -> torch.Tensor:
-    """Returns the probabilities of the labels after an answer and its reward, by Bayes' rule.
+    """Returns the probabilities of the labels, [B, L], after an answer and its reward, by Bayes' rule.
 
     The label of a right answer is known. After a wrong one the others keep their relative probabilities:
     `p[l] = b[l] / (1 - b[a])` for the labels other than the answer `a`. With these as targets, a step on the
     cross-entropy is one on the likelihood of the reward, `log b[a]` for +1 and `log(1 - b[a])` for -1 (expectation
     maximization: Dempster, Laird & Rubin, 1977); and it is the target of earlier steps too, which know less.
-
-    Args:
-      logits: of the belief that the answer was given with, [B, L].
-      answers: the labels that were answered, int64 [B].
-      are_right: whether that was right, bool [B].
-
-    Returns:
-      Probabilities of the labels, [B, L].
+    The logits, [B, L], are of the belief that the answers, int64 [B], were given with.
     """
     answered = functional.one_hot(answers, logits.shape[1]).bool()
     others = logits.masked_fill(answered, -torch.inf).softmax(dim=1)
@@ -36,12 +29,9 @@ def label_posterior(logits: torch.Tensor, answers: torch.Tensor, are_right: torc
 
 
 def belief_loss(logits: torch.Tensor, labels: torch.Tensor, are_counted: torch.Tensor) -> torch.Tensor:
-    """Returns the mean cross-entropy over the steps that count, [K].
+    """Returns the mean cross-entropy, [K], over the steps that count, bool [K, T, B].
 
-    Args:
-      logits: of the beliefs of K members, [K, T, B, L].
-      labels: probabilities of the labels, [B, L].
-      are_counted: which steps count, bool [K, T, B].
+    The logits are of the beliefs of K members, [K, T, B, L], and the labels are probabilities, [B, L].
     """
     return _means(-(labels * logits.log_softmax(dim=-1)).sum(-1), are_counted)
 
@@ -64,32 +54,22 @@ def interaction_targets(
     discount: float,
     lambda_: float,
 ) -> torch.Tensor:
-    """Returns the targets of the values of interactions.
+    """Returns the targets of the values of interactions, [T, B]; they mean nothing where no interaction was taken.
 
     The target of an interaction is `gamma * V` of the step that follows it, `V = max(S, max Q)`, and at the last step
     `V = S`: nothing follows there that `Q` could be learned from, so a target with `Q` would follow its extrapolation.
     As long as the interactions that follow are greedy, the return from there counts by `lambda` instead of `V`
     (Watkins' Q(lambda): Watkins, 1989). The target of an interaction that ends the episode is its reward.
 
-    Args:
-      answering: S, [T, B].
-      interacting: max Q, [T, B].
-      are_greedy: whether the interaction taken is the one of max Q, bool [T, B].
-      are_last: which step is the last of its episode, bool [T, B].
-      rewards: of the last actions, [B].
-      discount: gamma.
-      lambda_: weight of the return against the values.
-
-    Returns:
-      Targets [T, B]; they mean nothing where no interaction was taken.
+    `answering` is S and `interacting` max Q, [T, B]; `are_greedy` says where the interaction taken is that of max Q,
+    and `are_last` which step is the last of its episode, bool [T, B]. The rewards are of the last actions, [B].
     """
     values = torch.where(are_last, answering, torch.maximum(answering, interacting))
     goes_on = are_greedy & (interacting > answering) & ~are_last
     targets = rewards.expand_as(values).clone()
     for step in range(len(values) - 2, -1, -1):
-        following = torch.where(
-            goes_on[step + 1], torch.lerp(values[step + 1], targets[step + 1], lambda_), values[step + 1]
-        )
+        traced = torch.lerp(values[step + 1], targets[step + 1], lambda_)
+        following = torch.where(goes_on[step + 1], traced, values[step + 1])
         targets[step] = torch.where(are_last[step], rewards, discount * following)
     return targets
 
