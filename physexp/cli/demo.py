@@ -27,7 +27,7 @@ class Demo:
     def run(self) -> None:
         """Trains Which is Heavier, prints how the agent does, and draws its learning curve."""
         extras.require("matplotlib")
-        from physexp.analysis.training import curves, playing, progress, trainer, verdict
+        from physexp.analysis.training import playing, progress, trainer, verdict
         from physexp.analysis.training import run as run_lib
 
         folder = self.run_dir
@@ -49,5 +49,21 @@ class Demo:
             right, pokes, earned = (figures[name] for name in ("success_rate", "mean_interactions", "mean_return"))
             rows.append({"interaction": interaction, "right answers": right, "pokes": pokes, "return": earned})
         printing.show(rows)
-        curve = curves.draw(demo, folder / "learning_curve.png")
-        printing.tell(f"\nlearning curve: {curve}", f"the run: {folder} (physexp evaluate {folder} --greedy)")
+        self._draw(demo.metrics(), folder / "learning_curve.png")
+        printing.tell(f"the run: {folder} (physexp evaluate {folder} --greedy)")
+
+    def _draw(self, rows: list[dict[str, float]], path: Path) -> None:
+        """Draws the success rate and the interactions of training against environment steps, as a PNG."""
+        from physexp.agents import files
+        from physexp.analysis.data import plots
+
+        frames = [row["frames"] / 1e6 for row in rows]
+        with plots.style():
+            drawn, (top, bottom) = plots.new(rows=2, width=4.5, height=1.8, sharex=True)
+            top.plot(frames, [row["success_rate"] for row in rows], color=plots.COLORS[1])
+            plots.reference(top, 1 / config().load_task().num_labels, "chance")
+            top.set(ylabel="share of right answers", ylim=(0, 1.02), title=config().name)
+            bottom.plot(frames, [row["interactions"] for row in rows], color=plots.COLORS[2])
+            bottom.set(xlabel="environment steps, millions", ylabel="interactions in an episode", ylim=(0, None))
+        files.write_atomically(path, plots.png(drawn))
+        printing.tell(f"\nlearning curve: {path}")

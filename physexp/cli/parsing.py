@@ -13,12 +13,7 @@ _HELP = ("-h", "--help")
 
 
 def parse(arguments: Sequence[str]) -> Any:
-    """Returns the command that the arguments describe.
-
-    Raises:
-      SystemExit: after help was printed.
-      ValueError: if they describe no command; one line says what was given and what is allowed.
-    """
+    """Returns the command that the arguments describe; raises ValueError, with one line, if they describe none."""
     if "" in arguments:
         raise ValueError("an argument is empty, as an unset variable of the shell is; give a value or leave it out")
     name, *others = map(_tidied, arguments or [""])

@@ -46,9 +46,6 @@ class TrainConfig:
       task_kwargs: the `task_kwargs` of `suite.load` that were chosen, without the seed: numbers, texts or flags.
       replay_every: environment steps between replays that training writes; 0 for none.
       agent: the agent's configuration.
-
-    Raises:
-      ValueError: if `task_kwargs` holds anything else, or `replay_every` is no integer >= 0.
     """
 
     domain: str

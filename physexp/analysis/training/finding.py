@@ -42,16 +42,10 @@ def load_network(run: run_lib.Run) -> networks.RecurrentNetwork:
 
 
 def find_agent(target: str, task_kwargs: Mapping[str, Any] | None = None) -> Agent:
-    """Returns a trained agent.
+    """Returns a trained agent; raises ValueError if there is none, or none that was trained with these options.
 
-    Args:
-      target: the folder of a run; the file of a published agent (`FOLDER/NAME.safetensors`); or an agent that comes
-        with the package: `domain/task`, or the name of its file.
-      task_kwargs: options that the agent is to be trained with; the others are those of the folder or file, or else
-        the task's.
-
-    Raises:
-      ValueError: if there is no such agent, or none with these options; it lists those that come with the package.
+    `target` is the folder of a run; the file of a published agent (`FOLDER/NAME.safetensors`); or an agent that comes
+    with the package: `domain/task`, or the name of its file.
     """
     path, wanted = Path(target).expanduser(), task_kwargs or {}
     domain, _, task = target.partition("/")

@@ -35,23 +35,12 @@ def play(
     num_steps: int = 0,
     show: Callable[[int], None] = lambda done: None,
 ) -> Episodes:
-    """Returns episodes that a network has played.
+    """Returns episodes that a network has played in the task of a configuration.
 
-    Args:
-      network: the agent's network.
-      config: its run's configuration, which names the task.
-      num_episodes: number of episodes.
-      interaction: `learned`, or `random` for the paper's randomized interaction (Section 5.3): labeling actions pass,
-        an interaction action is replaced by one drawn uniformly.
-      greedy: take the likeliest action instead of drawing one.
-      seed: of the environments and the actions.
-      num_threads: threads that simulate.
-      device: device of convolutions, as in `AgentConfig`.
-      num_steps: least number of environment steps; with it, whole rounds are returned.
-      show: called after each round with the number of episodes played.
-
-    Raises:
-      ValueError: for an unknown interaction or a number of episodes below one.
+    The interaction is `learned`, or `random` for the paper's randomized interaction; see `randomized`. `greedy` takes
+    the likeliest action instead of drawing one. With a least number of environment steps, `num_steps`, whole rounds are
+    returned. `show` is called after each round with the number of episodes played. Raises ValueError for an unknown
+    interaction or a number of episodes below one.
     """
     if interaction not in INTERACTIONS:
         raise ValueError(f"interaction is {interaction!r}; choose from {', '.join(INTERACTIONS)}")

@@ -13,10 +13,8 @@ from physexp.analysis.training import run as run_lib
 def publish(run: run_lib.Run, folder: Path, num_episodes: int, replaces: bool = False) -> Path:
     """Evaluates a run's agent as it will be kept, in half precision, and writes it with its card; returns the path.
 
-    Raises:
-      FileExistsError: if there is such an agent in the folder, and this one does not replace it.
-      OSError: if it cannot be written.
-      ValueError: if the run's files are damaged or say too little; the line says what to do. Nothing is written then.
+    Raises FileExistsError if the folder has such an agent that this one does not replace, and ValueError if the run's
+    files are damaged or say too little. Nothing is written then.
     """
     config, created = run.config, {"versions": "not recorded", "renderer": "not recorded", **run.facts}
     name = pretrained.name(config.domain, config.task, config.task_kwargs)

@@ -52,8 +52,7 @@ def raised() -> Iterator[None]:
 def deferred(stop: Callable[[], None]) -> Iterator[list[Interrupted]]:
     """Context in which the first request to end calls `stop`, and is raised at its end; a second one is raised at once.
 
-    Yields:
-      The requests so far.
+    Yields the requests so far.
     """
     requests: list[Interrupted] = []
 

@@ -64,22 +64,15 @@ def train(
 ) -> None:
     """Trains an agent, with the run's folder locked meanwhile.
 
-    Ctrl-C, SIGTERM or SIGHUP ends training with a checkpoint; a second one leaves at once. A start that fails before
-    the first checkpoint leaves nothing behind.
-
-    Args:
-      run: where to train.
-      report: called with each row of metrics.
-      tell: called with a line when something has gone wrong that training survives, such as a watcher that fails.
-      start: the configuration of a new run; None to continue that in the folder from its last checkpoint, if any.
-      on_checkpoint: called after each checkpoint is written.
+    With a configuration in `start` it trains a new run, otherwise it continues that in the folder from its last
+    checkpoint, if any. Ctrl-C, SIGTERM or SIGHUP ends training with a checkpoint, and raises `stopping.Interrupted`; a
+    second one leaves at once. A start that fails before the first checkpoint leaves nothing behind. `report` is called
+    with each row of metrics, and `tell` with a line when something has gone wrong that training survives.
 
     Raises:
-      stopping.Interrupted: after one of these signals, when the checkpoint has been written.
       OSError: if the folder cannot be made or written to.
       RuntimeError: if training cannot go on; the message names the last checkpoint.
-      ValueError: if another process is training in the run's folder, if it has too little room, if it holds a run that
-        would be started anew, or records without a checkpoint that would be resumed, or as `check`.
+      ValueError: if the folder has too little room, or its run cannot be started or continued, or as `check`.
     """
     tell = callbacks.expendable(tell, callbacks.ignore, "the printing of lines")
     with run.locked():
