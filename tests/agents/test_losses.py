@@ -12,13 +12,6 @@ from physexp.agents import learning, losses, networks, rounds
 from physexp.agents.a3c import config as a3c
 
 
-def test_returns_are_discounted_sums_of_the_rewards_that_follow():
-    # gamma = 0.5, one episode of three actions with rewards 1, 2, 4 and nothing after:
-    # G2 = 4, G1 = 2 + 0.5 * 4 = 4, G0 = 1 + 0.5 * 4 = 3.
-    returns = losses.discounted_returns(torch.tensor([[1.0], [2.0], [4.0]]), torch.tensor([[0.5], [0.5], [0.0]]))
-    assert returns[:, 0].tolist() == [3.0, 4.0, 4.0]
-
-
 def test_advantages_with_a_lambda_of_one_are_returns_minus_values():
     generator = torch.Generator().manual_seed(fresh_seed())
     rewards, values = (torch.randn(6, 4, generator=generator) for _ in range(2))

@@ -77,10 +77,6 @@ def assert_rebuildable(row, config):
     environment.close()
 
 
-def test_records_have_everything_once_and_episodes_can_be_rebuilt(uninterrupted):
-    assert_whole_records(uninterrupted)
-
-
 def train_until_killed(path, beyond, seconds):
     """Trains on, and is killed some time after the first checkpoint beyond some frames."""
 
