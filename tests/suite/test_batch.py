@@ -119,24 +119,6 @@ def test_returned_arrays_are_the_callers_own(name):
     np.testing.assert_array_equal(batch.episodes, [0, 0])
 
 
-def test_environments_of_a_batch_play_different_episodes(seed):
-    batch = suite.load_batch("which_is_heavier", "features", 50, {"random": seed})
-    batch.reset()
-    first = batch.hidden
-    batch.reset()
-    assert len(np.unique(np.concatenate([first, batch.hidden]), axis=0)) == 100
-
-
-def test_choosing_no_environment_does_nothing(seed):
-    batch = suite.load_batch("towers", "fist_features", 2, {"random": seed})
-    batch.reset()
-    none = np.array([], int)
-    for step in (batch.step(none, environments=none), batch.reset(environments=none)):
-        assert step.reward.shape == (0,)
-        assert step.observation["positions"].shape == (0, 5, 3)
-    np.testing.assert_array_equal(batch.episodes, [0, 0])
-
-
 def test_every_pattern_of_glue_is_played_alike_in_a_batch_and_alone(seed):
     """At the first episode with each pattern, two pushes."""
     batch, (single,) = _load_both("towers/direct_features", seed, 1)
