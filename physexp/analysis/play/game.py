@@ -121,10 +121,10 @@ def play(
 
 def _viewers(domain: str, task: str, kwargs: Mapping[str, Any]) -> list[environment_loop.Observer]:
     """Returns observers that show the scene in the viewer."""
-    from physexp.analysis.replay import live, recording, viewing  # The import takes a second.
+    from physexp.analysis.replay import recording, viewing, writing  # The import takes a second.
 
     recorder = recording.EpisodeRecorder(domain, task, kwargs, agent="you")
-    return [recorder, live.Live(recorder, viewing.Viewer())]
+    return [recorder, writing.Live(recorder, viewing.Viewer())]
 
 
 def _others(domain: str, task: str, kwargs: dict[str, Any], show) -> tuple[dict[str, core.Actor], float]:

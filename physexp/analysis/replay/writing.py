@@ -26,9 +26,9 @@ import numpy as np
 import rerun as rr
 from scipy.spatial import transform
 
-from physexp.agents import files
+from physexp.agents import environment_loop, files
 from physexp.analysis.data import readings
-from physexp.analysis.replay import beliefs, layout, palette, recording, words
+from physexp.analysis.replay import beliefs, layout, palette, recording, viewing, words
 from physexp.analysis.replay.viewing import PROGRAM, last_line
 from physexp.analysis.training import callbacks
 from physexp.suite.engine import declarations
@@ -93,20 +93,20 @@ def _merge(recordings: bytes) -> bytes:
 def _recording(episodes: Sequence[recording.Film]) -> bytes:
     """Returns a recording, made in memory because rerun silently drops data that it cannot write to a file."""
     players = "-".join(episode.agent for episode in episodes)
-    stream = new_stream(episodes[0], players)
+    stream = _new_stream(episodes[0], players)
     roots = [""] if len(episodes) == 1 else string.ascii_uppercase[: len(episodes)]
     memory, was_strict = stream.memory_recording(), rr.strict_mode()
     rr.set_strict_mode(True)  # Rerun raises errors instead of dropping data with a warning.
     try:
         stream.send_blueprint(layout.blueprint(episodes, roots), make_active=False, make_default=True)
         for episode, root in zip(episodes, roots, strict=True):
-            EpisodeWriter(stream, episode, root).write()
+            _EpisodeWriter(stream, episode, root).write()
     finally:
         rr.set_strict_mode(was_strict)
     return memory.drain_as_bytes()
 
 
-def new_stream(episode: recording.Film, player: str) -> rr.RecordingStream:
+def _new_stream(episode: recording.Film, player: str) -> rr.RecordingStream:
     """Returns a stream for an episode."""
     name = f"physexp-{episode.domain}-{episode.task}"
     stream = rr.RecordingStream(name, recording_id=f"{episode.seed}-{episode.index}-{player}")
@@ -114,7 +114,29 @@ def new_stream(episode: recording.Film, player: str) -> rr.RecordingStream:
     return stream
 
 
-class EpisodeWriter:
+class Live(environment_loop.Observer):
+    """Shows an episode while it is played: the observations at first, and everything after its end."""
+
+    def __init__(self, recorder: recording.EpisodeRecorder, screen: viewing.Viewer):
+        """Prepares to show the episodes of a recorder, which must observe them before this observer."""
+        self._recorder, self._screen = recorder, screen
+
+    def observe_first(self, environment, timestep):
+        episode = self._recorder.episode
+        self._stream = _new_stream(episode, "live")
+        self._screen.show(self._stream, layout.blueprint([episode], [""]))
+        self._show(is_over=False)
+
+    def observe(self, environment, timestep, action):
+        self._show(timestep.last())
+
+    def _show(self, is_over: bool) -> None:
+        writer = _EpisodeWriter(self._stream, self._recorder.episode, "")
+        writer.write() if is_over else writer.write_so_far()
+        self._screen.flush(self._stream)
+
+
+class _EpisodeWriter:
     """Writes one episode below a root entity."""
 
     def __init__(self, stream: rr.RecordingStream, episode: recording.Film, root: str):

@@ -7,7 +7,7 @@ from rerun.chunk import RrdReader
 
 from physexp import suite
 from physexp.analysis import replay
-from physexp.analysis.replay import live, writing
+from physexp.analysis.replay import writing
 
 
 class _Screen:
@@ -38,7 +38,7 @@ def play(domain, task, actions, path=None, hidden=None, **task_kwargs):
 
     environment, screen = suite.Environment(make_task()), _Screen(path)
     recorder = replay.EpisodeRecorder(domain, task, task_kwargs, agent="you", make_task=make_task)
-    observers = [recorder, live.Live(recorder, screen)] if path else [recorder]
+    observers = [recorder, writing.Live(recorder, screen)] if path else [recorder]
     timestep = environment.reset()
     for observer in observers:
         observer.observe_first(environment, timestep)

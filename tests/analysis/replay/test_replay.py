@@ -1,9 +1,9 @@
 """Replays: what is recorded is what happened, and what is written is what was recorded."""
 
 import functools
-import importlib.util
 from pathlib import Path
 import re
+import sys
 
 import numpy as np
 import observers
@@ -25,7 +25,10 @@ from physexp.analysis.training import run as run_lib
 from physexp.suite.parts import things as things_lib
 from physexp.suite.parts import tower
 
-DOCS = Path(__file__).parents[3] / "docs"
+sys.path.insert(0, str(Path(__file__).parents[3] / "docs" / "examples"))
+
+import bolted  # noqa: E402
+
 TASKS = [("which_is_heavier", "features"), ("towers", "fist_features"), ("towers", "direct_pixels")]
 
 
@@ -167,7 +170,6 @@ def test_the_text_holds_question_episode_legend_and_at_last_the_verdict(written)
     names = [environment.task.question, f"seed {episode.seed}, episode 0", "a careless agent"]
     for word in [*names, "**policy**", "**belief**: the policy restricted to the labels", words.HIDDEN_TAB]:
         assert word in start and word in end
-    assert environment.task.question.endswith("?")
     assert "Not answered yet" in start and "Not answered yet" not in end
     verdict = "right" if episode.rewards[-1] > 0 else f"wrong; it is: {environment.task.label_names[episode.answer]}"
     assert f"That is {verdict}." in end
@@ -198,14 +200,6 @@ def test_every_component_of_a_feature_is_named_after_the_thing_it_tells_of():
     assert things == [{"heights": blocks[:4]}, {"positions": blocks, "fist_position": ["fist"]}]
 
 
-def example(name):
-    """A module of docs/examples."""
-    spec = importlib.util.spec_from_file_location(name, DOCS / "examples" / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 def things(task, is_still):
     """The things of a task that stand still in images, or all others, but for the floor and walls."""
     found, model = set(), task.apparatus.model
@@ -232,15 +226,13 @@ NAMES = "SeriesLines:names"
 
 @pytest.mark.parametrize(("domain", "task"), SHOWN, ids=["/".join(names) for names in SHOWN])
 def test_a_replay_shows_the_right_names(domain, task, tmp_path):
-    make_task = None if (domain, task) in suite.ALL_TASKS else getattr(example("bolted"), task)
+    make_task = None if (domain, task) in suite.ALL_TASKS else getattr(bolted, task)
     episode, _, environment = record(domain, task, interactions=3, make_task=make_task)
     rows, played = recordings.written(tmp_path / "one.rrd", episode), environment.task
     labels, colors = (rows["/belief/labels"][name][0] for name in (NAMES, "SeriesLines:colors"))
     assert len(set(labels)) == len(set(colors)) == played.num_labels
     assert all(shown in label for shown, label in zip(labels, played.label_names, strict=True))
     assert rows["/belief/policy"][NAMES][0] == played.action_names
-    lines = [f"- step {step}: {played.action_names[action]}" for step, action in enumerate(episode.actions)]
-    assert rows["/did/actions"]["TextDocument:text"][-1][0].splitlines() == lines
     about = rows["/did/outcome"]["TextDocument:text"][0][0]
     assert played.question in about and f"{domain}/{task}, seed" in about
     moving, still = things(played, is_still=False), things(played, is_still=True)
@@ -320,8 +312,6 @@ def test_a_strike_is_played_out_after_the_answer(tmp_path):
 
 
 def test_shapes_of_any_kind_are_drawn_under_names_of_their_own(tmp_path):
-    bolted = example("bolted")
-
     def make_task(**options):
         made = bolted.features(**options)
         rod = made.root_entity.mjcf_model.worldbody.add("body", name="rod", pos=[0.3, 0, 0.2])
@@ -513,7 +503,6 @@ def test_a_path_that_cannot_be_written_is_refused_before_play(name, message, tmp
 
 
 def test_a_replay_of_no_episode_is_refused(tmp_path):
-    for kind in ("any", "longest"):
-        with pytest.raises(ValueError, match="episodes is 0; give a number >= 1"):
-            replay.replay(["towers/fist_features"], 0, tmp_path / "x.rrd", select=kind)
+    with pytest.raises(ValueError, match="episodes is 0; give a number >= 1"):
+        replay.replay(["towers/fist_features"], 0, tmp_path / "x.rrd")
     assert not list(tmp_path.iterdir())
