@@ -151,15 +151,12 @@ def few_steps(
     }
     rows = scores(num_agents, generator, middles, frame).assign(calibration_error=error)
     rows.loc[rows.player.str.startswith("belief"), "score"] *= learned
-    final = of_agents(
-        configs,
-        num_agents,
-        lambda config, seed: {
-            "share": [1 - loss * (1 - table["near_optimum"].above[config.label]) + generator.normal(0, 0.001)],
-            "error": 0.001,
-        },
-    )
-    return rows.merge(final)
+
+    def final(config, seed):
+        share = 1 - loss * (1 - table["near_optimum"].above[config.label])
+        return {"share": [share + generator.normal(0, 0.001)], "error": 0.001}
+
+    return rows.merge(of_agents(configs, num_agents, final))
 
 
 def variants(num_agents, generator, **factors):
@@ -344,14 +341,11 @@ def other_towers(num_agents, generator, varied=0.985, held_out=0.95, usual=0.5, 
 
 def strategy(config, columns, num_agents, generator, share=0.98, **values):
     """Episodes of one condition with the share of the ideal's return; `columns(generator)` are those of an agent."""
-    episodes = of_agents(
-        [config],
-        num_agents,
-        lambda config, seed: {
-            "share": share + generator.normal(0, 0.01, _EPISODES),
-            **columns(generator, **values),
-        },
-    )
+
+    def rows(config, seed):
+        return {"share": share + generator.normal(0, 0.01, _EPISODES), **columns(generator, **values)}
+
+    episodes = of_agents([config], num_agents, rows)
     episodes.attrs["ideal"] = {2: 0.5, 3: 0.5}
     return episodes
 
@@ -383,18 +377,13 @@ def _aimings(generator, asked=0.01, friction=0.8):
 
 def shares(num_agents, generator, **of_learners):
     """Shares of the ideal's return in all domains, by the learner's title."""
-    return of_agents(
-        laboratory.CONDITIONS,
-        num_agents,
-        lambda config, seed: {
-            "share": [of_learners.get(config.player, 0.98) + generator.normal(0, 0.002)],
-            "frames": config.agent.frames,
-            "minutes": 5.0,
-            "value": 0.8,
-            "at_once": -0.5,
-            "random_value": 0.4,
-        },
-    )
+
+    def rows(config, seed):
+        share = of_learners.get(config.player, 0.98) + generator.normal(0, 0.002)
+        return {"share": [share], "frames": config.agent.frames, "minutes": 5.0, **untrained}
+
+    untrained = {"value": 0.8, "at_once": -0.5, "random_value": 0.4}
+    return of_agents(laboratory.CONDITIONS, num_agents, rows)
 
 
 def gap_to_ideal(num_agents, generator, share=0.985):
@@ -402,11 +391,8 @@ def gap_to_ideal(num_agents, generator, share=0.985):
 
     def rows(config, seed):
         parts = generator.dirichlet(np.ones(len(mistakes.KINDS))) * abs(1 - share)
-        return {
-            "share": [share + generator.normal(0, 0.0005)],
-            "error": 0.002,
-            **dict(zip(mistakes.KINDS, parts, strict=True)),
-        }
+        costs = dict(zip(mistakes.KINDS, parts, strict=True))
+        return {"share": [share + generator.normal(0, 0.0005)], "error": 0.002, **costs}
 
     resolutions = [
         {"objective": objective, "resolution": resolution, "value": 0.9, "mean_seconds": 0.3 + 20 * resolution}

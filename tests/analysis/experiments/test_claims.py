@@ -10,15 +10,7 @@ import pytest
 from scipy import stats
 
 from physexp.analysis.data import estimates
-from physexp.analysis.experiments import (
-    EXPERIMENTS,
-    NAMES,
-    claims,
-    curves,
-    efficiency,
-    interactions,
-    strategies,
-)
+from physexp.analysis.experiments import EXPERIMENTS, NAMES, claims, curves, efficiency, interactions, strategies
 from physexp.suite.domains import strike
 
 HOLDS, FAILS, UNDECIDED = claims.HOLDS, claims.FAILS, claims.UNDECIDED
