@@ -1,13 +1,12 @@
-"""Sweeps on a cluster of Ray, two nodes on this machine."""
+"""Sweeps on a cluster of Ray, whose one node is on this machine."""
 
-import os
-from pathlib import Path
-import signal
+import contextlib
 import socket
 import subprocess
 import sys
 import threading
 
+import psutil
 import pytest
 import ray
 from ray import cluster_utils
@@ -19,47 +18,38 @@ TASK = "which_is_heavier/features"
 
 
 @pytest.fixture
-def nodes(monkeypatch):
-    """A cluster of two nodes with one core each."""
+def node(monkeypatch):
+    """The head of a cluster, with one core: the jobs of a sweep share the imports of one process."""
     monkeypatch.setenv("RAY_worker_niceness", "0")  # Its workers compete with other tests on equal terms.
     head = {"num_cpus": 1, "include_dashboard": False}
     made = cluster_utils.Cluster(initialize_head=True, head_node_args=head)
-    made.add_node(num_cpus=1)
-    made.wait_for_nodes(timeout=600)
-    yield made
+    yield made.head_node
     ray.shutdown()
     made.shutdown()
 
 
-def workers(nodes):
-    """The processes of jobs, on both nodes."""
-    raylets = {node.all_processes["raylet"][0].process.pid for node in nodes.list_all_nodes()}
-    found = []
-    for entry in Path("/proc").iterdir():
-        if entry.name.isdigit():
-            try:
-                parent = int((entry / "stat").read_text().rpartition(")")[2].split()[1])
-                command = (entry / "cmdline").read_bytes()
-            except (FileNotFoundError, ProcessLookupError):
-                continue
-            if parent in raylets and command.startswith(b"ray::work_elsewhere"):
-                found.append(int(entry.name))
-    return found
+def job_process(node):
+    """The process of a job; None while there is none."""
+    for process in psutil.Process(node.all_processes["raylet"][0].process.pid).children():
+        with contextlib.suppress(psutil.NoSuchProcess):
+            if " ".join(process.cmdline()).startswith("ray::work_elsewhere"):
+                return process
+    return None
 
 
 @pytest.mark.long
-def test_a_sweep_gathers_all_rows_from_a_cluster_where_a_job_is_killed(nodes, tmp_path):
+def test_a_sweep_gathers_all_rows_from_a_cluster_where_a_job_is_killed(node, tmp_path):
     jobs = sweep.grid([TASK], ["ppo"], range(2), 300, 50)
     results, lines, killed = base.Results(tmp_path), [], []
 
     def kill_one():
-        killed.append(wait_until(lambda: workers(nodes), "a job")[0])
-        os.kill(killed[0], signal.SIGKILL)
+        killed.append(wait_until(lambda: job_process(node), "a job"))
+        killed[0].kill()
 
     killer = threading.Thread(target=kill_one)
-    with cluster.Cluster(nodes.address) as pool:
+    with cluster.Cluster(node.address) as pool:
         killer.start()
-        sweep.run(jobs, results, pool, 2, lines.append)
+        sweep.run(jobs, results, pool, 1, lines.append)
     killer.join()
     assert killed and sum(line.startswith("done: ") for line in lines) == 2
     assert len(results.played()) == len(sweep.table(jobs, results)) == 2
