@@ -2,11 +2,12 @@
 
 from concurrent import futures
 import multiprocessing
+import os
 import shutil
 import signal
+import threading
 
 import commands
-import numpy as np
 import pytest
 from trainers import group
 from waiting import wait_until
@@ -197,13 +198,12 @@ def test_what_cannot_be_done_is_one_readable_line(words, message, tmp_path):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
-def test_a_stopped_sweep_goes_on_where_it_was(number, tmp_path):
+def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
     jobs, results = grid(1, frames=5_000), base.Results(tmp_path)
     words = ["sweep", TASK, "--learners", "ppo", "--seeds", 1, "--frames", 5_000, "--episodes", 50]
     with commands.start(*words, "--results-dir", tmp_path, "--jobs", 1) as process:
         wait_until((results.run(jobs[0].config).path / "config.json").exists, "the begin of training")
-        process.send_signal(number)
+        process.kill()
         process.wait()
         wait_until(lambda: not group(process.pid), "the end of the processes of the sweep")
     assert not results.played()
@@ -230,9 +230,15 @@ def test_a_killed_job_fails_alone(tmp_path):
 def test_jobs_write_checkpoints_when_the_sweep_is_asked_to_end(tmp_path):
     jobs, results = grid(1, frames=10**8), base.Results(tmp_path)
     run = results.run(jobs[0].config)
-    with pools.Processes(1) as pool:
-        future = pool.submit(jobs[0], results)
-        wait_until(lambda: run.metrics(), "a row of metrics")
-        pool.stop()
-        assert isinstance(future.exception(), stopping.Interrupted)
-    assert run.checkpointer.paths() and np.isfinite(run.metrics()[-1]["frames"])
+
+    def ask():
+        wait_until(run.metrics, "a row of metrics")
+        os.kill(os.getpid(), signal.SIGTERM)
+
+    asking = threading.Thread(target=ask)
+    with pools.Processes(1) as pool, pytest.raises(stopping.Interrupted):
+        asking.start()
+        sweep.run(jobs, results, pool, 1, print)
+    asking.join()
+    assert run.checkpointer.paths() and run.metrics()[-1]["frames"] < 10**8
+    assert not results.played()
