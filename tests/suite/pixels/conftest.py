@@ -1,17 +1,9 @@
 """Fixtures of the tests of images."""
 
-import images
 import pytest
 
 from physexp import suite
 from physexp.suite.engine import rendering
-
-
-@pytest.fixture(scope="session", autouse=True)
-def close_what_is_shared():
-    yield
-    for environment in images.opened:
-        environment.close()
 
 
 @pytest.fixture
@@ -19,12 +11,9 @@ def load():
     """Loads an environment, or a batch of `size`, and closes it when the test is over."""
     opened = []
 
-    def load(domain_name, task_name, random, size=None, num_threads=1, **task_kwargs):
-        task_kwargs["random"] = random
-        if size is None:
-            opened.append(suite.load(domain_name, task_name, task_kwargs))
-        else:
-            opened.append(suite.load_batch(domain_name, task_name, size, task_kwargs, num_threads))
+    def load(domain_name, task_name, random, size=None, **task_kwargs):
+        task = suite.load_task(domain_name, task_name, {"random": random, **task_kwargs})
+        opened.append(suite.Environment(task) if size is None else suite.BatchEnvironment(task, size))
         return opened[-1]
 
     yield load

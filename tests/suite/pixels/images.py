@@ -30,17 +30,10 @@ SEPARATE, WHOLE = 0, 15
 
 
 @functools.cache
-def load_shared(domain_name, task_name, random, size=None, control_timestep=0.1):
+def load_shared(domain_name, task_name, random, size=None):
     """An environment, or a batch, that tests use in turn: building sixteen towers takes a second."""
-    task_kwargs = {"random": random, "control_timestep": control_timestep}
-    if size is None:
-        opened.append(suite.load(domain_name, task_name, task_kwargs))
-    else:
-        opened.append(suite.load_batch(domain_name, task_name, size, task_kwargs))
-    return opened[-1]
-
-
-opened: list = []
+    task = suite.load_task(domain_name, task_name, {"random": random})
+    return suite.Environment(task) if size is None else suite.BatchEnvironment(task, size)
 
 
 def load_single(domain_name, task_name, number=0):
@@ -57,9 +50,9 @@ def image_of(step) -> np.ndarray:
 # Patterns of glue.
 
 
-def batch_of_patterns(task_name, patterns, control_timestep=0.1):
+def batch_of_patterns(task_name, patterns):
     """A batch whose first environments start with `patterns`, their indices, and their first images."""
-    batch, chosen = load_shared("towers", task_name, SEED, 80, control_timestep), np.arange(len(patterns))
+    batch, chosen = load_shared("towers", task_name, SEED, 80), np.arange(len(patterns))
     return batch, chosen, image_of(batch.reset(chosen, hidden=np.asarray(patterns)))
 
 
