@@ -93,6 +93,15 @@ class Solution(abc.ABC):
         return of interactions drawn uniformly, with the best answers at the best moment.
         """
 
+    def planning(self) -> dict[str, float]:
+        """Returns the returns of experimenters that plan less, by name; empty if they are not known.
+
+        They are `greedy` and `greedy_lucky`, for information about the label, with ties drawn or broken in its favour;
+        `lookahead_1`, `lookahead_2` and `lookahead_4`; `floor`, see the function; and `planning_error`, the most by
+        which they are too low.
+        """
+        return {}
+
     def summary(self) -> dict[str, Any]:
         """Returns the statistics of `figures` and of `compared`."""
         return {**self.figures(), **self.compared()}
@@ -126,6 +135,11 @@ class Player(core.EpisodicActor):
         if not next_timestep.last():
             self._state = self._follow(self._state, int(action), next_timestep.observation)
             self._step += 1
+
+
+def floor(at_once: float, discount: float, step_limit: float) -> float:
+    """Returns the better of the returns of an answer at once and of none before the time limit: a score of 0."""
+    return max(at_once, rules.WRONG * discount ** (step_limit - 1))
 
 
 _Numbers = TypeVar("_Numbers", float, np.ndarray)

@@ -90,7 +90,7 @@ class Search:
         """Returns the bounds on the value of an interaction that follow from the search so far."""
         low = high = 0.0
         for probability, following in self.histories.following(state, action):
-            part_low, part_high = self._bounds(represented(following), left - 1)
+            part_low, part_high = self._bounds(self.histories.represented(following), left - 1)
             low, high = low + probability * part_low, high + probability * part_high
         return self._criterion.act(low), self._criterion.act(high)
 
@@ -147,9 +147,4 @@ class Search:
         for action in np.argsort([-value for value in highs], kind="stable")[:_WIDTH]:
             if highs[action] > low + PRECISION:
                 for _, following in self.histories.following(state, int(action)):
-                    self._collect(represented(following), left - 1, min_left, leaves)
-
-
-def represented(state: State) -> State:
-    """Returns the state whose values are used for a state."""
-    return state[0].representative, state[1]
+                    self._collect(self.histories.represented(following), left - 1, min_left, leaves)

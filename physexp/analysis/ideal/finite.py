@@ -25,6 +25,9 @@ class States(Protocol):
     def following(self, state: Any, interaction: int) -> Sequence[tuple[float, Any]]:
         """Returns the states that may follow an interaction, with their probabilities; one if it reveals nothing."""
 
+    def represented(self, state: Any) -> Any:
+        """Returns the state whose values are used for a state."""
+
     def allows(self, state: Any, hypothesis: int) -> bool:
         """Returns whether a hypothesis is possible in a state."""
 

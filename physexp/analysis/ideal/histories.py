@@ -117,6 +117,10 @@ class Histories:
         """Returns the probabilities of the labels in a state, float64 [L]."""
         return self._probabilities(state[1])
 
+    def represented(self, state: State) -> State:
+        """Returns the state whose values are used for a state."""
+        return state[0].representative, state[1]
+
     def allows(self, state: State, hypothesis: int) -> bool:
         """Returns whether a hypothesis is left."""
         return hypothesis in state[1]

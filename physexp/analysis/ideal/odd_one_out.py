@@ -15,7 +15,7 @@ from scipy import interpolate, special
 from scipy.stats import qmc
 
 from physexp.agents import core
-from physexp.analysis.ideal import base, calibration
+from physexp.analysis.ideal import base, calibration, planning
 from physexp.suite.engine import priors, rules
 
 _LARGEST_NODES, _RATIO_NODES = 400, 33
@@ -89,6 +89,26 @@ class Solution(base.Solution):
     def compared(self):
         return {"at_once": base.answer_values(1 / self.prior.num_things), "random_value": self._value(at_random=True)}
 
+    def planning(self):
+        """Returns the returns of experimenters that plan less; those that look ahead differ only in when they stop.
+
+        The largest information is always that of an untouched thing, and these are alike, so the greedy ones are ideal.
+        """
+
+        def mean_return(touches: np.ndarray, right: np.ndarray) -> float:
+            return float((self.discount**touches * np.where(right, rules.RIGHT, rules.WRONG)).mean())
+
+        ideal = mean_return(*self._evenly_drawn_episodes)
+        return {
+            "floor": base.floor(base.answer_values(1 / self.prior.num_things), self.discount, self.step_limit),
+            **dict.fromkeys(("greedy", "greedy_lucky"), self.value),
+            **{
+                f"lookahead_{horizon}": self.value + mean_return(*self._play_evenly(horizon)) - ideal
+                for horizon in planning.HORIZONS
+            },
+            "planning_error": 0.0,
+        }
+
     def _value(self, at_random: bool) -> float:
         at_once = base.answer_values(1 / self.prior.num_things)
         if self.step_limit == 1:
@@ -125,15 +145,15 @@ class Solution(base.Solution):
         label = self.prior.num_things + beliefs.argmax(axis=1)
         return np.where(touch > base.answer_values(beliefs.max(axis=1)), np.isnan(known).argmax(axis=1), label)
 
-    def play(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def play(self, values: np.ndarray, horizon: float = math.inf) -> tuple[np.ndarray, np.ndarray]:
         """Plays episodes of things with some values, float64 [N, K], without physics.
 
-        Returns the touches, int64 [N], and whether the answer was right, bool [N].
+        The policy looks some touches ahead. Returns the touches, int64 [N], and whether the answer was right, bool [N].
         """
         known, going = np.full(values.shape, np.nan), np.arange(len(values))
         touches, labels = np.zeros(len(values), np.int64), np.full(len(values), -1)
         while len(going):
-            actions = self.actions(known[going], self.step_limit - touches[going])
+            actions = self.actions(known[going], np.minimum(self.step_limit - touches[going], horizon + 1))
             touching = actions < self.prior.num_things
             labels[going[~touching]] = actions[~touching] - self.prior.num_things
             going, touched = going[touching], actions[touching]
@@ -182,8 +202,11 @@ class Solution(base.Solution):
 
     @functools.cached_property
     def _evenly_drawn_episodes(self) -> tuple[np.ndarray, np.ndarray]:
+        return self._play_evenly()
+
+    def _play_evenly(self, horizon: float = math.inf) -> tuple[np.ndarray, np.ndarray]:
         draws = qmc.Sobol(self.prior.num_things + 1, rng=0).random(_EPISODES).clip(1e-12, 1 - 1e-12)
-        return self.play(self.prior.from_uniforms(draws))
+        return self.play(self.prior.from_uniforms(draws), horizon)
 
 
 @functools.lru_cache(maxsize=512)

@@ -11,7 +11,7 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 import numpy as np
 
 from physexp.agents import core
-from physexp.analysis.ideal import base, finite
+from physexp.analysis.ideal import base, finite, planning
 from physexp.suite.engine import rules
 
 _TIE = 1e-12  # Returns that differ by less are equal; then the policy with fewer interactions is taken.
@@ -48,6 +48,10 @@ class Apparatus(abc.ABC):
           The state, and for each of its actions the corresponding action in the given state, [A + L].
         """
         return state, range(self.num_interactions + len(self.weights))
+
+    def represented(self, state: State) -> State:
+        """Returns the state whose values are used for a state."""
+        return self.canonical(state)[0]
 
     def posterior(self, state: State) -> np.ndarray:
         """Returns the probabilities of the labels, float64 [L]."""
@@ -175,6 +179,9 @@ class Solution(base.Solution):
 
     def compared(self):
         return self._compared
+
+    def planning(self):
+        return planning.returns(self.apparatus, self.discount, self.step_limit)
 
     def action(self, state: State, step: int) -> int:
         """Returns the best action in a state after `step` interactions, fewer than `step_limit`."""

@@ -12,7 +12,7 @@ import numpy as np
 
 from physexp import checks
 from physexp.agents import core
-from physexp.analysis.ideal import base, branch_and_bound, finite, random_play
+from physexp.analysis.ideal import base, branch_and_bound, finite, planning, random_play
 from physexp.analysis.ideal import histories as histories_lib
 from physexp.analysis.ideal import hypotheses as hypotheses_lib
 from physexp.suite.engine import rules
@@ -20,6 +20,7 @@ from physexp.suite.engine import rules
 OBJECTIVES = ("return", "time")
 _MAX_DEPTH = 8  # Of sequences of interactions that the search for the policy tries.
 _MAX_STEPS = 2_000_000  # Control steps that it may simulate.
+_NEGLIGIBLE = 1e-6  # Probability, times the discount, of states in which planning less is not followed further.
 _MAX_HISTORIES = 30_000  # Kept for judging: about 600 MB for 40 hypotheses.
 
 
@@ -131,11 +132,11 @@ class Solution(base.Solution):
             return np.full(len(interactions), float(rules.WRONG))
         if search.histories.is_determined(state[1]):
             return np.full(len(interactions), self.discount * rules.RIGHT)
-        usual = branch_and_bound.represented(state)
+        usual = search.histories.represented(state)
         search.run(usual, left)
         if taken in interactions:
             for _, following in search.histories.following(state, taken):
-                search.run(branch_and_bound.represented(following), left - 1)
+                search.run(search.histories.represented(following), left - 1)
         states = [state if interaction == taken else usual for interaction in interactions]
         return np.array([search.bounds_of(one, left, interaction)[0] for interaction, one in enumerate(states)])
 
@@ -167,6 +168,13 @@ class Solution(base.Solution):
     def compared(self):
         """Returns the returns of `random_play.bounds`, if the objective is the return."""
         return self._random_bounds if self.objective == "return" else {}
+
+    def planning(self):
+        if self.objective != "return":
+            return {}
+        # States that are equal to the last bit are one.
+        known = self._new_histories(tolerance=self._tolerance or 0.0)
+        return planning.returns(known, self.discount, self._step_limit, _NEGLIGIBLE)
 
     @functools.cached_property
     def _random_bounds(self) -> dict[str, float]:

@@ -18,7 +18,7 @@ import pyarrow
 from scipy import stats
 
 from physexp.analysis.data import episodes
-from physexp.analysis.ideal import mistakes
+from physexp.analysis.ideal import base, mistakes
 from physexp.analysis.score import log, protocol
 from physexp.suite.engine import rules
 
@@ -95,7 +95,7 @@ def _of_task(
     are_answers = columns["action"] >= question.num_interactions
     factors = question.discount ** columns["step"].astype(float)
     ideal, at_once = float(columns["value"][0]), float(columns["answering"][0])
-    floor = max(at_once, rules.WRONG * question.discount ** (question.step_limit - 1))
+    floor = base.floor(at_once, question.discount, question.step_limit)
 
     def discounted(values: np.ndarray) -> np.ndarray:
         """Returns the sum of each episode, float64 [N]."""

@@ -97,13 +97,16 @@ def test_a_finer_grid_changes_little(monkeypatch):
     odd_one_out._touch.cache_clear()
 
 
-def value_by_tree(difficulty, discount, blocks, step_limit, at_random, bins=32):
-    """Returns the value for masses in `bins` equal parts of [0, 1], from all sequences of pokes."""
+def value_by_tree(difficulty, discount, blocks, step_limit, at_random=False, horizon=math.inf, bins=32):
+    """Returns the value for masses in `bins` equal parts of [0, 1], from all sequences of pokes.
+
+    It is that of the best pokes, of random ones, or of one that looks some pokes ahead.
+    """
     edges = np.linspace(0, 1, bins + 1)
     heavy, light = np.diff(edges**difficulty), np.diff(1 - (1 - edges) ** difficulty)
     heavy_below, light_below = heavy.cumsum() - heavy / 2, light.cumsum() - light / 2
 
-    def worth(seen, left):
+    def worth(seen, left, horizon=math.inf):
         """Returns the value of known masses times their probability; `seen` has an array for each poked block."""
         seen = np.broadcast_arrays(*seen)
         unknown = blocks - len(seen)
@@ -123,21 +126,29 @@ def value_by_tree(difficulty, discount, blocks, step_limit, at_random, bins=32):
         answer = 2 * likeliest - chance
         if left == 1:
             return answer
-        pokes = worth([*(part[..., None] for part in seen), np.arange(bins)], left - 1).sum(-1) if unknown else answer
+        pokes = (
+            worth([*(part[..., None] for part in seen), np.arange(bins)], left - 1, horizon).sum(-1)
+            if unknown
+            else answer
+        )
         if at_random:
             again = worth(seen, left - 1) if seen else 0.0
             pokes = unknown / blocks * pokes * (unknown > 0) + len(seen) / blocks * again
-        return np.maximum(answer, discount * pokes)
+        planned = discount * pokes if horizon == math.inf else worth(seen, min(left, horizon + 1))
+        return np.where(planned > answer + 1e-12, discount * pokes, answer)
 
-    return float(worth([], step_limit))
+    return float(worth([], step_limit, horizon))
 
 
 @pytest.mark.parametrize(("difficulty", "blocks"), [(3.0, 4), (2.0, 2)])
 @pytest.mark.parametrize("step_limit", [1, 3, 5])
 def test_a_tree_of_all_pokes_finds_the_same_values(difficulty, blocks, step_limit):
     solution = solve(difficulty, 0.95, blocks, step_limit)
-    tree = [value_by_tree(difficulty, 0.95, blocks, step_limit, at_random) for at_random in (False, True)]
-    found = [solution.value, solution.compared()["random_value"]]
+    tree = [
+        value_by_tree(difficulty, 0.95, blocks, step_limit, **kind)
+        for kind in ({}, {"at_random": True}, {"horizon": 1})
+    ]
+    found = [solution.value, solution.compared()["random_value"], solution.planning()["lookahead_1"]]
     assert found == pytest.approx(tree, abs=5e-4)  # The parts' width, squared.
 
 
