@@ -372,6 +372,7 @@ def test_the_return_of_an_ideal_is_told_in_a_sentence(run, monkeypatch):
     sentence = "The ideal experimenter of threshold/features earns 0.8574 (discounted return, gamma 0.95)."
     text = run("ideal", "threshold").stdout
     assert text.startswith(sentence) and "An answer without any interaction earns -0.7500." in text
+    assert "earn 0.8574 (score 1.000)" in text and "Plans of at most 1, 2, 4 interactions" in text
     monkeypatch.delitem(ideal._IDEALS, "strings")
     assert_refused(run("ideal", "strings"), "no ideal experimenter is known of 'strings'; choose from which_is_heavier")
 

@@ -47,10 +47,14 @@ class Ideal:
             printing.tell(*_earned(f"{domain}/{task}", discount, figures))
         with printing.waiting("playing at random, for comparison"):
             summary = solution.summary()
-        if self.json:
-            printing.show(summary, as_json=True)
-        else:
+        if not self.json:
             printing.tell(*_compared(summary))
+        with printing.waiting("playing with less planning, for comparison"):
+            planning = solution.planning()
+        if self.json:
+            printing.show({**summary, **planning}, as_json=True)
+        elif planning:
+            printing.tell(*_planned(solution.value, planning))
 
 
 def _earned(name: str, discount: float, figures: Mapping[str, Any]) -> Iterator[str]:
@@ -77,3 +81,20 @@ def _compared(summary: Mapping[str, Any]) -> Iterator[str]:
         random = [f"{summary[name]:.4f}" for name in ("random_value", "random_bound") if name in summary]
         yield f"An answer without any interaction earns {summary['at_once']:.4f}."
         yield f"Random interactions with the best answers at the best moment earn {' to '.join(random)}."
+
+
+def _planned(value: float, planning: Mapping[str, float]) -> Iterator[str]:
+    """Yields sentences about experimenters that plan less, with their scores."""
+    floor = planning["floor"]
+    told = {
+        name: f"{earned:.4f} (score {(earned - floor) / (value - floor):.3f})" if value > floor else f"{earned:.4f}"
+        for name, earned in planning.items()
+    }
+    yield (
+        f"The interactions that tell most about the label earn {told['greedy']} at the best moment to stop; with the "
+        f"best of equally informative ones, {told['greedy_lucky']}."
+    )
+    ahead = {name.removeprefix("lookahead_"): text for name, text in told.items() if name.startswith("lookahead_")}
+    yield f"Plans of at most {', '.join(ahead)} interactions, made anew after each, earn {', '.join(ahead.values())}."
+    if planning["planning_error"] > 5e-5:
+        yield f"These returns are too low by {planning['planning_error']:.4f} at most."
