@@ -82,6 +82,7 @@ class Histories:
         *,
         tolerance: float | None = None,
         splits_determined: bool = False,
+        tries_all: bool = False,
     ):
         """Starts with the empty history.
 
@@ -91,9 +92,11 @@ class Histories:
           tolerance: an interaction that revealed nothing leads to an earlier history instead of a new one if positions
             and velocities differ by no more than this, m and m/s; by default, never.
           splits_determined: whether to split supports further whose hypotheses all have one label.
+          tries_all: whether `following` tries all interactions at once, which is faster if all are needed.
         """
         self.hypotheses, self.num_interactions, self.count = hypotheses, hypotheses.task.num_interactions, 0
         self._resolution, self._tolerance, self._splits_determined = resolution, tolerance, splits_determined
+        self._tries_all = tries_all
         self._prior, size = hypotheses.prior.tolist(), len(hypotheses.prior)
         self._probabilities = functools.cache(self._find_probabilities)
         self.max_probability = functools.cache(lambda support: float(self._probabilities(support).max()))
@@ -130,7 +133,7 @@ class Histories:
         history, support = state
         if not self._splits_determined and self.is_determined(support):
             return [(1.0, state)]
-        self._try(history, [interaction])
+        self._try(history, range(self.num_interactions) if self._tries_all else [interaction])
         return history.successors[interaction][support]
 
     def is_expanded(self, history: History) -> bool:

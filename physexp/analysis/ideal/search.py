@@ -173,7 +173,7 @@ class Solution(base.Solution):
         if self.objective != "return":
             return {}
         # States that are equal to the last bit are one.
-        known = self._new_histories(tolerance=self._tolerance or 0.0)
+        known = self._new_histories(tolerance=self._tolerance or 0.0, tries_all=True)
         return planning.returns(known, self.discount, self._step_limit, _NEGLIGIBLE)
 
     @functools.cached_property

@@ -1,4 +1,4 @@
-"""What experimenters earn that plan less, against trees that are written independently, and by hand."""
+"""The returns of experimenters with less planning, against independently written trees, and by hand."""
 
 import functools
 import math
