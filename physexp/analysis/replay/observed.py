@@ -11,11 +11,14 @@ from physexp.suite.engine import composer_task
 Poses = tuple[np.ndarray, np.ndarray, np.ndarray]
 """Positions, m [F, K, 3], rotations, [F, K, 3, 3], and whether the observations determine the positions, bool [K]."""
 
+Sizes = dict[int, np.ndarray]
+"""The sizes of geoms that have one for each reading, m [F, 3], by geom."""
+
 
 def poses(
     task: composer_task.ComposerTask, geoms: np.ndarray, observations: Mapping[str, np.ndarray], ends: Sequence[int]
-) -> Poses:
-    """Returns the poses of K geoms in all frames up to the last observation.
+) -> tuple[Poses, Sizes]:
+    """Returns the poses of K geoms in all frames up to the last observation, and the sizes of those that change theirs.
 
     Each reading moves from one observation to the next by the clock, slowly at both ends. Readings alone place geoms:
     indicators of a reading, geoms whose joints are all read, and geoms whose position is read, which keep the model's
@@ -31,8 +34,8 @@ def poses(
         values = observations[name].reshape(len(ends), -1).astype(float)
         shown[name] = values[before] + eased * (values[after] - values[before])
     positions, rotations, are_placed = _placed(task, shown, len(frames))
-    _indicate(task, shown, positions, are_placed)
-    return positions[:, geoms], rotations[:, geoms], are_placed[geoms]
+    sizes = _indicate(task, shown, positions, are_placed)
+    return (positions[:, geoms], rotations[:, geoms], are_placed[geoms]), sizes
 
 
 def _placed(task: composer_task.ComposerTask, shown: Mapping[str, np.ndarray], size: int) -> Poses:
@@ -84,9 +87,9 @@ def _joints_of(model: mujoco.MjModel, body: int) -> set[int]:
 
 def _indicate(
     task: composer_task.ComposerTask, shown: Mapping[str, np.ndarray], positions: np.ndarray, are_placed: np.ndarray
-) -> None:
-    """Writes the positions of indicators, and whether their readings are observed."""
-    start = task.apparatus.start.shown
+) -> Sizes:
+    """Writes the positions of indicators, and whether their readings are observed; returns sizes that show readings."""
+    start, sizes = task.apparatus.start.shown, {}
     for indicator in task.scene.indicators:
         geom, name = task.apparatus.model.geom(indicator.geom.full_identifier).id, indicator.reading
         positions[:, geom] = start["geom_xpos"][0, geom]
@@ -95,3 +98,6 @@ def _indicate(
             first = task.apparatus.read(name, start["sensordata"]).ravel()[indicator.component]
             values = shown[name][:, indicator.component, None] - first
             positions[:, geom] += values * np.array(indicator.travel)
+            if indicator.size:
+                sizes[geom] = indicator.size(shown[name][:, indicator.component])
+    return sizes

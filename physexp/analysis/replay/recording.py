@@ -63,6 +63,7 @@ class Film(episodes.Episode):
       positions, rotations: poses that follow from the observations, see `observed.poses`, and true poses while the
         answer is played out, float64 [F, K, 3] and [F, K, 3, 3].
       true_positions, true_rotations: poses in the simulation.
+      sizes, true_sizes: half sizes that change, with those poses, m, float64 [F, 3] by address in the model.
       controls: actuator controls of the physics steps, float64 [F, nu].
     """
 
@@ -82,6 +83,8 @@ class Film(episodes.Episode):
     rotations: np.ndarray
     true_positions: np.ndarray
     true_rotations: np.ndarray
+    sizes: observed.Sizes
+    true_sizes: observed.Sizes
     controls: np.ndarray
 
 
@@ -183,29 +186,37 @@ class _Rebuilder:
                 self._note_poses(self.environment.physics)
         model, room = task.apparatus.model, task.root_entity
         geoms = _geoms(model, [model.geom(geom.full_identifier).id for geom in (room.floor, room.mat)])
-        times, positions, rotations, controls = (np.array(values) for values in zip(*self._poses, strict=True))
+        *poses, all_sizes = zip(*self._poses, strict=True)
+        times, positions, rotations, controls = map(np.array, poses)
         positions, rotations = positions[:, geoms], rotations[:, geoms]
-        seen_positions, seen_rotations, are_placed = observed.poses(task, geoms, episode.observations, ends)
+        seen_poses, seen_sizes = observed.poses(task, geoms, episode.observations, ends)
+        seen_positions, seen_rotations, are_placed = seen_poses
+        sizes = {geom: np.concatenate([each[geom] for each in all_sizes]) for geom in all_sizes[0]}
+        after = ends[-1] + 1
         return {
             "declared": task,
             "shapes": _shapes(model, geoms, np.isin(geoms, task.apparatus.moving_geoms), are_placed),
             "control_timestep": task.options.control_timestep,
             "times": times * (task.options.control_timestep / task.control_timestep),
             "num_played": ends[-1],
-            "positions": np.concatenate([seen_positions, positions[ends[-1] + 1 :]]),
-            "rotations": np.concatenate([seen_rotations, rotations[ends[-1] + 1 :]]),
+            "positions": np.concatenate([seen_positions, positions[after:]]),
+            "rotations": np.concatenate([seen_rotations, rotations[after:]]),
             "true_positions": positions,
             "true_rotations": rotations,
+            "sizes": {geom: np.concatenate([told, sizes[geom][after:]]) for geom, told in seen_sizes.items()},
+            "true_sizes": sizes,
             "controls": controls,
         }
 
     def _note_poses(self, physics) -> None:
         data, model = physics.data, physics.model
         positions = data.geom_xpos.copy()
-        self.environment.task.apparatus.indicate(positions[None], data.sensordata[None])
+        apparatus, sensordata = self.environment.task.apparatus, data.sensordata[None]
+        apparatus.indicate(positions[None], sensordata)
         is_simulated = model.body_weldid[model.geom_bodyid] != 0
         positions[is_simulated] = data.geom_xpos[is_simulated]  # Even if images show them where a reading places them.
-        self._poses.append((data.time, positions, data.geom_xmat.reshape(-1, 3, 3).copy(), data.ctrl.copy()))
+        rotations, sizes = data.geom_xmat.reshape(-1, 3, 3).copy(), apparatus.sizes(sensordata)
+        self._poses.append((data.time, positions, rotations, data.ctrl.copy(), sizes))
 
 
 def _geoms(model: mujoco.MjModel, floor: Sequence[int]) -> np.ndarray:

@@ -211,6 +211,9 @@ class _EpisodeWriter:
         quaternions = transform.Rotation.from_matrix(rotations[first:, k]).as_quat()
         poses = rr.Transform3D.columns(translation=positions[first:, k], quaternion=quaternions)
         self._columns(entity, times, poses)
+        sizes, geom = episode.true_sizes if is_true else episode.sizes, episode.shapes.geoms[k]
+        if geom in sizes and isinstance(archetype, rr.Ellipsoids3D):  # Texts and bars keep theirs.
+            self._columns(entity, times, rr.Ellipsoids3D.columns(half_sizes=sizes[geom][first:]))
 
     def _write_truth(self) -> None:
         """Writes true poses, texts beside things, bars inside rigid bodies, and bands."""

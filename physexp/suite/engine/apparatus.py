@@ -25,6 +25,9 @@ _PLACING = ("body_pos", "body_quat")  # The model fields that say where things a
 LOOKED_AT = ("sensordata", "geom_xpos", "geom_xmat")
 """The fields of `MjData` that observations are made of."""
 
+Sizes = dict[int, np.ndarray]
+"""The sizes of geoms that have one for each reading, m [N, 3], by geom."""
+
 
 @dataclasses.dataclass(frozen=True)
 class Held:
@@ -158,9 +161,20 @@ class Apparatus:
     def indicate(self, geom_xpos: np.ndarray, sensordata: np.ndarray) -> None:
         """Moves the indicators to where the readings place them: writes to `geom_xpos`, [N, ngeom, 3]."""
         for geom, place, indicator in self._indicators:
-            values = self.read(indicator.reading, sensordata)
-            values = values.reshape(len(values), math.prod(values.shape[1:]))
-            geom_xpos[:, geom] = place + values[:, indicator.component, None] * np.array(indicator.travel)
+            geom_xpos[:, geom] = place + self._indicated(indicator, sensordata)[:, None] * np.array(indicator.travel)
+
+    def sizes(self, sensordata: np.ndarray) -> Sizes:
+        """Returns the sizes of the indicators that have a size for each reading."""
+        return {
+            geom: indicator.size(self._indicated(indicator, sensordata))
+            for geom, _, indicator in self._indicators
+            if indicator.size
+        }
+
+    def _indicated(self, indicator: declarations.Indicator, sensordata: np.ndarray) -> np.ndarray:
+        """Returns the values of the reading that an indicator shows, [N]."""
+        values = self.read(indicator.reading, sensordata)
+        return values.reshape(len(values), math.prod(values.shape[1:]))[:, indicator.component]
 
     def dofs(self, joints: tuple[str, ...]) -> tuple[np.ndarray, np.ndarray]:
         """Returns the degrees of freedom and the bodies, int [K] each, of slides or hinges by their full names."""

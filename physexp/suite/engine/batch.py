@@ -209,7 +209,9 @@ class BatchEnvironment:
             images = np.zeros((len(chosen), size, size, 3), np.uint8)
             for group, members in self.by_structure(chosen):
                 rows = chosen[members]
-                self.task.observer.renderer(group.apparatus, size).render(*group.poses(rows), rows, images)
+                positions, rotations, sizes = group.poses(rows)
+                renderer = self.task.observer.renderer(group.apparatus, size)
+                renderer.render(positions, rotations, rows, images, sizes=sizes)
             return images
 
     def close(self) -> None:

@@ -131,6 +131,7 @@ class ComposerTask(composer.Task):
         physics.data.qpos[:] = self._starts.qpos[0]
         self._action = 0
         self._look({field: self._starts.shown[field] for field in task.observer.fields})
+        self._resize(physics)
         if task.options.visualize_reward:
             self._colour_floor(physics, self.root_entity.floor.rgba)
 
@@ -154,10 +155,16 @@ class ComposerTask(composer.Task):
             self._ledger.touched |= self.apparatus.moved(data.qpos[None], self._starts.qpos)
             self._look({field: getattr(data, field)[None] for field in task.observer.fields})
             self.apparatus.indicate(data.geom_xpos[None], data.sensordata[None])  # For `physics.render`.
+            self._resize(physics)
         rewards, last = self._ledger.judge(_ROW, np.array([self._action]))
         self._reward, self._last = float(rewards[0]), bool(last[0])
         if task.options.visualize_reward and self._last:
             self._colour_floor(physics, _OK_RGBA if self._reward > 0 else _WRONG_RGBA)
+
+    def _resize(self, physics: Any) -> None:
+        """Gives indicators the sizes that `physics.render` draws; no contact depends on them."""
+        for geom, sizes in self.apparatus.sizes(self.measured).items():
+            physics.model.geom_size[geom] = sizes[0]
 
     def _colour_floor(self, physics: Any, rgba: Any) -> None:
         physics.bind(self.root_entity.floor).rgba = rgba

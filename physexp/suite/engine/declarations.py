@@ -64,17 +64,21 @@ class Reading:
 class Indicator:
     """A geom that shows a reading in images: it is drawn at its place plus `travel` times the reading.
 
+    Its size may show the reading, too.
+
     Attributes:
       geom: the MJCF geom.
       reading: name of the reading.
       component: index in the reading, flattened.
       travel: m, (3,).
+      size: returns its size as MuJoCo draws it, m [N, 3], for values of the reading, [N]; None if it keeps its own.
     """
 
     geom: Any
     reading: str
     component: int
     travel: tuple[float, float, float]
+    size: Callable[[np.ndarray], np.ndarray] | None = None
 
 
 @dataclasses.dataclass(frozen=True)

@@ -62,9 +62,9 @@ class Environment(composer.Environment):
             positions = physics.data.geom_xpos[None].copy()
             apparatus.indicate(positions, self._task.measured)
             image = np.zeros((size, size, 3), np.uint8)
-            poses = positions, physics.data.geom_xmat[None]
-            renderer = self._task.observer.renderer(apparatus, size)
-            renderer.render(*poses, np.zeros(1, np.intp), image[None], colors=physics.model.geom_rgba)
+            poses, sizes = (positions, physics.data.geom_xmat[None]), apparatus.sizes(self._task.measured)
+            renderer, colors = self._task.observer.renderer(apparatus, size), physics.model.geom_rgba
+            renderer.render(*poses, np.zeros(1, np.intp), image[None], colors=colors, sizes=sizes)
             return image
 
     def close(self) -> None:

@@ -81,8 +81,8 @@ class Observer:
                 observations[name][rows] = apparatus.read(name, shown["sensordata"])
             return
         apparatus.indicate(shown["geom_xpos"], shown["sensordata"])
-        poses = shown["geom_xpos"], shown["geom_xmat"]
-        self.renderer(apparatus).render(*poses, rows, observations["pixels"], starts.camera[rows])
+        poses, sizes = (shown["geom_xpos"], shown["geom_xmat"]), apparatus.sizes(shown["sensordata"])
+        self.renderer(apparatus).render(*poses, rows, observations["pixels"], starts.camera[rows], sizes=sizes)
 
     def renderer(self, apparatus: apparatus_lib.Apparatus, size: int = rendering.SIZE) -> rendering.Renderer:
         """Returns the renderer of images of a size; all structures of a task have the same geoms, so it draws each."""

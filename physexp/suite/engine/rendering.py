@@ -1,6 +1,7 @@
 """Draws images of a scene, whatever the poses of its geoms."""
 
 import atexit
+from collections.abc import Mapping
 import copy
 import functools
 from typing import Any
@@ -55,7 +56,8 @@ class Renderer:
         first = drawn_geoms.index(self._moving[0])
         assert drawn_geoms[first:] == self._moving  # The arena, which stands still, comes first.
         self._drawn_geoms = drawn_geoms
-        self._colors, positions, rotations = (_views(self.scene, field) for field in ("rgba", "pos", "mat"))
+        fields = ("rgba", "size", "pos", "mat")
+        self._colors, self._sizes, positions, rotations = (_views(self.scene, field) for field in fields)
         self._positions, self._rotations = positions[first:], rotations[first:]
 
     def render(
@@ -66,11 +68,13 @@ class Renderer:
         images: np.ndarray,
         camera: np.ndarray | None = None,
         colors: np.ndarray | None = None,
+        sizes: Mapping[int, np.ndarray] | None = None,
     ) -> None:
         """Draws images of N poses into rows, int [N], of `images`; raises RuntimeError if the renderer is closed.
 
         Positions (m) and rotation matrices of geoms are [N, number of geoms, 3 and 9], displacements of the camera
-        m [N, 3]. Colours of geoms, [number of geoms, 4] in [0, 1], hold from now on.
+        m [N, 3]. Colours of geoms, [number of geoms, 4] in [0, 1], hold from now on, and so do the last sizes of some
+        geoms, m [N, 3].
         """
         if self.context is None:
             raise RuntimeError("the renderer is closed")
@@ -79,12 +83,14 @@ class Renderer:
         if colors is not None:
             self._colors[:] = colors[self._drawn_geoms]
         displaced = camera if camera is not None and camera.any() else None
-        gl.draw(functools.partial(self._draw_all, positions, rotations, rows, images, displaced))
+        sized = [(self._drawn_geoms.index(geom), values) for geom, values in (sizes or {}).items()]
+        gl.draw(functools.partial(self._draw_all, positions, rotations, sized, rows, images, displaced))
 
     def _draw_all(
         self,
         positions: np.ndarray,
         rotations: np.ndarray,
+        sized: list[tuple[int, np.ndarray]],
         rows: np.ndarray,
         images: np.ndarray,
         displaced: np.ndarray | None,
@@ -95,6 +101,8 @@ class Renderer:
                     self._displace(displaced[number])
                 self._positions[:] = position
                 self._rotations[:] = rotation
+                for place, sizes in sized:
+                    self._sizes[place] = sizes[number]
                 self._draw(self.buffers)
                 self._read(self.buffers)
                 images[row] = self._image

@@ -91,8 +91,8 @@ class Group:
         """Returns which held entities have moved, bool [number of rows, number of held entities]."""
         return self.apparatus.moved(self._qpos[rows], self._starts.qpos[rows])
 
-    def poses(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Returns positions, m, and rotations of the geoms, [number of rows, ngeom, 3 and 9].
+    def poses(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray, apparatus_lib.Sizes]:
+        """Returns positions, m, and rotations of the geoms, [number of rows, ngeom, 3 and 9], and sizes of some.
 
         They are computed anew, since a reset changes only coordinates. Sensors are not: indicators show last readings.
         """
@@ -100,4 +100,4 @@ class Group:
         self._batch.forward(ids=rows, stage=mujoco.mjtStage.mjSTAGE_POS)
         positions, rotations = (values[rows].reshape(len(rows), self.apparatus.model.ngeom, -1) for values in fields)
         self.apparatus.indicate(positions, self._measured[rows])
-        return positions, rotations
+        return positions, rotations, self.apparatus.sizes(self._measured[rows])
