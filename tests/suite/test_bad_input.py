@@ -152,6 +152,7 @@ def test_an_option_out_of_range_is_refused(options, fragments):
         ("crush/features", {"num_cans": 4}, ("num_cans is 4; give an integer >= 1 and <= 3",)),
         ("sealed_box/features", {"noise": 0.001}, ("noise is 0.001; give 0",)),
         ("strike/features", {"goal_distance": 0.4}, ("goal_distance is 0.4; give a number from 0.6 to 0.75 m",)),
+        ("lump/features", {"difficulty": 4}, ("difficulty is 4; give 1, 2 or 3",)),
         ("threshold/features", {"variation": 0.5}, ("variation is 0.5; give 0 where episodes differ in nothing else",)),
         ("towers/fist_pixels", {"noise": 0.01}, ("noise is 0.01; give 0 where no reading in metres is observed",)),
         ("strings/pixels", {"reveal": True}, ("reveal is True; give False where images are", "a task with features")),

@@ -10,6 +10,7 @@ from physexp.analysis.domains import (
     balance,
     base,
     crush,
+    lump,
     sealed_box,
     strike,
     strings,
@@ -20,7 +21,7 @@ from physexp.analysis.domains import (
 
 __all__ = ["DOMAINS", "find"]
 
-_MODULES = (which_is_heavier, towers, threshold, balance, strings, sealed_box, strike, crush)
+_MODULES = (which_is_heavier, towers, threshold, balance, strings, sealed_box, strike, crush, lump)
 
 
 def _registered() -> dict[str, base.Domain]:

@@ -8,13 +8,13 @@ from importlib import metadata
 from types import ModuleType
 import warnings
 
-from physexp.suite.domains import balance, crush, sealed_box, strike, strings, threshold, towers, which_is_heavier
+from physexp.suite.domains import balance, crush, lump, sealed_box, strike, strings, threshold, towers, which_is_heavier
 
 GROUP = "physexp.domains"
 
 DOMAINS: dict[str, ModuleType] = {
     module.__name__.rpartition(".")[2]: module
-    for module in (which_is_heavier, towers, threshold, balance, strings, sealed_box, strike, crush)
+    for module in (which_is_heavier, towers, threshold, balance, strings, sealed_box, strike, crush, lump)
 }
 """The modules of the domains by name; each has `SUITE`, the factories of its tasks, and `Options`."""
 

@@ -81,6 +81,7 @@ def test_there_is_something_to_find_out(domain, monkeypatch):
         ("strings", (1, 1.5, 3, 5), {}),
         ("sealed_box", (1, 2, 3), {"time_limit": 0.5}),
         ("strike", (1, 2, 3), {"time_limit": 0.5}),
+        ("lump", (1, 2, 3), {"time_limit": 0.6}),
     ],
 )
 def test_a_larger_difficulty_is_easier(domain, difficulties, task_kwargs):

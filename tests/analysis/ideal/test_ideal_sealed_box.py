@@ -95,7 +95,7 @@ def test_it_pushes_first_and_waits_in_every_episode():
         assert 4 in actions
 
 
-@pytest.mark.parametrize("domain, time_limit", [("sealed_box", 0.5), ("strike", 0.4)])
+@pytest.mark.parametrize("domain, time_limit", [("sealed_box", 0.5), ("strike", 0.4), ("lump", 0.6)])
 def test_it_plays_as_well_from_images(domain, time_limit):
     solution = ideals.of(domain, "pixels", time_limit=time_limit)
     assert solution.value == pytest.approx(ideals.of(domain, time_limit=time_limit).value, abs=1e-12)

@@ -1,0 +1,19 @@
+"""Facts about Lump: presets, its ideal experimenter and its columns."""
+
+from physexp.analysis.domains import base
+
+
+def _hypotheses():
+    import numpy as np
+
+    from physexp.suite.domains import lump
+
+    return np.arange(len(lump.ALL_LUMPS)), lump.PRIOR
+
+
+DOMAIN = base.search_domain(
+    "lump",
+    _hypotheses,
+    presets=base.PRESETS_OF_BITS,
+    hidden_columns=lambda hidden: {"lump": hidden},  # An index in `lump.ALL_LUMPS`.
+)
