@@ -28,10 +28,11 @@ EPISODES = {
     "sealed_box": ("sealed_box/features", 5, 7),
     "strike": ("strike/features", 5, 0),
     "crush": ("crush/features", 5, 6),
+    "lump": ("lump/features", 5, 11),
 }
 """For each picture the agent, which keeps a belief, and the seed and the index of the episode."""
 
-PLAYED_BY_THE_IDEAL = ("crush",)
+PLAYED_BY_THE_IDEAL = ("crush", "lump")
 
 SCALE = 2  # For dense screens.
 SIZE = (880 * SCALE, 400 * SCALE)  # pixels
@@ -109,12 +110,13 @@ def scenes(episode: recording.Film, shown: Sequence[Frame]) -> Iterator[np.ndarr
     large = np.zeros((1, 2 * SCENE, 2 * SCENE, 3), np.uint8)
     positions, rotations = np.zeros((1, apparatus.model.ngeom, 3)), np.zeros((1, apparatus.model.ngeom, 9))
     for frame in shown:
-        film = (episode.positions, episode.rotations)
+        film = (episode.positions, episode.rotations, episode.sizes)
         if frame.verdict:
-            film = (episode.true_positions, episode.true_rotations)
+            film = (episode.true_positions, episode.true_rotations, episode.true_sizes)
         positions[0, geoms] = film[0][frame.substep]
         rotations[0, geoms] = film[1][frame.substep].reshape(-1, 9)
-        renderer.render(positions, rotations, np.zeros(1, int), large)
+        sizes = {geom: values[frame.substep, None] for geom, values in film[2].items()}
+        renderer.render(positions, rotations, np.zeros(1, int), large, sizes=sizes)
         yield np.asarray(Image.fromarray(large[0]).resize((SCENE, SCENE), Image.Resampling.LANCZOS))
     renderer.close()
 

@@ -24,6 +24,7 @@ EPISODES = (
     ("sealed_box", "pixels", 2, [3, 4, 4, 0, 4, 2, 4]),
     ("strike", "pixels", 0, [1, 0, 2, 1, 0, 1, 2]),
     ("crush", "pixels", 6, [4, 8, 5, 6, 3, 7, 9]),
+    ("lump", "pixels", 2, [1, 2, 1, 2, 2, 0, 2]),
 )
 """Domain, task, index of the episode and actions of each row."""
 
@@ -47,7 +48,8 @@ def frames(domain: str, task: str, episode: int, actions: Sequence[int], as_seen
             data = environment.physics.data
             positions, image = data.geom_xpos[None].copy(), np.zeros((SIZE, SIZE, 3), np.uint8)
             apparatus.indicate(positions, data.sensordata[None])
-            renderer.render(positions, data.geom_xmat[None], [0], image[None])
+            sizes = apparatus.sizes(data.sensordata[None])
+            renderer.render(positions, data.geom_xmat[None], [0], image[None], sizes=sizes)
         images.append(np.pad(image, ((2, 2), (2, 2), (0, 0)), constant_values=255))
     renderer.close()
     environment.close()
