@@ -21,7 +21,7 @@ def look_around():
 """
 
 
-def test_importing_starts_no_thread_or_process_opens_no_context_and_imports_no_torch_or_plots():
+def test_importing_starts_nothing_opens_no_context_and_loads_no_torch():
     found, _ = interpreters.run(f"{LOOK_AROUND}\nimport physexp.suite\nfound.update(look_around())")
     assert (found["children"], found["threads"], found["contexts"]) == (0, 1, 0)
     unwanted = {"torch", "matplotlib", "pandas", "pyarrow", "rerun", "gymnasium", "ray", "tensorboard"}
