@@ -15,5 +15,6 @@ DOMAIN = base.search_domain(
     "lump",
     _hypotheses,
     presets=base.PRESETS_OF_BITS,
+    is_in_protocol=False,
     hidden_columns=lambda hidden: {"lump": hidden},  # An index in `lump.ALL_LUMPS`.
 )
