@@ -114,7 +114,9 @@ def named(names: Sequence[str]) -> tuple[Question, ...]:
 def observing(kind: str) -> tuple[Question, ...]:
     """Returns the questions of the protocol's tasks that observe `features`, `pixels`, or, for `all`, either."""
     names = suite.ALL_TASKS if kind == "all" else suite.tagged(kind)
-    return tuple(question(domain, task) for domain, task in names if is_judged(domain) and domains.find(domain).is_in_protocol)
+    return tuple(
+        question(domain, task) for domain, task in names if is_judged(domain) and domains.find(domain).is_in_protocol
+    )
 
 
 def is_judged(domain: str) -> bool:
