@@ -79,7 +79,7 @@ def test_the_score_without_luck_has_the_narrower_interval(domain):
     assert 0 < width < raw_width
 
 
-def test_every_task_has_an_ideal_and_those_of_the_protocol_instances_of_their_own():
+def test_every_task_has_an_ideal_and_the_protocol_its_own_instances():
     everything = [protocol.question(*names) for names in suite.ALL_TASKS]
     newer = {asked.domain for asked in everything} - {asked.domain for asked in protocol.observing("all")}
     assert newer == {"crush", "lump"}, "a domain that joins the protocol changes all scores over domains"
