@@ -42,7 +42,7 @@ class Demo:
             trainer.train(demo, display, start=wanted)
         if problem := verdict.of_run(demo):
             printing.warn(problem, verdict.advice(wanted))
-        printing.tell(f"\nAfter training, over {EPISODES} new episodes each (chance is 25 % right):\n")
+        printing.tell("", f"After training, over {EPISODES} new episodes each (chance is 25 % right):", "")
         rows = []
         for interaction in playing.INTERACTIONS:
             figures = playing.evaluate(demo, EPISODES, interaction).summary(wanted.agent.discount)
@@ -66,4 +66,4 @@ class Demo:
             bottom.plot(frames, [row["interactions"] for row in rows], color=plots.COLORS[2])
             bottom.set(xlabel="environment steps, millions", ylabel="interactions in an episode", ylim=(0, None))
         files.write_atomically(path, plots.png(drawn))
-        printing.tell(f"\nlearning curve: {path}")
+        printing.tell("", f"learning curve: {path}")
