@@ -1,12 +1,11 @@
 """The ideal experimenter of Sealed Box against a tree of all sequences, simulated with another model."""
 
-import functools
-
 import ideals
 import mujoco
 import numpy as np
 import pytest
 from seeds import fresh_seed
+import trees
 
 from physexp import suite
 from physexp.agents import environment_loop
@@ -34,52 +33,14 @@ def simulation(content):
         damping=[content.damping, 0, 0],
     )
     spec.add_actuator(target="rail", trntype=mujoco.mjtTrn.mjTRN_JOINT).set_to_motor()
-    model = spec.compile()
-    data = mujoco.MjData(model)
-
-    @functools.cache
-    def state(sequence):
-        if not sequence:
-            return (0.0, 0.0), (0.0, 0.0)
-        data.qpos[:], data.qvel[:] = state(sequence[:-1])
-        data.ctrl[:] = FORCES[sequence[-1]]
-        mujoco.mj_step(model, data, nstep=5)
-        return tuple(data.qpos), tuple(data.qvel)
-
-    return lambda sequence: state(sequence)[0][0]
-
-
-def tree(mark, discount, depth):
-    """Bounds on the best return by all sequences up to a length; for the upper one, one more action reveals all."""
-    boxes = [simulation(content) for content in sealed_box.ALL_CONTENTS]
-
-    def value(sequence, group):
-        weights = np.bincount(KINDS[group], sealed_box.PRIOR[group], minlength=4)
-        answer = 2 * weights.max() / weights.sum() - 1
-        if weights.max() == weights.sum():
-            return answer, answer
-        if len(sequence) == depth:
-            return answer, max(answer, discount)
-        low = high = answer
-        for action in range(len(FORCES)):
-            parts = {}
-            for k in group:
-                longer = (*sequence, action)
-                reading = round(boxes[k](longer) / mark) if action == 4 else 0
-                parts.setdefault(reading, []).append(k)
-            found = np.zeros(2)
-            for part in parts.values():
-                found += sealed_box.PRIOR[part].sum() / weights.sum() * np.array(value((*sequence, action), part))
-            low, high = max(low, discount * found[0]), max(high, discount * found[1])
-        return low, high
-
-    return value((), list(range(len(KINDS))))
+    return trees.simulation(spec.compile(), FORCES, 5)
 
 
 def test_its_value_lies_between_the_bounds_of_a_tree():
     solution = ideals.of("sealed_box")
     assert solution.bound == pytest.approx(solution.value)
-    low, high = tree(mark=0.005, discount=0.95, depth=4)
+    boxes = [simulation(content) for content in sealed_box.ALL_CONTENTS]
+    low, high = trees.bounds(boxes, KINDS, sealed_box.PRIOR, wait=4, mark=0.005, discount=0.95, depth=4)
     assert low - 1e-9 <= solution.value <= high + 1e-9
     assert high - low < 0.3
 
