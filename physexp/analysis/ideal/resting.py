@@ -55,7 +55,7 @@ class Apparatus(abc.ABC):
 
     def posterior(self, state: State) -> np.ndarray:
         """Returns the probabilities of the labels, float64 [L]."""
-        weights = self.weights * (state[0] >> np.arange(len(self.weights)) & 1)
+        weights = self.weights * bits(state[0], len(self.weights))
         return weights / weights.sum()
 
     def following(self, state: State, interaction: int) -> list[tuple[float, State]]:
@@ -94,6 +94,12 @@ class Apparatus(abc.ABC):
 def mask(possible: Sequence[bool] | np.ndarray) -> int:
     """Returns a bit mask of the possible labels, [L]."""
     return sum(1 << label for label, is_possible in enumerate(possible) if is_possible)
+
+
+def bits(number: int, count: int) -> np.ndarray:
+    """Returns the lowest bits of a number, the lowest one first, bool [count]."""
+    octets = np.frombuffer(number.to_bytes(-(-count // 8), "little"), np.uint8)
+    return np.unpackbits(octets, count=count, bitorder="little").astype(bool)
 
 
 class _States:

@@ -180,6 +180,12 @@ def test_halving_finds_one_of_eight_equally_likely_labels_in_three_tests():
     assert solution.action(between(6, 6), 3) == 8 + 6
 
 
+def test_labels_may_be_more_than_an_integer_of_numpy_has_bits():
+    apparatus = intervals.Thresholds(np.full(100, 1 / 100))
+    state = apparatus.after(apparatus.start, 89, 0)
+    np.testing.assert_allclose(apparatus.posterior(state), [0] * 90 + [1 / 10] * 10)
+
+
 def test_three_labels_by_hand():
     # Test 0 first: 0.9 (0.5 + 0.5 * 0.9) = 0.855, for the other two labels are worth 0.9 with one more test, and 0.2 at
     # once. Test 1 first: 0.9 (0.8 * 0.9 + 0.2) = 0.828. At once: 0.
