@@ -94,26 +94,31 @@ def coins(num_things, num_suspects):
     return dict.fromkeys(labels, 1 / (2 * num_suspects)), moves, (0,) * num_things
 
 
-def graphs(weights):
-    """Three things; a pull of one moves all that bands connect to it, except through the clamped one."""
-    pairs = ((0, 1), (0, 2), (1, 2))
+def graphs(weights, num_things, num_clamps):
+    """A pull of a thing moves all that bands connect to it, except through clamped ones."""
+    pairs = list(itertools.combinations(range(num_things), 2))
 
     def moves(clamped):
-        for thing in range(3):
+        for thing in range(num_things):
             yield clamped, functools.partial(moved, clamped, thing)
-            yield None if clamped == thing else thing, lambda graph: None
+            yield clamp(clamped, thing), lambda graph: None
+
+    def clamp(clamped, thing):
+        if thing in clamped or len(clamped) < num_clamps:
+            return clamped ^ {thing}
+        return frozenset({thing}) if num_clamps == 1 else clamped
 
     def moved(clamped, pulled, graph):
         found, frontier = set(), [pulled]
         while frontier:
             thing = frontier.pop()
-            if thing != clamped and thing not in found:
+            if thing not in clamped and thing not in found:
                 found.add(thing)
                 frontier += [other for pair in graph if thing in pair for other in pair]
         return frozenset(found)
 
     labels = [frozenset(pair for bit, pair in enumerate(pairs) if label >> bit & 1) for label in range(2 ** len(pairs))]
-    return dict(zip(labels, weights, strict=True)), moves, None
+    return dict(zip(labels, weights, strict=True)), moves, frozenset()
 
 
 OF_THRESHOLD = np.diff(1 - (1 - np.arange(9) / 8) ** 2)  # At the default difficulty.
@@ -134,9 +139,16 @@ def test_a_search_over_placings_of_coins_finds_the_same_values(things, suspects,
     agree(counterfeit.Scale(things, suspects), coins(things, suspects), discount, step_limit)
 
 
-@pytest.mark.parametrize("weights", [np.full(8, 1 / 8), [0.3, 0.2, 0.1, 0.1, 0.1, 0.1, 0.05, 0.05]])
-def test_a_search_over_sets_of_graphs_finds_the_same_values(weights):
-    agree(bands.Clamped(3, weights), graphs(weights), 0.9, 10)
+UNEQUAL = [0.3, 0.2, 0.1, 0.1, 0.1, 0.1, 0.05, 0.05]
+RARE = np.exp2([-label.bit_count() for label in range(64)]) / 1.5**6  # Two are joined with probability 1 / 3.
+
+
+@pytest.mark.parametrize(
+    "weights, things, clamps, step_limit",
+    [(np.full(8, 1 / 8), 3, 1, 10), (UNEQUAL, 3, 1, 10), (UNEQUAL, 3, 2, 10), (RARE, 4, 2, 5)],
+)
+def test_a_search_over_sets_of_graphs_finds_the_same_values(weights, things, clamps, step_limit):
+    agree(bands.Clamped(things, weights, clamps), graphs(weights, things, clamps), 0.9, step_limit)
 
 
 @pytest.mark.parametrize(
