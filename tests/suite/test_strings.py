@@ -1,6 +1,7 @@
 """Strings: a pull moves what bands join to the pulled puck past no clamp, and nothing else can be read."""
 
 import itertools
+import math
 
 import chance
 import episodes
@@ -10,42 +11,59 @@ import pytest
 from physexp import suite
 from physexp.suite.domains import strings
 
-LEAST, GREATEST = strings.SLACKS
+LEAST, GREATEST = strings.SLACKS[3]
 
 
-def _extremes() -> np.ndarray:
-    """Every graph with every choice of the least and the greatest slack of its bands, m [27, 3]."""
-    return np.array(list(itertools.product((0.0, LEAST, GREATEST), repeat=3)))
+def _bands(pucks: int) -> list[tuple[int, int]]:
+    return list(itertools.combinations(range(pucks), 2))
 
 
-def _moved(slacks: np.ndarray, clamped: int, pulled: int) -> np.ndarray:
-    """Which pucks a pull moves, bool [3], by the square of the matrix of joints, without the clamped puck."""
-    joined = np.eye(3)
-    for slack, (i, j) in zip(slacks, ((0, 1), (0, 2), (1, 2)), strict=True):
+def _extremes(rng, pucks: int) -> np.ndarray:
+    """Graphs with bands of the least and the greatest slack, m [135, bands]; with three pucks, all of them."""
+    every = np.array(list(itertools.product((0.0, *strings.SLACKS[pucks]), repeat=len(_bands(pucks)))))
+    return rng.permutation(np.tile(every, (5, 1)))[:135] if pucks > 3 else np.tile(every, (5, 1))
+
+
+def _moved(slacks: np.ndarray, clamped: set[int], pulled: int, pucks: int) -> np.ndarray:
+    """Which pucks a pull moves, bool [pucks], by a power of the matrix of joints, without the clamped pucks."""
+    joined = np.eye(pucks)
+    for slack, (i, j) in zip(slacks, _bands(pucks), strict=True):
         joined[i, j] = joined[j, i] = slack > 0
-    if clamped >= 0:
-        joined[clamped], joined[:, clamped] = 0, 0
-    return np.linalg.matrix_power(joined, 2)[pulled] > 0
+    held = list(clamped)
+    joined[held], joined[:, held] = 0, 0
+    return np.linalg.matrix_power(joined, pucks - 1)[pulled] > 0
+
+
+def _move(clamped: set[int], puck: int, clamps: int) -> set[int]:
+    """The pucks that are clamped after a clamp of one is wanted: the only clamp moves, and a third is not put on."""
+    if puck in clamped or len(clamped) < clamps:
+        return clamped ^ {puck}
+    return {puck} if clamps == 1 else clamped
 
 
 def _play(rng, batch, slacks):
-    """Plays; yields what is pulled, clamped and should be away, bool [N, 3] each, and what is observed."""
-    clamped = np.full(len(slacks), -1)
+    """Plays; yields the pucks that are pulled, clamped and should be away, bool [N, pucks] each, and observations."""
+    pucks, clamps = batch.task.options.num_pucks, batch.task.options.num_clamps
+    held = [set[int]() for _ in slacks]
     for actions, seen in episodes.play(rng, batch, slacks):
-        clamped = np.where(actions < 3, clamped, np.where(clamped == actions - 3, -1, actions - 3))
+        held = [_move(old, a - pucks, clamps) if a >= pucks else old for old, a in zip(held, actions, strict=True)]
         away = [
-            _moved(bands, clamp, action) if action < 3 else np.zeros(3, bool)
-            for bands, clamp, action in zip(slacks, clamped, actions, strict=True)
+            _moved(bands, clamped, a, pucks) if a < pucks else np.zeros(pucks, bool)
+            for bands, clamped, a in zip(slacks, held, actions, strict=True)
         ]
-        yield actions[:, None] == np.arange(3), clamped[:, None] == np.arange(3), np.array(away), seen
+        clamped = [[k in old for k in range(pucks)] for old in held]
+        yield actions[:, None] == np.arange(pucks), np.array(clamped), np.array(away), seen
 
 
-@pytest.mark.parametrize("control_timestep", [0.1, 0.11, 0.25])
-def test_a_pull_moves_all_joined_pucks_past_no_clamp(seed, control_timestep):
+@pytest.mark.parametrize(
+    "pucks, clamps, control_timestep", [(3, 1, 0.1), (3, 1, 0.11), (3, 1, 0.25), (3, 2, 0.1), (4, 2, 0.1)]
+)
+def test_a_pull_moves_all_joined_pucks_past_no_clamp(seed, pucks, clamps, control_timestep):
     rng = np.random.default_rng(seed)
-    drawn = episodes.drawn("strings", *rng.integers(2**31, size=(2, 60)))
-    slacks = np.concatenate([np.repeat(_extremes(), 5, axis=0), drawn])
-    kwargs = {"random": seed, "control_timestep": control_timestep, "time_limit": 50 * control_timestep}
+    kwargs = {"control_timestep": control_timestep, "num_pucks": pucks, "num_clamps": clamps}
+    drawn = episodes.drawn("strings", *rng.integers(2**31, size=(2, 60)), **kwargs)
+    slacks = np.concatenate([_extremes(rng, pucks), drawn])
+    kwargs |= {"random": seed, "time_limit": 50 * control_timestep}
     batch = suite.load_batch("strings", "features", len(slacks), kwargs)
     assert not any(values.any() for values in batch.reset(hidden=slacks).observation.values())
     for *expected, seen in _play(rng, batch, slacks):
@@ -53,28 +71,32 @@ def test_a_pull_moves_all_joined_pucks_past_no_clamp(seed, control_timestep):
             np.testing.assert_array_equal(seen[name], values)
 
 
+@pytest.mark.parametrize("pucks, clamps", [(3, 1), (4, 2)])
 @episodes.features_and_pixels
-def test_observations_tell_nothing_but_what_is_pulled_clamped_and_away(seed, task):
+def test_observations_tell_nothing_but_what_is_pulled_clamped_and_away(seed, task, pucks, clamps):
     """Observations follow from these three, for all slacks and all histories."""
-    slacks = np.repeat(_extremes(), 12, axis=0)  # So many that all 31 are seen but in one run of a hundred million.
-    batch = suite.load_batch("strings", task, len(slacks), {"random": seed})
+    rng = np.random.default_rng(seed)
+    slacks = _extremes(rng, pucks)
+    batch = suite.load_batch("strings", task, len(slacks), {"random": seed, "num_pucks": pucks, "num_clamps": clamps})
     followed = episodes.Followed()
-    for *expected, observation in _play(np.random.default_rng(seed), batch, slacks):
+    for *expected, observation in _play(rng, batch, slacks):
         followed.add(map(tuple, np.hstack(expected)), observation)
-    # Nothing pulled, with each clamp or none: 4. Each pulled without a clamp, and others with it or not: 3 * 4; clamped
-    # itself: 3; or past another's clamp, and the third with it or not: 3 * 2 * 2.
-    assert followed.num_different() == 4 + 12 + 3 + 12
+    # None is pulled, or a clamped puck, or a free one, with which each of the other free ones may move.
+    frees = range(pucks - clamps, pucks + 1)
+    possible = sum(math.comb(pucks, free) * (1 + pucks - free + free * 2 ** (free - 1)) for free in frees)
+    assert 0.7 * possible < followed.num_different() <= possible
 
 
-@pytest.mark.parametrize("difficulty", [1, 2, 3.5])
-def test_graphs_follow_the_prior_and_slacks_are_within_their_range(seed, difficulty):
-    slacks, graphs = episodes.drawn_with_answers("strings", seed, difficulty=difficulty)
-    bands = np.array([0, 1, 1, 2, 1, 2, 2, 3])  # Bits of the labels' numbers.
-    expected = difficulty ** (3 - bands) / (1 + difficulty) ** 3
-    np.testing.assert_allclose(strings.prior(difficulty), expected)
-    chance.assert_drawn(np.bincount(graphs, minlength=8), expected)
-    drawn = slacks[slacks > 0]
-    assert LEAST <= drawn.min() < LEAST + 1e-5 and GREATEST - 1e-5 < drawn.max() < GREATEST
+@pytest.mark.parametrize("difficulty, pucks", [(1, 3), (2, 3), (3.5, 3), (1, 4)])
+def test_graphs_follow_the_prior_and_slacks_are_within_their_range(seed, difficulty, pucks):
+    slacks, graphs = episodes.drawn_with_answers("strings", seed, difficulty=difficulty, num_pucks=pucks)
+    pairs = len(_bands(pucks))
+    bands = np.array([label.bit_count() for label in range(2**pairs)])
+    expected = difficulty ** (pairs - bands) / (1 + difficulty) ** pairs
+    np.testing.assert_allclose(strings.prior(difficulty, pucks), expected)
+    chance.assert_drawn(np.bincount(graphs, minlength=2**pairs), expected)
+    drawn, (least, greatest) = slacks[slacks > 0], strings.SLACKS[pucks]
+    assert least <= drawn.min() < least + 1e-5 and greatest - 1e-5 < drawn.max() < greatest
 
 
 def test_answers_are_named_after_the_pairs_that_are_joined():

@@ -7,7 +7,8 @@ def _apparatus(options):
     from physexp.analysis.ideal import bands
     from physexp.suite.domains import strings
 
-    return bands.Clamped(strings.NUM_PUCKS, strings.prior(options.difficulty))
+    weights = strings.prior(options.difficulty, options.num_pucks)
+    return bands.Clamped(options.num_pucks, weights, options.num_clamps)
 
 
 def _moved(observation) -> int:

@@ -6,6 +6,7 @@ from `m sqrt(mu)` alone: a strike that stops at D needs the impulse `m sqrt(2 mu
 
 from collections.abc import Callable
 import functools
+import itertools
 from typing import Any
 
 import numpy as np
@@ -105,7 +106,7 @@ def clamps(actions) -> bool:
 
 def hangs_together(graphs) -> np.ndarray:
     """Returns whether all pucks hang together in graphs with these labels, so that pulls leave several, bool [N]."""
-    return strings.is_joined(graphs).sum(axis=1) >= strings.NUM_PUCKS - 1
+    return strings.graphs()[graphs].sum(axis=1) >= strings.NUM_PUCKS - 1
 
 
 def _with_clamps(frame):
@@ -114,10 +115,10 @@ def _with_clamps(frame):
 
 
 def _draw_clamps(axes, frame) -> None:
-    shares = frame.groupby("answer").clamps.mean().reindex(range(strings.NUM_GRAPHS), fill_value=0.0)
+    shares = frame.groupby("answer").clamps.mean().reindex(range(len(strings.graphs())), fill_value=0.0)
     colors = [plots.COLORS[2] if both else plots.GREY for both in hangs_together(shares.index.to_numpy())]
-    bands = strings.is_joined(shares.index.to_numpy())
-    names = ["\n".join(f"{i}-{j}" for pair, (i, j) in zip(row, strings.PAIRS, strict=True) if pair) for row in bands]
+    named = [itertools.compress(strings.pairs(), joined) for joined in strings.graphs()]
+    names = ["\n".join(f"{i}-{j}" for i, j in pairs) for pairs in named]
     axes.bar(range(len(names)), shares, color=colors)
     axes.set_xticks(range(len(names)), [name or "none" for name in names], fontsize=6)
     axes.set(xlabel="bands (grey: pulls are enough)", ylabel="share with a clamp", ylim=(0, 1.05))

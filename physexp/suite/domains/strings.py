@@ -1,4 +1,4 @@
-"""Strings: three pucks under a cover, some of them joined by rubber bands, and the question which."""
+"""Strings: pucks under a cover, some of them joined by rubber bands, and the question which."""
 
 from collections.abc import Sequence
 import dataclasses
@@ -20,23 +20,22 @@ PHYSICS_TIMESTEP = 0.01  # s
 # up, so that a pull moves all pucks that are joined to the pulled one, directly or through others. All that can be read
 # is whether a puck is away from home: how far, and when, would tell all bands after two pulls. Only a clamp, which
 # holds a puck still and so cuts the ways through it, tells apart what is joined in a row from what is joined in a ring.
-NUM_PUCKS = 3
-PAIRS = tuple(itertools.combinations(range(NUM_PUCKS), 2))
-"""The pairs of pucks that a band may join; label bits and hidden properties are in this order."""
-NUM_GRAPHS = 2 ** len(PAIRS)
-SLACKS = (0.004, 0.010)  # m, the least and the greatest slack of a band
+NUM_PUCKS = 3  # By default.
 
 MASS = 0.0142  # kg: a puck is home again, to a reader, 0.1 s after it was pulled
-_SPRING = 60.0  # N/m, and of a band
+_SPRING = 60.0  # N/m
 _DAMPING = 2 * np.sqrt(_SPRING * MASS)  # N s/m: critical
-_PULL = 8.0  # N: takes a puck 0.09 to 0.13 m from home, and the last one of three in a row 0.012 m or more
+# By the number of pucks: they let a pull take the last one of all pucks in a row away from home, and no other.
+SLACKS = {3: (0.004, 0.010), 4: (0.003, 0.006)}  # m, the least and the greatest slack of a band
+_BAND = {3: 60.0, 4: 120.0}  # N/m
+_PULL = {3: 8.0, 4: 14.0}  # N
 _AWAY = 0.005  # m, the distance from home that is read
 # A clamp is a brake: it is as if the puck stood in honey that lets it creep by a nanometre in an episode.
 _BRAKE = 1e9  # N s/m
 
 _SHORTEST_STEP = 0.1  # s: pucks come home within it
 
-_SPACING = 0.2  # m, between pucks
+_WIDTH = 0.4  # m, between the first and the last puck
 _ROOM = dict(mat_size=[0.36, 0.42], camera_pos=[0, -2.6, 1.6], camera_target=[0, 0.06, 0], fovy=16.5)
 _COVER_HALF_SIZE = (0.3, 0.17, 0.05)  # m
 _CLAMP_RGBA = (0.15, 0.15, 0.18, 1.0)
@@ -58,21 +57,29 @@ class Options(options_lib.Options):
         checks.at_least(1, "the odds that two are not joined"),
         help="odds that two pucks are not joined, >= 1; the larger, the easier",
     )
+    num_pucks: int = checked(NUM_PUCKS, checks.whole(3, 4), help="3 or 4: the number of pucks; the larger, the harder")
+    num_clamps: int = checked(1, checks.whole(1, 2), help="1 or 2: the number of pucks that may be clamped at once")
 
     def __post_init__(self) -> None:
         super().__post_init__()
         self.check_step(_SHORTEST_STEP, "pucks come home")
 
 
-def prior(difficulty: float) -> np.ndarray:
-    """Returns the probabilities of the labels, float64 [NUM_GRAPHS]."""
+def pairs(num_pucks: int = NUM_PUCKS) -> list[tuple[int, int]]:
+    """Returns the pairs of pucks that a band may join; label bits and hidden properties are in this order."""
+    return list(itertools.combinations(range(num_pucks), 2))
+
+
+def graphs(num_pucks: int = NUM_PUCKS) -> np.ndarray:
+    """Returns which pairs are joined in the graph of each label, bool [number of graphs, number of pairs]."""
+    number = len(pairs(num_pucks))
+    return np.arange(2**number)[:, None] >> np.arange(number) & 1 == 1
+
+
+def prior(difficulty: float, num_pucks: int = NUM_PUCKS) -> np.ndarray:
+    """Returns the probabilities of the labels, float64 [number of graphs]."""
     chances = np.array([difficulty, 1.0]) / (1 + difficulty)
-    return chances[is_joined(np.arange(NUM_GRAPHS)).astype(int)].prod(axis=1)
-
-
-def is_joined(graphs: np.ndarray) -> np.ndarray:
-    """Returns which pairs are joined in graphs, bool [N, number of pairs] from the numbers of their labels, int [N]."""
-    return np.asarray(graphs)[:, None] >> np.arange(len(PAIRS)) & 1 == 1
+    return chances[graphs(num_pucks).astype(int)].prod(axis=1)
 
 
 def _is_away(positions: np.ndarray) -> np.ndarray:
@@ -81,7 +88,7 @@ def _is_away(positions: np.ndarray) -> np.ndarray:
 
 
 class Strings(contract.Task):
-    """Three covered pucks, some of them joined by bands, a clamp, and flags that tell which of them are away."""
+    """Covered pucks, some of them joined by bands, clamps, and flags that tell which of the pucks are away."""
 
     options: Options
     question = "Which pucks are joined by bands?"
@@ -91,8 +98,12 @@ class Strings(contract.Task):
         root = room.mjcf_model
         root.option.integrator = "implicitfast"  # With the brake, the others diverge.
         room.add_cover(_COVER_HALF_SIZE)
-        rails = [_add_puck(room, k) for k in range(NUM_PUCKS)]
-        self._bands = tuple(_add_band(root, rails, pair).full_identifier for pair in PAIRS)
+        num_pucks = self.options.num_pucks
+        places = np.linspace(-_WIDTH / 2, _WIDTH / 2, num_pucks)  # Of the rails, along x, m.
+        rails = [_add_puck(room, k, x) for k, x in enumerate(places)]
+        self._pairs = pairs(num_pucks)
+        _, self.largest_hidden = SLACKS[num_pucks]
+        self._bands = tuple(_add_band(root, rails, pair).full_identifier for pair in self._pairs)
         positions = [root.sensor.add("jointpos", name=f"position_{k}", joint=rail) for k, rail in enumerate(rails)]
         # In the order of `drive`. The force that presses a clamp on a puck does not push it along its rail.
         pulls = [room.add_actuator(f"handle_{k}", rail) for k, rail in enumerate(rails)]
@@ -100,85 +111,85 @@ class Strings(contract.Task):
         for k, rail in enumerate(rails):
             room.add_actuator(f"brake_{k}", rail, "damper", kv=_BRAKE, ctrlrange=[0, 1])
         indicators = [
-            things.stand_flag(room, f"{kind}_{k}", rgba or things.COLORS[k], (_x(k), y), reading, travel, k)
+            things.stand_flag(room, f"{kind}_{k}", rgba or things.COLORS[k], (x, y), reading, travel, k)
             for kind, rgba, y, reading, travel in (
                 ("handle", None, _HANDLE_Y, "pulled", _HANDLE_TRAVEL),
                 ("clamp", _CLAMP_RGBA, _CLAMP_Y, "clamped", _CLAMP_TRAVEL),
                 ("flag", None, _FLAG_Y, "away", _FLAG_TRAVEL),
             )
-            for k in range(NUM_PUCKS)
+            for k, x in enumerate(places)
         ]
         readings = {
-            name: measures.coarse(sensors, f"1 for {meaning}, 0 for the others", measure, size=NUM_PUCKS)
+            name: measures.coarse(sensors, f"1 for {meaning}, 0 for the others", measure, size=num_pucks)
             for name, sensors, measure, meaning in (
                 ("pulled", pulls, measures.is_on, "the puck that the last action pulled"),
-                ("clamped", presses, measures.is_on, "the puck that is clamped"),
+                ("clamped", presses, measures.is_on, "each puck that is clamped"),
                 ("away", positions, _is_away, "each puck that is away from home"),
             )
         }
-        controls = np.eye(3 * NUM_PUCKS)
+        controls = np.eye(3 * num_pucks)
+        pull = _PULL[num_pucks]
         return contract.Scene(
             arena=room,
             interactions=[
                 declarations.Interaction(f"{verb} puck {k}", control * controls[start + k], f"puck_{k}", vector)
                 for verb, start, control, vector in (
-                    ("pull", 0, _PULL, (0.0, -_PULL, 0.0)),
-                    ("clamp or free", NUM_PUCKS, 1.0, (0.0, 0.0, -1.0)),
+                    ("pull", 0, pull, (0.0, -pull, 0.0)),
+                    ("clamp or free", num_pucks, 1.0, (0.0, 0.0, -1.0)),
                 )
-                for k in range(NUM_PUCKS)
+                for k in range(num_pucks)
             ],
-            label_names=[_name(graph) for graph in range(NUM_GRAPHS)],
+            label_names=[self._name(joined) for joined in graphs(num_pucks)],
             readings=readings,
             indicators=indicators,
         )
-
-    largest_hidden = SLACKS[1]
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
         """Returns the slacks of the bands of some episodes, m, 0 for no band, float64 [N, number of pairs].
 
         The pairs that are joined follow the prior; slacks are uniform within `SLACKS`.
         """
-        draws = seeding.uniforms(seeds, episodes, 2 * len(PAIRS))
+        draws = seeding.uniforms(seeds, episodes, 2 * len(self._pairs))
         joined, slack = np.split(draws, 2, axis=1)
-        least, greatest = SLACKS
+        least, greatest = SLACKS[self.options.num_pucks]
         return np.where(joined * (1 + self.options.difficulty) < 1, least + (greatest - least) * slack, 0.0)
 
     def answers(self, hidden: np.ndarray) -> np.ndarray:
-        return (hidden > 0) @ 2 ** np.arange(len(PAIRS))
+        return (hidden > 0) @ 2 ** np.arange(len(self._pairs))
 
     def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
         bands = np.array([apparatus.model.tendon(band).id for band in self._bands])
         return {
-            "tendon_stiffness": (bands, np.where(hidden > 0, _SPRING, 0.0)),
+            "tendon_stiffness": (bands, np.where(hidden > 0, _BAND[self.options.num_pucks], 0.0)),
             "tendon_lengthspring": (bands, np.stack([-hidden, hidden], axis=-1)),  # A band pulls once it is longer.
         }
 
     def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
-        """Returns the pulls, N, where the clamp is pressed, and where it holds, float64 [N, 3 * NUM_PUCKS].
+        """Returns the pulls, N, where clamps are pressed, and where they hold, float64 [N, 3 * pucks].
 
-        The clamp takes hold with the step after the one that puts it on, in which the puck comes home.
+        A clamp takes hold with the step after the one that puts it on, in which the puck comes home.
         """
-        pulls, wanted, _ = np.split(self.controls[actions], 3, axis=1)
+        pulls, moved, _ = np.split(self.controls[actions], 3, axis=1)
         _, before, _ = np.split(ctrl, 3, axis=1)
-        pressed = np.where(wanted.any(axis=1, keepdims=True), wanted * (1 - before), before)
+        pressed = np.abs(before - moved)
+        is_too_many = pressed.sum(axis=1, keepdims=True) > self.options.num_clamps
+        pressed = np.where(is_too_many, moved if self.options.num_clamps == 1 else before, pressed)
         return np.concatenate([pulls, pressed, pressed * before], axis=1)
 
     def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
-        tied = [(f"puck_{i}", f"puck_{j}") for (i, j), slack in zip(PAIRS, hidden, strict=True) if slack > 0]
+        tied = [(f"puck_{i}", f"puck_{j}") for (i, j), slack in zip(self._pairs, hidden, strict=True) if slack > 0]
         return declarations.Revealed(marks={} if tied else {"puck_1": "no bands"}, tied=tied)
 
+    def _name(self, joined: np.ndarray) -> str:
+        """Returns a graph in words."""
+        return ", ".join(f"{i}-{j}" for i, j in itertools.compress(self._pairs, joined)) or "none"
 
-def _x(puck: int) -> float:
-    """Returns the position of a puck's rail along x, m."""
-    return (puck - (NUM_PUCKS - 1) / 2) * _SPACING
 
-
-def _add_puck(room: arena.Laboratory, number: int) -> mjcf.Element:
+def _add_puck(room: arena.Laboratory, number: int, x: float) -> mjcf.Element:
     """Adds a puck and returns its rail."""
     added = things.puck(things.COLORS[number], MASS, name=f"puck_{number}")
     added.geom.group = rendering.UNDRAWN_GROUP
-    place = [_x(number), 0, things.PUCK_HALF_HEIGHT]
+    place = [x, 0, things.PUCK_HALF_HEIGHT]
     return room.put_on_rail(added, place, [0, -1, 0], stiffness=_SPRING, damping=_DAMPING)
 
 
@@ -189,12 +200,6 @@ def _add_band(root: mjcf.RootElement, rails: Sequence[mjcf.Element], pair: tuple
     band.add("joint", joint=rails[i], coef=1)
     band.add("joint", joint=rails[j], coef=-1)
     return band
-
-
-def _name(graph: int) -> str:
-    """Returns a graph in words."""
-    joined = [f"{i}-{j}" for (i, j), is_band in zip(PAIRS, is_joined(np.array([graph]))[0], strict=True) if is_band]
-    return ", ".join(joined) or "none"
 
 
 SUITE = contract.features_and_pixels(Strings)
