@@ -21,7 +21,7 @@ def train(task: str, frames: int = 300_000, minutes: float = 15, seed: int = 0) 
     """Trains on a task for a number of frames or minutes; an interrupted training keeps its network."""
     torch.set_num_threads(1)  # The networks are small.
     (asked,) = protocol.named([task])
-    batch = stable_baselines.VecEnv(asked.domain, asked.task, NUM_ENVIRONMENTS, random=seed)
+    batch = stable_baselines.VecEnv(asked.domain, asked.task, NUM_ENVIRONMENTS, random=seed, **asked.options)
     environments = vec_env.VecMonitor(batch)  # Tells the learner what episodes earn.
     # The discount says what a step costs, and belongs to the question; everything else is the library's.
     learner = sb3_contrib.RecurrentPPO("MultiInputLstmPolicy", environments, gamma=asked.discount, seed=seed)
@@ -83,7 +83,7 @@ def make(asked: protocol.Question):
 
 def path_of(asked):
     """Returns the file of what was trained on a task."""
-    return FOLDER / f"{asked.domain}-{asked.task}.zip"
+    return FOLDER / f"{asked.file_name}.zip"
 
 
 if __name__ == "__main__":

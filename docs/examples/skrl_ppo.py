@@ -26,7 +26,7 @@ def train(task: str, frames: int = 300_000, minutes: float = 15, seed: int = 0) 
     torch.set_num_threads(1)  # The networks are small.
     torch.manual_seed(seed)
     (asked,) = protocol.named([task])
-    batch = suite.load_batch(asked.domain, asked.task, NUM_ENVIRONMENTS, {"random": seed})
+    batch = suite.load_batch(asked.domain, asked.task, NUM_ENVIRONMENTS, {**asked.options, "random": seed})
     learner = make_learner(asked)
     curve, start = [], time.process_time()  # What else the machine does takes none of it.
     for seen, mean in learn(learner, batch, frames, asked.discount):
@@ -169,7 +169,7 @@ def make(asked: protocol.Question):
 
 def path_of(asked):
     """Returns the file of what was trained on a task."""
-    return FOLDER / f"{asked.domain}-{asked.task}.pt"
+    return FOLDER / f"{asked.file_name}.pt"
 
 
 if __name__ == "__main__":

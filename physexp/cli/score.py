@@ -23,7 +23,10 @@ class Playing:
         "for an agent of your own (docs/score.md); or random, at_once, silent, ideal",
     )
     tasks: tuple[str, ...] = option(
-        (), "the tasks; by default all tasks of --observations that the target can play", "DOMAIN/TASK"
+        (),
+        "the tasks, each also with options, as DOMAIN/TASK,OPTION=VALUE,OPTION=VALUE; by default all tasks of "
+        "--observations that the target can play",
+        "DOMAIN/TASK",
     )
     observations: Literal["features", "pixels", "all"] = option("features", "the kind of tasks without --tasks")
     greedy: bool = option(False, "a trained agent takes its likeliest actions instead of drawing them")

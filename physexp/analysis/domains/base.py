@@ -83,8 +83,9 @@ class Domain:
       targets: by the names of the agents that come with the package, the least value of a statistic of their
         evaluation: the statistic's name, and the value.
       ideal: finds the ideal experimenter; None if none is known.
-      is_in_protocol: whether the score's protocol has the domain. Scores over all domains stay comparable with those of
-        earlier days only if no domain joins them.
+      protocol_options: the options that the score's protocol sets for the domain's tasks; None if the protocol does not
+        have the domain. Scores stay comparable with those of earlier days only if the protocol's tasks stay the same,
+        and scores over all domains only if no domain joins them.
       baselines: by task and name, functions that make the actors of hand-written baselines.
       hidden_columns: returns columns for tables of episodes, by name, [N, ...], from hidden properties, [N, ...].
     """
@@ -94,7 +95,7 @@ class Domain:
     labels: Mapping[str, str] = dataclasses.field(default_factory=dict)
     targets: Mapping[str, tuple[str, float]] = dataclasses.field(default_factory=dict)
     ideal: Ideal | None = None
-    is_in_protocol: bool = True
+    protocol_options: Mapping[str, Any] | None = dataclasses.field(default_factory=dict)
     baselines: "Mapping[str, Mapping[str, Callable[[], core.Actor]]]" = dataclasses.field(default_factory=dict)
     hidden_columns: "Callable[[np.ndarray], Mapping[str, np.ndarray]]" = lambda hidden: {}
 

@@ -15,6 +15,6 @@ DOMAIN = base.resting_domain(
     _apparatus,
     read=lambda observation: int(observation["crushed"].sum()),
     presets=base.PRESETS_OF_BITS,
-    is_in_protocol=False,
+    protocol_options=None,
     hidden_columns=lambda hidden: {"can_strength": hidden},  # N
 )

@@ -15,6 +15,6 @@ DOMAIN = base.search_domain(
     "lump",
     _hypotheses,
     presets=base.PRESETS_OF_BITS,
-    is_in_protocol=False,
+    protocol_options=None,
     hidden_columns=lambda hidden: {"lump": hidden},  # An index in `lump.ALL_LUMPS`.
 )

@@ -1,6 +1,7 @@
 """A data set of Minari (https://minari.farama.org): an episode is a group of arrays in an HDF5 file."""
 
 from collections.abc import Sequence
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -22,15 +23,15 @@ from physexp.suite import gymnasium as environments  # noqa: E402
 
 def create(folder: Path, question: protocol.Question, target: str) -> MinariStorage:
     """Makes an empty data set of a task in the folder of all data sets; `target` names the player, one word."""
-    name = f"{question.domain}-{question.task}"
-    identity = f"physexp/{name}/{target}-v0"
+    spec = gymnasium.spec(environments.environment_id(question.domain, question.task))
+    identity = f"physexp/{question.file_name}/{target}-v0"
     path = folder.resolve() / identity / "data"  # Minari finds no sizes below a relative path.
     path.mkdir(parents=True)
     storage = MinariStorage.new(
         path,
         observation_space=environments.observation_space(question.observation_spec),
         action_space=gymnasium.spaces.Discrete(question.num_actions),
-        env_spec=gymnasium.spec(environments.environment_id(question.domain, question.task)),
+        env_spec=dataclasses.replace(spec, kwargs={**spec.kwargs, **question.options}),
         jpeg_encoding=False,  # It would change images.
     )
     storage.update_metadata(
@@ -38,7 +39,7 @@ def create(folder: Path, question: protocol.Question, target: str) -> MinariStor
             "dataset_id": identity,
             "minari_version": minari.__version__,
             "algorithm_name": target,
-            "description": f"{question.question} Episodes of {name}, played by {target}.",
+            "description": f"{question.question} Episodes of {question.name}, played by {target}.",
             "requirements": ["physexp[minari]"],
         }
     )

@@ -73,9 +73,9 @@ class _Writer:
 
     def __init__(self, folder: Path, question: protocol.Question, minari_name: str | None):
         self.question = question
-        self._folder = folder / f"{question.domain}-{question.task}" / TABLE
+        self._folder = folder / question.file_name / TABLE
         self._schema = steps.schema(question)
-        self._judge = judging.Judge(question) if protocol.is_judged(question.domain) else None
+        self._judge = judging.Judge(question) if protocol.is_judged(question) else None
         self._minari_folder, self._minari_name = folder / MINARI, minari_name
         self._data_set: Any = None
         self._pending: list[episodes.Episode] = []
@@ -117,7 +117,7 @@ class _Writer:
             return {}
         question, count = self.question, len(self._played)
         lengths, are_right, returns = zip(*self._played, strict=True)
-        names = ("question", "discount", "step_limit", "num_interactions", "action_names", "label_names")
+        names = ("options", "question", "discount", "step_limit", "num_interactions", "action_names", "label_names")
         return {
             "episodes": count,
             "steps": sum(lengths),

@@ -64,7 +64,7 @@ def digest(observation: Mapping[str, np.ndarray]) -> int:
 def taken(question: protocol.Question, episode: episodes.Episode) -> dict[str, Any]:
     """Returns the columns `TAKEN` of an episode, T rows."""
     count = len(episode.actions)
-    keys = {"domain": question.domain, "task": question.task, "seed": episode.seed, "episode": episode.index}
+    keys = {**_task(question), "seed": episode.seed, "episode": episode.index}
     return {
         **{name: np.full(count, value) for name, value in keys.items()},
         "step": np.arange(count),
@@ -90,6 +90,12 @@ def judged(question: protocol.Question, actions: np.ndarray, found: mistakes.Act
     costliest[table.max(axis=0) <= _NO_REGRET] = None
     fields = dict(zip(ACTIONS, vars(found).values(), strict=True))
     return {**fields, "regret": found.value - found.worth, "mistake": costliest}
+
+
+def _task(question: protocol.Question) -> dict[str, str]:
+    """Returns the columns `domain` and `task`, the latter with its options: the parts of the question's name."""
+    domain, _, task = question.name.partition("/")
+    return {"domain": domain, "task": task}
 
 
 def table(schema: pyarrow.Schema, parts: Sequence[Mapping[str, np.ndarray]]) -> pyarrow.Table:
@@ -118,8 +124,8 @@ def read(folder: Path) -> pyarrow.Table:
 
 def of_task(found: pyarrow.Table, question: protocol.Question) -> dict[str, np.ndarray]:
     """Returns the columns of one task's rows, in their order."""
-    is_its = compute.and_(compute.equal(found["domain"], question.domain), compute.equal(found["task"], question.task))
-    return as_columns(found.filter(is_its))
+    domain, task = (compute.equal(found[column], value) for column, value in _task(question).items())
+    return as_columns(found.filter(compute.and_(domain, task)))
 
 
 def as_columns(found: pyarrow.Table) -> dict[str, np.ndarray]:

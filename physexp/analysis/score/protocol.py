@@ -3,15 +3,20 @@
 All targets play the same instances: episode e of a task is the one with index e in the environment of one seed.
 """
 
+import ast
 from collections.abc import Mapping, Sequence
 import dataclasses
 import functools
+import re
+from typing import Any
 
 from dm_env import specs
 import numpy as np
 
 from physexp import suite
+from physexp.agents import config as agent_config
 from physexp.analysis import domains
+from physexp.analysis.domains import base as domains_base
 from physexp.analysis.ideal import base as ideal_base
 
 VERSION = "v1"
@@ -26,7 +31,9 @@ class Question:
     """The description of a task that an agent gets before it plays.
 
     Attributes:
+      name: domain, task and the options that differ from the protocol's, as in `strings/features,difficulty=2`.
       domain, task: as for `suite.load`.
+      options: its `task_kwargs` without the seed: those that differ from the domain's defaults.
       question: the question in words.
       observation_spec: specs of the observations, by name.
       observation_meanings: descriptions of the observations, by name.
@@ -38,8 +45,10 @@ class Question:
       discount: gamma; an episode counts gamma to the power of (number of actions - 1), times its reward.
     """
 
+    name: str
     domain: str
     task: str
+    options: Mapping[str, Any]
     question: str
     observation_spec: Mapping[str, specs.Array]
     observation_meanings: Mapping[str, str]
@@ -51,9 +60,9 @@ class Question:
     discount: float
 
     @property
-    def name(self) -> str:
-        """Domain and task, as in `towers/fist_features`."""
-        return f"{self.domain}/{self.task}"
+    def file_name(self) -> str:
+        """The name in letters that files and data sets may have, as in `strings-features-difficulty-2`."""
+        return re.sub(r"\W", "-", self.name)
 
     @property
     def num_actions(self) -> int:
@@ -61,13 +70,29 @@ class Question:
         return self.action_spec.num_values
 
 
+def question(domain: str, task: str, options: Mapping[str, Any] | None = None) -> Question:
+    """Returns the question of a task with some options, its `task_kwargs`; the same object for the same question.
+
+    Raises ValueError for an unknown name or value, and lists those that are allowed.
+    """
+    return _question(domain, task, tuple((options or {}).items()))
+
+
 @functools.cache
-def question(domain: str, task: str) -> Question:
-    """Returns the question of a task; raises ValueError for an unknown name and lists the known ones."""
-    played = suite.load_task(domain, task)
+def _question(domain: str, task: str, given: tuple[tuple[str, Any], ...]) -> Question:
+    for name, value in given:
+        if name == "random":
+            raise ValueError(f"{name} is {value}; leave it out: all targets play the same instances")
+    played, kind = suite.load_task(domain, task, {**dict(given), "random": 0}), suite.options(domain)
+    options = _differences(played.options, kind(random=0))
+    if (canonical := tuple(options.items())) != given:
+        return _question(domain, task, canonical)
+    shown = _differences(played.options, kind(random=0, **_of_protocol(domain)))
     return Question(
+        name=f"{domain}/{task}" + "".join(f",{name}={agent_config.shown(value)}" for name, value in shown.items()),
         domain=domain,
         task=task,
+        options=options,
         question=played.question,
         observation_spec=played.observation_spec(),
         observation_meanings=played.observation_meanings,
@@ -80,45 +105,80 @@ def question(domain: str, task: str) -> Question:
     )
 
 
+def _differences(chosen: suite.Options, usual: suite.Options) -> dict[str, Any]:
+    """Returns the options that differ, in the order of their declaration."""
+    names = [field.name for field in dataclasses.fields(chosen)]
+    return {name: value for name in names if (value := getattr(chosen, name)) != getattr(usual, name)}
+
+
+def _of_protocol(domain: str) -> Mapping[str, Any]:
+    """Returns the options that the protocol sets for the tasks of a domain."""
+    return domains.find(domain).protocol_options or {}
+
+
 def ideal(question: Question) -> ideal_base.Solution:
     """Returns the ideal experimenter of a task; raises ValueError if none is known."""
-    known = domains.find(question.domain)
-    if known.ideal is None:
+    known = _ideal(question)
+    if known is None:
         raise ValueError(
-            f"{question.name} has no score: no ideal experimenter is known; "
-            f"choose from {', '.join(one.name for one in observing('all'))}"
+            f"{question.name} has no score: no ideal experimenter is known that is exact there; choose from "
+            f"{', '.join(one.name for one in observing('all'))}, without noise, variation and step_variation"
         )
-    return known.ideal(question.task, {}, question.discount)
+    return known(question.task, question.options, question.discount)
 
 
 def load(question: Question, seed: int = SEED) -> suite.Environment:
     """Returns the environment of a task, the first one of a batch with this seed."""
-    return suite.load(question.domain, question.task, {"random": suite.environment_seed(seed, 0)})
+    seeded = {**question.options, "random": suite.environment_seed(seed, 0)}
+    return suite.load(question.domain, question.task, seeded)
 
 
 def drawn(question: Question, num_episodes: int) -> np.ndarray:
     """Returns the hidden properties of the first episodes, [N, ...]."""
     seeds = np.full(num_episodes, ENVIRONMENT_SEED)
-    return suite.load_task(question.domain, question.task).draw(seeds, np.arange(num_episodes))
+    return suite.load_task(question.domain, question.task, question.options).draw(seeds, np.arange(num_episodes))
 
 
 def named(names: Sequence[str]) -> tuple[Question, ...]:
-    """Returns the questions of tasks, `domain/task`, each once; raises ValueError for an unknown name."""
-    known = {f"{domain}/{task}": (domain, task) for domain, task in suite.ALL_TASKS}
-    unknown = [name for name in names if name not in known]
-    if unknown:
-        raise ValueError(f"task is {unknown[0]!r}; choose from {', '.join(known)}")
-    return tuple(question(*known[name]) for name in dict.fromkeys(names))
+    """Returns the questions of some names, `domain/task` or `domain/task,option=value,...`, each once.
+
+    Raises ValueError for an unknown name or value.
+    """
+    known, found = {"/".join(names): names for names in suite.ALL_TASKS}, []
+    for name in names:
+        given, *options = name.split(",")
+        if given not in known:
+            raise ValueError(f"task is {given!r}; choose from {', '.join(known)}")
+        domain, task = known[given]
+        found.append(question(domain, task, {**_of_protocol(domain), **dict(map(_option, options))}))
+    return tuple(dict.fromkeys(found))
+
+
+def _option(text: str) -> tuple[str, Any]:
+    """Returns the name and the value of an option, `name=value`; its domain checks both."""
+    name, equals, value = text.partition("=")
+    if not equals:
+        raise ValueError(f"{text!r} is no option of a task; give NAME=VALUE")
+    try:
+        return name, ast.literal_eval(value)
+    except (ValueError, SyntaxError):  # A word.
+        return name, value
 
 
 def observing(kind: str) -> tuple[Question, ...]:
     """Returns the questions of the protocol's tasks that observe `features`, `pixels`, or, for `all`, either."""
     names = suite.ALL_TASKS if kind == "all" else suite.tagged(kind)
     return tuple(
-        question(domain, task) for domain, task in names if is_judged(domain) and domains.find(domain).is_in_protocol
+        question(domain, task, _of_protocol(domain))
+        for domain, task in names
+        if (known := domains.find(domain)).ideal is not None and known.protocol_options is not None
     )
 
 
-def is_judged(domain: str) -> bool:
-    """Returns whether an ideal experimenter evaluates actions in the tasks of a domain."""
-    return domains.find(domain).ideal is not None
+def is_judged(question: Question) -> bool:
+    """Returns whether an ideal experimenter evaluates actions in a task."""
+    return _ideal(question) is not None
+
+
+def _ideal(question: Question) -> domains_base.Ideal | None:
+    return domains.find(question.domain).ideal_with(question.options)

@@ -77,9 +77,10 @@ def draw(found: Mapping[str, Any]):
 
 def words(name: str) -> str:
     """Returns the name of a domain or a task in words: `towers, fist` for `towers/fist_features`."""
-    domain, _, task = name.partition("/")
-    task = task.removesuffix("features").strip("_")
-    return ", ".join(part.replace("_", " ") for part in (domain, task) if part)
+    domain, _, setting = name.partition("/")
+    task, *options = setting.split(",")
+    parts = (domain, task.removesuffix("features").strip("_"), *options)
+    return ", ".join(part.replace("_", " ").replace("=", " ") for part in parts if part)
 
 
 def draw_domains(axes, found: Mapping[str, Any]) -> None:

@@ -15,7 +15,7 @@ def schema(question: protocol.Question) -> pyarrow.Schema:
     hidden, num_labels = protocol.drawn(question, 1)[0], len(question.label_names)
     seen = {name: _type(spec.dtype, spec.shape) for name, spec in question.observation_spec.items()}
     counts = {"belief": num_labels, "next_belief": num_labels, "values": question.num_actions}
-    judged = counts if protocol.is_judged(question.domain) else {}
+    judged = counts if protocol.is_judged(question) else {}
     return pyarrow.schema(
         [
             *_KEYS,

@@ -1,5 +1,6 @@
 """Exported trajectories are whole, and equal to the play, in tables and in data sets of Minari alike."""
 
+import contextlib
 from pathlib import Path
 import sys
 
@@ -25,7 +26,7 @@ def export(target, questions=THRESHOLD, count=4, folder="exported", **options):
 
 
 def table_of(asked, folder="exported"):
-    return parquet.read_table(Path(folder) / f"{asked.domain}-{asked.task}" / exporting.TABLE)
+    return parquet.read_table(Path(folder) / asked.file_name / exporting.TABLE)
 
 
 def columns_of(asked, folder="exported"):
@@ -76,7 +77,7 @@ def test_a_data_set_of_minari_equals_the_table(monkeypatch):
     written = export("random", ALL, count=3, as_minari=True)
     assert all(task["judged"] for task in written["tasks"].values())
     monkeypatch.setenv("MINARI_DATASETS_PATH", str(Path("exported/minari").resolve()))
-    names = [f"physexp/{asked.domain}-{asked.task}/random-v0" for asked in ALL]
+    names = [f"physexp/{asked.file_name}/random-v0" for asked in ALL]
     assert sorted(minari.list_local_datasets()) == sorted(names)
     for asked, name in zip(ALL, names, strict=True):
         data_set, table = minari.load_dataset(name), columns_of(asked)
@@ -151,12 +152,15 @@ def test_exported_instances_are_never_those_of_the_score():
     assert not Path("third").exists()
 
 
-def test_without_an_ideal_the_table_has_no_beliefs(monkeypatch):
-    monkeypatch.setattr(protocol, "is_judged", lambda domain: False)
-    assert not export("halving:policy", as_minari=True)["tasks"]["threshold/features"]["judged"]
-    names = table_of(*THRESHOLD).column_names
+def test_without_an_ideal_the_table_has_no_beliefs():
+    (noisy,) = protocol.named(["which_is_heavier/features,noise=0.001"])
+    assert not export("random", [noisy], as_minari=True)["tasks"][noisy.name]["judged"]
+    names = table_of(noisy).column_names
     assert names[-2:] == ["hidden", "answer"] and "belief" not in names
-    assert len(minari.MinariDataset("exported/minari/physexp/threshold-features/halving_policy-v0/data")) == 4
+    data_set = minari.MinariDataset(f"exported/minari/physexp/{noisy.file_name}/random-v0/data")
+    assert len(data_set) == 4
+    with contextlib.closing(data_set.recover_environment()) as environment:
+        assert environment.unwrapped.dm_env.task.options.noise == 0.001
 
 
 def test_an_export_writes_the_files_of_a_failed_one_anew(monkeypatch):
