@@ -55,7 +55,7 @@ def export(
     writers = {question: _Writer(folder, question, minari_name) for question in questions}
     names = [question.name for question in questions]
     facts = {"target": target.name, "greedy": target.greedy, "seed": seed, "episodes": num_episodes}
-    facts["agent"] = target.describe(names)
+    facts["agent"] = target.describe(questions)
     defining = {**facts, "tasks": names, "versions": provenance.versions()}
     with playing.session(folder, target, timeout, defining) as session:
         shutil.rmtree(folder / MINARI, ignore_errors=True)  # Of an interrupted session.

@@ -65,7 +65,7 @@ def score(
     names = [question.name for question in questions]
     extent = {"seed": protocol.SEED, "episodes": num_episodes, "tasks": names}
     facts = {"version": protocol.VERSION, "target": target.name, "greedy": target.greedy, "protocol": extent}
-    agent = target.describe(names)
+    agent = target.describe(questions)
     defining = {**facts, "agent": agent, "versions": provenance.versions()}
     rows, moves = defaultdict(list), defaultdict(list)
     with playing.session(folder, target, timeout, defining) as session:

@@ -7,7 +7,6 @@ from pathlib import Path
 import re
 from typing import TYPE_CHECKING, Any
 
-from physexp.agents import config as agent_config
 from physexp.agents import core
 from physexp.analysis import domains
 from physexp.analysis.score import actors, protocol
@@ -29,46 +28,52 @@ class Target:
     Attributes:
       name: the text that it was found by.
       greedy: whether trained agents take their likeliest actions instead of drawing them.
-      questions: the tasks that it can play; None for all, as far as is known before an actor is made.
+      questions: its own tasks; None for all, as far as is known before an actor is made.
       make: makes its actors; None for a user's function, which has a process of its own.
-      agents: trained agents, by the name of the task that each plays.
+      agents: trained agents, by the task that each was trained on.
     """
 
     name: str
     greedy: bool
     questions: tuple[protocol.Question, ...] | None
     make: actors.Make | None
-    agents: "Mapping[str, finding.Agent]" = dataclasses.field(default_factory=dict)
+    agents: "Mapping[protocol.Question, finding.Agent]" = dataclasses.field(default_factory=dict)
 
     def choose(self, tasks: Sequence[str], observations: str) -> tuple[protocol.Question, ...]:
-        """Returns the tasks of some names; by default those that it can play and that have some kind of observations.
+        """Returns the tasks of some names.
+
+        By default they are those of the protocol that it can play and that have some kind of observations; of one
+        trained agent, its own.
 
         Raises:
           ValueError: if there is no such task or kind, or the target does not play it.
         """
+        own = self.questions or ()
+        if not tasks and len(self.agents) == 1:
+            return own
         found = protocol.named(tasks) if tasks else protocol.observing(observations)
-        can = found if self.questions is None else self.questions
+        can = tuple(question for question in found if self._can_play(question))
         if not tasks:
-            return tuple(question for question in can if question in found) or can
+            return can or own
         if others := [question.name for question in found if question not in can]:
-            raise ValueError(f"{self.name} does not play {others[0]}; it plays {', '.join(one.name for one in can)}")
+            raise ValueError(f"{self.name} does not play {others[0]}; it plays {', '.join(one.name for one in own)}")
         return found
 
-    def describe(self, tasks: Collection[str]) -> dict[str, Any]:
-        """Returns how the agents of some tasks, by name, were trained; nothing for other targets.
+    def _can_play(self, question: protocol.Question) -> bool:
+        return self.questions is None or question in self.questions or _trained_for(question, self.agents) is not None
+
+    def describe(self, questions: Sequence[protocol.Question]) -> dict[str, Any]:
+        """Returns how the agents of some tasks were trained; nothing for other targets.
 
         This is algorithm, seed, command, commit, frames and seconds; of a team, algorithms and sums, and `agents`.
         """
-        each: dict[str, dict[str, Any]] = {}
-        for task, agent in self.agents.items():
-            if task in tasks:
-                recorded, config = agent.provenance(), agent.config.agent
-                facts = {fact: recorded.get(fact) for fact in ("command", "commit", "frames", "seconds")}
-                each[task] = {"algorithm": config.title, "seed": config.seed, **facts}
+        own = {question.name: _trained_for(question, self.agents) for question in questions}
+        facts = {one: _facts(agent) for one, agent in self.agents.items() if one in own.values()}
         if not _is_team(self.name):
-            return next(iter(each.values()), {})
-        sums = {name: sum(one[name] for one in each.values()) for name in ("frames", "seconds")}
-        algorithms = dict.fromkeys(one["algorithm"] for one in each.values())
+            return next(iter(facts.values()), {})
+        sums = {name: sum(one[name] for one in facts.values()) for name in ("frames", "seconds")}
+        algorithms = dict.fromkeys(one["algorithm"] for one in facts.values())
+        each = {name: facts[one] for name, one in own.items() if one is not None}
         return {"algorithm": ", ".join(algorithms), **sums, "agents": each}
 
 
@@ -102,36 +107,50 @@ def _trained(name: str, greedy: bool) -> Target:
     """Returns an agent, or a team: names of agents and of teams with commas between them."""
     from physexp.agents import acting
 
-    agents: dict[str, finding.Agent] = {}
+    agents: dict[protocol.Question, finding.Agent] = {}
     for part in name.split(","):
         if _is_function(part) or part in actors.BASELINES or part in _baselines_of_domains():
             raise ValueError(f"{part} is no trained agent; a team is of trained agents, so give it alone")
         for agent in map(_agent, _shipped(part) if _is_team(part) else [part]):
-            if (task := agent.config.task_name) in agents:
-                raise ValueError(f"{name} has two agents for {task}; leave out one of them")
-            agents[task] = agent
+            config = agent.config
+            if (question := protocol.question(config.domain, config.task, config.task_kwargs)) in agents:
+                raise ValueError(f"{name} has two agents for {question.name}; leave out one of them")
+            agents[question] = agent
 
     def make(question: protocol.Question, index: int) -> core.Actor:
-        return acting.RecurrentActor(agents[question.name].network, index, greedy)
+        own = _trained_for(question, agents)
+        assert own is not None
+        return acting.RecurrentActor(agents[own].network, index, greedy)
 
-    return Target(name, greedy, protocol.named([*agents]), make, agents)
+    return Target(name, greedy, tuple(agents), make, agents)
+
+
+def _trained_for(question: protocol.Question, own: Collection[protocol.Question]) -> protocol.Question | None:
+    """Returns the task whose agent plays a task: the same, or the first with other options and equal spaces."""
+    alike = [one for one in own if _spaces(one) == _spaces(question)]
+    return question if question in alike else next(iter(alike), None)
+
+
+def _spaces(question: protocol.Question) -> tuple[Any, ...]:
+    observations = {name: (spec.shape, spec.dtype) for name, spec in question.observation_spec.items()}
+    return question.domain, question.task, observations, question.num_interactions, question.num_actions
+
+
+def _facts(agent: "finding.Agent") -> dict[str, Any]:
+    """Returns how an agent was trained."""
+    recorded, config = agent.provenance(), agent.config.agent
+    facts = {fact: recorded.get(fact) for fact in ("command", "commit", "frames", "seconds")}
+    return {"algorithm": config.title, "seed": config.seed, **facts}
 
 
 def _agent(name: str) -> "finding.Agent":
-    from physexp.analysis.training import finding, publishing
+    from physexp.analysis.training import finding
 
     try:
-        agent = finding.find_agent(name)
+        return finding.find_agent(name)
     except ValueError as error:
         others = ", ".join([*actors.BASELINES, *_baselines_of_domains(), SHIPPED, *config_lib.ALGORITHMS])
         raise ValueError(f"{error}; or give {others}, or MODULE:FUNCTION") from None
-    if not publishing.is_default(agent.config):
-        options = (f"{option} {agent_config.shown(value)}" for option, value in agent.config.task_kwargs.items())
-        raise ValueError(
-            f"{name} was trained with {', '.join(options)}, and the score plays tasks without options: train an agent "
-            f"of {agent.config.task_name} without any"
-        )
-    return agent
 
 
 def _is_team(name: str) -> bool:

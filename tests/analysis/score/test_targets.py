@@ -3,7 +3,7 @@
 import pytest
 
 from physexp.agents import pretrained
-from physexp.analysis.score import targets
+from physexp.analysis.score import protocol, targets
 
 
 def names(target):
@@ -12,7 +12,7 @@ def names(target):
 
 def described(name):
     target = targets.find(name)
-    return target.describe([asked.name for asked in target.questions])
+    return target.describe(target.questions)
 
 
 def test_an_unknown_target_is_refused_with_the_known_ones():
@@ -20,11 +20,35 @@ def test_an_unknown_target_is_refused_with_the_known_ones():
         targets.find("fly")
 
 
-def test_an_agent_of_a_task_with_options_is_refused(untrained):
-    with pytest.raises(ValueError, match="was trained with difficulty 3, and the score plays tasks without options"):
-        targets.find("which_is_heavier-features-difficulty3")
-    with pytest.raises(ValueError, match="was trained with difficulty 10, and the score plays tasks without options"):
-        targets.find(str(untrained.path))
+def test_an_agent_plays_the_task_that_it_was_trained_on_and_others_with_equal_spaces():
+    name = "which_is_heavier-features-difficulty3"
+    assert names(name) == ["which_is_heavier/features,difficulty=3"]
+    asked = targets.find(name).choose(["which_is_heavier/features,difficulty=2"], "features")
+    assert " --difficulty 3 " in targets.find(name).describe(asked)["command"] + " "
+    for other in ("which_is_heavier/features,reveal=True", "which_is_heavier/pixels"):  # One more array, and an image.
+        with pytest.raises(ValueError, match=f"does not play {other}; it plays which_is_heavier/features,difficulty=3"):
+            targets.find(name).choose([other], "features")
+
+
+def test_the_agents_of_a_team_may_be_of_one_task_with_several_options():
+    target = targets.find("which_is_heavier-features-difficulty3,which_is_heavier-features-difficulty5")
+    usual, hard, harder = asked = protocol.named(
+        [
+            "which_is_heavier/features",
+            "which_is_heavier/features,difficulty=3",
+            "which_is_heavier/features,difficulty=2",
+        ]
+    )
+    assert target.choose([], "features") == (usual,)
+    of_each = target.describe(asked)["agents"]
+    assert of_each[hard.name] == of_each[harder.name] != of_each[usual.name], "the first agent plays a new setting"
+
+
+def test_baselines_of_a_task_play_it_without_options():
+    with pytest.raises(
+        ValueError, match="lookup does not play towers/direct_features,cube_size=0.09; it plays towers/"
+    ):
+        targets.find("lookup").choose(["towers/direct_features,cube_size=0.09"], "features")
 
 
 def test_targets_play_the_tasks_that_they_can():
@@ -40,7 +64,7 @@ def test_targets_play_the_tasks_that_they_can():
 
 
 def test_each_agent_of_a_team_plays_its_own_task():
-    assert names("a3c") == ["towers/direct_features", "towers/fist_features", "which_is_heavier/features"]
+    assert names("a3c") == ["which_is_heavier/features", "towers/direct_features", "towers/fist_features"]
     team = targets.find("shipped")
     features, pixels = ([asked.name for asked in team.choose([], kind)] for kind in ("features", "pixels"))
     assert {"threshold/features", "strike/features"} < set(features) and "threshold/pixels" not in features
