@@ -17,7 +17,7 @@ import dm_env
 
 from physexp import checks, extras, suite
 from physexp.suite.engine import batch as batch_lib
-from physexp.suite.engine import contract, rendering, seeding
+from physexp.suite.engine import contract, episodes, rendering, seeding
 
 extras.require("gymnasium")
 
@@ -105,8 +105,8 @@ class Environment(gymnasium.Env[Any, Any]):
     def step(self, action: Any) -> tuple[Observation, float, bool, bool, Infos]:
         """Takes an action.
 
-        After the last one of an episode, `info` has `correct_answer`, the index of the right label; `discounted_return`
-        with the task's gamma; and `is_success`, whether the answer was right.
+        After the last one of an episode, `info` has `correct_answer`, the index of the right label, of the last
+        question; `discounted_return` with the task's gamma; and `is_success`, whether all answers were right.
 
         Raises:
           ValueError: if the action is not one of the action space's; the episode stays as it was.
@@ -120,8 +120,7 @@ class Environment(gymnasium.Env[Any, Any]):
         self._playing = not ended
         info = {}
         if ended:
-            of_one = (np.array([value]) for value in (task.steps, float(timestep.reward), task.correct_answer))
-            info = {name: values.item() for name, values in _outcomes(task, *of_one).items()}
+            info = {name: values.item() for name, values in _outcomes(task.ledger, task).items()}
         return self._shown(timestep.observation), float(timestep.reward), ended and not lost, lost, info
 
     def render(self) -> Any:
@@ -230,10 +229,10 @@ class VectorEnvironment(vector_env.VectorEnv[Any, Any, Any]):
             raise error.ResetNeeded("an episode is over; reset it with options={'reset_mask': terminated | truncated}")
         timestep = self.batch.step(actions)  # Starts the next episode where one had ended before.
         rewards, ended = timestep.reward, timestep.last()
-        lost = ended & (rewards == 0)  # Only a diverged simulation ends without a verdict.
+        # Only an interaction whose simulation diverges ends an episode without a verdict.
+        lost = ended & (rewards == 0) & (np.asarray(actions) < self.batch.num_interactions)
         self._observation, self._ended = dict(timestep.observation), ended
-        batch = self.batch
-        infos = _masked(_outcomes(batch.task, batch.steps, rewards, batch.correct_answers), ended)
+        infos = _masked(_outcomes(self.batch.ledger, self.batch.task), ended)
         if self.autoreset_mode is vector_env.AutoresetMode.SAME_STEP and ended.any():
             last, final = self._shown(), np.full(self.num_envs, None, object)
             for row in np.flatnonzero(ended):
@@ -338,12 +337,10 @@ def _frames_per_second(task: contract.Task) -> int:
     return max(1, round(1 / task.options.control_timestep))
 
 
-def _outcomes(
-    task: contract.Task, steps: np.ndarray, rewards: np.ndarray, answers: np.ndarray
-) -> dict[str, np.ndarray]:
-    """Returns the infos of N episodes that have ended, arrays [N], from their steps, last rewards and right labels."""
-    returns = rewards * task.discount ** (steps - 1.0)
-    return {"correct_answer": answers, "discounted_return": returns, "is_success": rewards > 0}
+def _outcomes(ledger: episodes.Ledger, task: contract.Task) -> dict[str, np.ndarray]:
+    """Returns the infos of N episodes that have ended, arrays [N]."""
+    are_right = ledger.num_right == task.rules.num_questions
+    return {"correct_answer": ledger.correct_answers, "discounted_return": ledger.returns, "is_success": are_right}
 
 
 def _check_autoreset_mode(given: Any) -> vector_env.AutoresetMode:

@@ -88,6 +88,7 @@ class Apparatus:
       readings: for each feature, the sensor addresses that make it up: int of the feature's shape, or [number of sensor
         values] where the feature is measured from them.
       start: how an episode starts without variation; N is 1.
+      told: the sensor addresses of the values that tell the question, int [T].
       held: the entities that must look untouched until they are.
       moving_geoms: the geoms that do not stand still in images, int [M].
     """
@@ -95,6 +96,7 @@ class Apparatus:
     model: mujoco.MjModel
     readings: dict[str, np.ndarray]
     start: Starts
+    told: np.ndarray
     held: tuple[Held, ...]
     moving_geoms: np.ndarray
     _measures: Mapping[str, declarations.Measure]
@@ -250,6 +252,7 @@ def build(
             strength=np.ones((1, model.nu)),
             camera=np.zeros((1, 3)),
         ),
+        told=_addresses(map(model.sensor, np.flatnonzero(model.sensor_type == mujoco.mjtSensor.mjSENS_USER))),
         held=tuple(_find_held(model, mjcf.get_attachment_frame(entity.mjcf_model)) for entity in held),
         moving_geoms=np.flatnonzero(moving),
         _measures=measures,

@@ -74,9 +74,13 @@ class BatchEnvironment:
         return self.task.num_interactions
 
     @property
+    def is_told(self) -> bool:
+        return self.task.is_told
+
+    @property
     def correct_answers(self) -> np.ndarray:
-        """Indices of the right labels in the current episodes, int64 [B]; never observable."""
-        return self.task.answers(self.hidden)
+        """Indices of the right labels of the current questions, int64 [B]; never observable."""
+        return self.ledger.correct_answers
 
     @property
     def hidden(self) -> np.ndarray:
@@ -147,11 +151,8 @@ class BatchEnvironment:
         self.ledger.steps[playing] += 1
         interacting = taken < self.task.num_interactions
         diverged = self._interact(playing[interacting], taken[interacting])
-        rewards, last = self.ledger.judge(playing, taken)
-        if len(diverged):
-            lost = np.isin(playing, diverged)
-            rewards, last = np.where(lost, 0.0, rewards), last | lost
-            self.ledger.over[diverged] = True
+        rewards, last = self.ledger.judge(playing, taken, np.isin(playing, diverged) if len(diverged) else False)
+        self._ask(playing[~interacting & ~last])
         step_types = np.full(len(chosen), _FIRST)
         step_types[~starting] = np.where(last, _LAST, _MID)
         all_rewards = np.zeros(len(chosen))
@@ -179,13 +180,20 @@ class BatchEnvironment:
                 diverged.append(lost)
                 rows = np.setdiff1d(rows, lost)
             self.ledger.touched[rows] |= group.moved(rows)
-            group.look(self.ledger.touched[rows], rows, self.observations)
+            group.look(self.ledger, rows, self.observations)
             self.task.observer.complete(self.ledger, rows, self.observations)
         lost = np.concatenate(diverged)
         if len(lost):
             self.num_divergences += len(lost)
             _LOG.warning("the simulation diverged in environments %s; their episodes end without reward", lost)
         return lost
+
+    def _ask(self, chosen: np.ndarray) -> None:
+        """Shows the next questions of some environments, int [K]."""
+        for group, members in self.by_structure(chosen):
+            group.look_again(self.ledger, chosen[members], self.observations)
+        if len(chosen):
+            self.task.observer.complete(self.ledger, chosen, self.observations)
 
     def by_structure(self, chosen: np.ndarray) -> list[tuple[simulations.Group, Rows]]:
         """Splits environments by structure: pairs of a group and the positions in `chosen` that belong to it."""

@@ -21,6 +21,7 @@ class ComposerTask(composer.Task):
       apparatus: the compiled model in use; the environment sets it.
       measured: the sensors' values at the last observation, float64 [1, nsensordata].
       num_divergences: episodes that ended because the simulation diverged.
+      ledger: the bookkeeping of the episode, for the engine's own use.
     """
 
     apparatus: apparatus_lib.Apparatus
@@ -31,8 +32,8 @@ class ComposerTask(composer.Task):
         options = task.options
         self.set_timesteps(options.substeps * options.physics_timestep, options.physics_timestep)
         self.num_divergences = 0
-        self._ledger = episodes.Ledger(task, 1)
-        self._ledger.seeds[:] = options.random
+        self.ledger = episodes.Ledger(task, 1)
+        self.ledger.seeds[:] = options.random
         self._given_hidden: np.ndarray | None = None
         self._action = 0
         self._diverged = False
@@ -48,26 +49,26 @@ class ComposerTask(composer.Task):
     @property
     def hidden(self) -> np.ndarray:
         """The hidden property of the current episode, which is never part of an observation."""
-        return self._ledger.hidden[0].copy()
+        return self.ledger.hidden[0].copy()
 
     @property
     def correct_answer(self) -> int:
-        """Index of the right label in the current episode; never observable."""
-        return int(self._declared.answers(self.hidden[None])[0])
+        """Index of the right label of the current question; never observable."""
+        return int(self.ledger.correct_answers[0])
 
     def reseed(self, random: Any) -> None:
         """Takes another seed: the next reset starts its first episode; `random` as in `Options`."""
         self._declared.reseed(random)
-        self._ledger.reseed(np.array([self._declared.options.random]))
+        self.ledger.reseed(np.array([self._declared.options.random]))
 
     @property
     def next_episode(self) -> int:
         """Index of the episode that the next reset starts, in [0, 2**62); set it to rebuild any episode."""
-        return int(self._ledger.next_episodes[0])
+        return int(self.ledger.next_episodes[0])
 
     @next_episode.setter
     def next_episode(self, episode: int) -> None:
-        self._ledger.next_episodes[0] = checks.integer("next_episode", episode, 0, seeding.LAST_EPISODE)
+        self.ledger.next_episodes[0] = checks.integer("next_episode", episode, 0, seeding.LAST_EPISODE)
 
     @property
     def episode(self) -> int:
@@ -77,12 +78,12 @@ class ComposerTask(composer.Task):
     @property
     def steps(self) -> int:
         """Control steps taken in the current episode."""
-        return int(self._ledger.steps[0])
+        return int(self.ledger.steps[0])
 
     @property
     def structure(self) -> int:
         """The compiled model that the current episode needs."""
-        return int(self._ledger.structures[0])
+        return int(self.ledger.structures[0])
 
     @property
     def answered(self) -> bool:
@@ -98,11 +99,17 @@ class ComposerTask(composer.Task):
         self.num_divergences += 1
         self._diverged = True
 
+    def sensed(self, sensordata: np.ndarray) -> np.ndarray:
+        """Returns values of the sensors with those that tell the question, float64 [1, nsensordata]."""
+        told = sensordata.reshape(1, -1).copy()
+        told[:, self.apparatus.told] = self.ledger.told(_ROW)
+        return told
+
     def _look(self, state: dict[str, np.ndarray]) -> None:
-        self.measured = state["sensordata"].copy()
+        self.measured = state["sensordata"]
         observer = self._declared.observer
-        observer.look(self.apparatus, state, self._ledger.touched, self._starts, _ROW, self._seen)
-        observer.complete(self._ledger, _ROW, self._seen)
+        observer.look(self.apparatus, state, self.ledger.touched, self._starts, _ROW, self._seen)
+        observer.complete(self.ledger, _ROW, self._seen)
 
     def last_observation(self) -> dict[str, np.ndarray]:
         """Returns a copy of the last observation."""
@@ -119,13 +126,13 @@ class ComposerTask(composer.Task):
 
     def initialize_episode_mjcf(self, random_state: Any) -> None:
         given, self._given_hidden = self._given_hidden, None
-        self._ledger.begin(_ROW, given)
-        self.control_timestep = int(self._ledger.substeps[0]) * self.physics_timestep
+        self.ledger.begin(_ROW, given)
+        self.control_timestep = int(self.ledger.substeps[0]) * self.physics_timestep
         self._declared.arrange(self.structure)
 
     def initialize_episode(self, physics: Any, random_state: Any) -> None:
         task = self._declared
-        fields, self._starts = task.begin(self.apparatus, self._ledger.hidden, self._ledger.nuisances)
+        fields, self._starts = task.begin(self.apparatus, self.ledger.hidden, self.ledger.nuisances)
         for field, (addresses, values) in fields:
             getattr(physics.model, field)[addresses] = values[0]
         physics.data.qpos[:] = self._starts.qpos[0]
@@ -141,23 +148,27 @@ class ComposerTask(composer.Task):
         rules.check_range(checked)
         self._action = int(checked)
         self._diverged = False
-        self._ledger.steps[0] += 1
+        self.ledger.steps[0] += 1
         if not self.answered:
             data = physics.data
             driven = self._declared.drive(checked[None], data.qpos[None], data.ctrl[None])
             data.ctrl[:] = (driven * self._starts.strength)[0]
-            if self._ledger.steps[0] == 1:
+            if self.ledger.steps[0] - self.ledger.num_answered[0] == 1:
                 data.qacc_warmstart[:] = 0  # A batch resets its rows without a forward pass.
 
     def after_step(self, physics: Any, random_state: Any) -> None:
         data, task = physics.data, self._declared
-        if not (self.answered or self._diverged):
-            self._ledger.touched |= self.apparatus.moved(data.qpos[None], self._starts.qpos)
-            self._look({field: getattr(data, field)[None] for field in task.observer.fields})
-            self.apparatus.indicate(data.geom_xpos[None], data.sensordata[None])  # For `physics.render`.
-            self._resize(physics)
-        rewards, last = self._ledger.judge(_ROW, np.array([self._action]))
+        rewards, last = self.ledger.judge(_ROW, np.array([self._action]), self._diverged)
         self._reward, self._last = float(rewards[0]), bool(last[0])
+        if not (self._diverged or (self.answered and self._last)):
+            state = {field: getattr(data, field)[None] for field in task.observer.fields}
+            if not self.answered:
+                self.ledger.touched |= self.apparatus.moved(data.qpos[None], self._starts.qpos)
+            # After an answer, sensors tell what they told before it.
+            state["sensordata"] = self.sensed(self.measured if self.answered else data.sensordata)
+            self._look(state)
+            self.apparatus.indicate(data.geom_xpos[None], self.measured)  # For `physics.render`.
+            self._resize(physics)
         if task.options.visualize_reward and self._last:
             self._colour_floor(physics, _OK_RGBA if self._reward > 0 else _WRONG_RGBA)
 

@@ -66,8 +66,11 @@ class Task(abc.ABC):
     discount = 0.95
     """Gamma of the returns that are scored; the environment's own discount is 1 until an episode's last step."""
 
-    largest_hidden: float = math.inf
-    """The largest value that a hidden property may be given; the least is 0."""
+    told: Any = None
+    """The questions that are drawn and told, `parts.questions.Questions`, if they are; `build` sets them."""
+
+    largest_hidden: float | np.ndarray = math.inf
+    """The largest value that a hidden property may be given, one or [...]; the least is 0."""
 
     options: Any
     """The options, of the domain's own class."""
@@ -77,7 +80,8 @@ class Task(abc.ABC):
         self.pixels = pixels
         self.scene = self.build()
         self.root_entity.mjcf_model.option.timestep = options.physics_timestep
-        self.rules = rules.Rules(len(self.interactions), len(self.label_names), options.step_limit)
+        counts = len(self.interactions), len(self.label_names), options.step_limit
+        self.rules = rules.Rules(*counts, self.told.count if self.told else 1)
         self.controls = np.array([interaction.control for interaction in self.interactions], float)
         self.observer = observing.Observer(self)
         if options.variation and not self.num_nuisances:
@@ -95,13 +99,17 @@ class Task(abc.ABC):
 
     @abc.abstractmethod
     def answers(self, hidden: np.ndarray) -> np.ndarray:
-        """Returns the indices of the right labels, int64 [N]."""
+        """Returns the indices of the right labels, int64 [N], or [N, K] of the K questions of an episode."""
 
     # It may define others.
 
     def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
         """Returns the model fields that follow from hidden properties: any that `Batch.expand` takes."""
         return {}
+
+    def kinds(self, hidden: np.ndarray) -> np.ndarray:
+        """Returns the kinds of hidden properties that questions that are told distinguish, int64 [N]."""
+        raise NotImplementedError
 
     def structures(self, hidden: np.ndarray) -> np.ndarray:
         """Returns the compiled model that each hidden property needs, int64 [N]."""
@@ -166,6 +174,11 @@ class Task(abc.ABC):
         return self.rules.num_interactions
 
     @property
+    def is_told(self) -> bool:
+        """Whether the first observation of an episode tells which question is asked."""
+        return self.told is not None
+
+    @property
     def num_labels(self) -> int:
         return len(self.label_names)
 
@@ -179,6 +192,13 @@ class Task(abc.ABC):
     def observation_meanings(self) -> dict[str, str]:
         """The meaning of each observation, in words, with the unit of its values."""
         return self.observer.meanings()
+
+    def tell(self, hidden: np.ndarray, asked: np.ndarray) -> np.ndarray:
+        """Returns the values of the sensors of type `user`, float64 [N, number of values].
+
+        They tell the questions of these indices, int64 [N], among the K questions of each episode.
+        """
+        return self.told.tell(self.told.drawn(hidden), asked) if self.told else np.zeros((len(hidden), 0))
 
     def reseed(self, random: Any) -> None:
         """Takes another seed; `random` as in `Options`."""
@@ -208,10 +228,16 @@ class Task(abc.ABC):
         They follow from the hidden properties, [N, ...], and the nuisances, [N, 0] without variation.
         """
         fields = list(self.hidden_fields(apparatus, hidden).items())
-        if not nuisances.shape[1]:
+        if nuisances.shape[1]:
+            circumstances = self.circumstances(apparatus, nuisances)
+            fields += circumstances.fields.items()
+        elif len(apparatus.told):
+            circumstances = declarations.Circumstances()
+        else:
             return fields, apparatus.start.repeated(len(nuisances))
-        circumstances = self.circumstances(apparatus, nuisances)
-        return fields + list(circumstances.fields.items()), apparatus.starts(circumstances, len(nuisances))
+        starts = apparatus.starts(circumstances, len(nuisances))
+        starts.shown["sensordata"][:, apparatus.told] = self.tell(hidden, np.zeros(len(hidden), np.int64))
+        return fields, starts
 
     def close(self) -> None:
         """Frees the renderers. A closed task can be played again."""

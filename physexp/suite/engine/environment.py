@@ -104,7 +104,7 @@ class Environment(composer.Environment):
         self._task.apparatus, self._physics = self._compiled[structure]
 
     def _substep(self, action: Any) -> None:
-        if self._task.answered:  # An answer ends the episode at once: nothing moves any more.
+        if self._task.answered:  # Nothing moves, and no time passes.
             return
         try:
             super()._substep(action)

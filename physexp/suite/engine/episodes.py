@@ -15,7 +15,10 @@ class Ledger:
     Attributes:
       seeds: seeds of the environments, int64 [N].
       next_episodes: indices of the episodes that start next, int64 [N].
-      answers: indices of the right labels, int64 [N].
+      answers: indices of the right labels of all K questions, int64 [N, K].
+      num_answered: questions answered, int64 [N].
+      num_right: right answers, int64 [N].
+      returns: sums of the rewards, discounted with the task's gamma, float64 [N].
       structures: the compiled model of each episode, int64 [N].
       nuisances: values of the random variation, in [-1, 1], float64 [N, number of nuisances].
       substeps: physics steps in a control step of each episode, int64 [N].
@@ -27,7 +30,9 @@ class Ledger:
     def __init__(self, task: Any, size: int):
         self._task = task
         self._hidden: np.ndarray | None = None
-        self.answers, self.structures, self.substeps, self.steps = np.zeros((4, size), np.int64)
+        self.answers = np.zeros((size, task.rules.num_questions), np.int64)
+        self.structures, self.substeps, self.steps, self.num_answered, self.num_right = np.zeros((5, size), np.int64)
+        self.returns = np.zeros(size)
         self.nuisances = np.zeros((size, task.num_nuisances if task.options.variation else 0))
         self.touched = np.zeros((size, len(task.scene.held)), bool)
         self.reseed(np.zeros(size, np.int64))
@@ -44,6 +49,19 @@ class Ledger:
         if self._hidden is None:
             raise RuntimeError("no episode has been started; call reset() first")
         return self._hidden
+
+    @property
+    def correct_answers(self) -> np.ndarray:
+        """Indices of the right labels of the current questions, or the last ones, int64 [N]; raises as `hidden`."""
+        return self.answers[np.arange(len(self.hidden)), self._asked]
+
+    @property
+    def _asked(self) -> np.ndarray:
+        return np.minimum(self.num_answered, self._task.rules.num_questions - 1)
+
+    def told(self, rows: np.ndarray) -> np.ndarray:
+        """Returns the values that tell the current questions of some environments, float64 [K, number of values]."""
+        return self._task.tell(self.hidden[rows], self._asked[rows])
 
     def begin(self, rows: np.ndarray, hidden: Any = None, nuisances: Any = None, episode: int | None = None) -> None:
         """Starts an episode of some environments, int [K]: by default the next one of each.
@@ -64,30 +82,44 @@ class Ledger:
         if self._hidden is None:
             self._hidden = np.zeros((len(self.seeds), *drawn.shape[1:]), drawn.dtype)
         self._hidden[rows] = drawn
-        self.answers[rows], self.structures[rows] = answers, structures
+        self.answers[rows], self.structures[rows] = answers.reshape(self.answers[rows].shape), structures
         self.nuisances[rows] = differing
         self.substeps[rows] = options.draw_substeps(self.seeds[rows], indices)
         self.next_episodes[rows] = indices + 1
-        self.steps[rows] = 0
+        for count in (self.steps, self.num_answered, self.num_right, self.returns):
+            count[rows] = 0
         self.touched[rows] = False
         self.over[rows] = False
 
-    def judge(self, rows: np.ndarray, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Returns rewards, float64 [K], and whether episodes end, bool [K], after actions, int [K], of some rows."""
+    def judge(self, rows: np.ndarray, actions: np.ndarray, lost: Any = False) -> tuple[np.ndarray, np.ndarray]:
+        """Returns rewards, float64 [K], and whether episodes end, bool [K], after actions, int [K], of some rows.
+
+        Episodes that are lost, bool [K], since their simulation has diverged, end without a reward.
+        """
         rules = self._task.rules
-        last = (actions >= rules.num_interactions) | (self.steps[rows] >= rules.step_limit)
-        right = actions - rules.num_interactions == self.answers[rows]
+        labels = actions - rules.num_interactions
+        right = labels == self.answers[rows, self.num_answered[rows]]
+        self.num_answered[rows] += labels >= 0
+        self.num_right[rows] += right
+        left = rules.num_questions - self.num_answered[rows]
+        last = (left == 0) | (self.steps[rows] >= rules.step_limit) | lost
+        earned = np.where(right, RIGHT, np.where(labels >= 0, WRONG, 0.0)) + WRONG * np.where(last, left, 0)
+        rewards = np.where(lost, 0.0, earned)
+        self.returns[rows] += rewards * self._task.discount ** (self.steps[rows] - 1.0)
         self.over[rows] = last
-        return np.where(right, RIGHT, np.where(last, WRONG, 0.0)), last
+        return rewards, last
 
 
-def _checked(name: str, given: Any, drawn: np.ndarray, least: float, largest: float) -> np.ndarray:
+def _checked(name: str, given: Any, drawn: np.ndarray, least: float, largest: Any) -> np.ndarray:
     """Returns given values in place of drawn ones, if they have their shape, type and range."""
     values = np.asarray(given)
     if values.shape != drawn.shape or not np.can_cast(values.dtype, drawn.dtype, "same_kind"):
         raise ValueError(f"{name} is {checks.shown(given)}; give an array of shape {drawn.shape}, {drawn.dtype}")
     if not np.isfinite(values).all():
         raise ValueError(f"{name} is {checks.shown(given)}; give finite numbers")
-    if not ((values >= least) & (values <= largest)).all():
-        raise ValueError(f"{name} is {checks.shown(given)}; give values from {least:g} to {largest:g}")
+    limits = np.broadcast_to(largest, values.shape)
+    are_bad = (values < least) | (values > limits)
+    if are_bad.any():
+        limit = limits[are_bad][0]
+        raise ValueError(f"{name} is {checks.shown(given)}; give values from {least:g} to {limit:g}")
     return values.astype(drawn.dtype)

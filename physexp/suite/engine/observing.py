@@ -102,7 +102,7 @@ class Observer:
             for (name, shape), part in zip(self._noisy.items(), parts, strict=True):
                 observations[name][rows] += part.reshape(len(part), *shape).astype(np.float32)
         if self._options.reveal:
-            observations[ANSWER][rows] = ledger.answers[rows, None] == np.arange(self._num_labels)
+            observations[ANSWER][rows] = ledger.correct_answers[rows, None] == np.arange(self._num_labels)
 
     def close(self) -> None:
         """Frees the renderers; the next image makes another."""

@@ -1,6 +1,7 @@
 """The rules that all questions share (paper, Section 3): interaction actions, numbered from 0, act on the world.
 
-The labeling actions that follow answer the question and end the episode. Running out of time is a wrong answer.
+The labeling actions that follow answer the question. The last answer ends the episode; an answer before it takes no
+simulated time, and the next question follows. When time runs out, every question that is left counts as a wrong answer.
 """
 
 import dataclasses
@@ -21,11 +22,13 @@ class Rules:
       num_interactions: number of interaction actions.
       num_labels: number of labeling actions.
       step_limit: control steps after which an unanswered episode ends.
+      num_questions: questions in an episode.
     """
 
     num_interactions: int
     num_labels: int
     step_limit: int
+    num_questions: int = 1
 
     @property
     def num_actions(self) -> int:

@@ -8,7 +8,7 @@ from mujoco.batch import Batch
 import numpy as np
 
 from physexp.suite.engine import apparatus as apparatus_lib
-from physexp.suite.engine import contract
+from physexp.suite.engine import contract, episodes
 
 
 class Group:
@@ -21,7 +21,7 @@ class Group:
         self._batch.reset(stage=mujoco.mjtStage.mjSTAGE_NONE)
         self._rest = self._batch.state[0].copy()
         # If all episodes start alike, one initial state and one first observation are enough.
-        self._are_alike = not task.options.variation
+        self._are_alike = not task.options.variation and not len(apparatus.told)
         nowhere = np.zeros(size, np.intp)
         self._starts = apparatus.start.repeated(size) if self._are_alike else apparatus.start.of(nowhere)
         self._qpos, self._control = (self._batch.bind(name) for name in ("qpos", "ctrl"))
@@ -49,11 +49,27 @@ class Group:
         untouched = np.zeros((len(rows), len(self.apparatus.held)), bool)
         self._task.observer.look(self.apparatus, state, untouched, self._starts, rows, observations)
 
-    def look(self, touched: np.ndarray, rows: np.ndarray, observations: Mapping[str, np.ndarray]) -> None:
-        """Writes the current observations of rows, some of whose held entities, bool [K, ...], have been touched."""
+    def look(self, ledger: episodes.Ledger, rows: np.ndarray, observations: Mapping[str, np.ndarray]) -> None:
+        """Writes the current observations of rows."""
+        self._look(ledger, rows, {field: values[rows] for field, values in self._looked_at.items()}, observations)
+
+    def look_again(self, ledger: episodes.Ledger, rows: np.ndarray, observations: Mapping[str, np.ndarray]) -> None:
+        """Writes the last observations of rows, with the questions that are asked now; sensors tell what they told."""
+        self._batch.forward(ids=rows, stage=mujoco.mjtStage.mjSTAGE_POS)  # A reset changes only coordinates.
         state = {field: values[rows] for field, values in self._looked_at.items()}
+        self._look(ledger, rows, {**state, "sensordata": self._measured[rows]}, observations)
+
+    def _look(
+        self,
+        ledger: episodes.Ledger,
+        rows: np.ndarray,
+        state: dict[str, np.ndarray],
+        observations: Mapping[str, np.ndarray],
+    ) -> None:
+        if len(self.apparatus.told):
+            state["sensordata"][:, self.apparatus.told] = ledger.told(rows)
         self._measured[rows] = state["sensordata"]
-        self._task.observer.look(self.apparatus, state, touched, self._starts, rows, observations)
+        self._task.observer.look(self.apparatus, state, ledger.touched[rows], self._starts, rows, observations)
 
     def reset(self, rows: np.ndarray, hidden: np.ndarray, nuisances: np.ndarray) -> None:
         """Puts rows into the initial states of episodes."""

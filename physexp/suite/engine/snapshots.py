@@ -16,7 +16,7 @@ class Snapshot:
     Attributes:
       environments: their indices, int64 [N].
       identity: arrays [N, ...] that tell the episodes from others of the same environments.
-      steps, touched: as in `episodes.Ledger`.
+      steps, num_answered, touched: as in `episodes.Ledger`.
       observed: the last observations, arrays [N, ...] by name.
       states: states of the simulations and their sensors, one array for each structure, float64 [number of its
         environments, ...].
@@ -26,6 +26,7 @@ class Snapshot:
     environments: np.ndarray
     identity: tuple[np.ndarray, ...]
     steps: np.ndarray
+    num_answered: np.ndarray
     touched: np.ndarray
     observed: dict[str, np.ndarray]
     states: tuple[np.ndarray, ...]
@@ -61,6 +62,7 @@ def take(batch: batch_lib.BatchEnvironment, environments: np.ndarray | None = No
             environments=chosen.copy(),
             identity=_identity(batch, chosen),
             steps=ledger.steps[chosen],
+            num_answered=ledger.num_answered[chosen],
             touched=ledger.touched[chosen],
             observed={name: values[chosen] for name, values in batch.observations.items()},
             states=tuple(group.save(rows) for group, rows in by_structure),
@@ -74,7 +76,8 @@ def restore(batch: batch_lib.BatchEnvironment, snapshot: Snapshot) -> None:
         ledger = batch.ledger
         if not all(map(np.array_equal, _identity(batch, chosen), snapshot.identity)):
             raise ValueError("environments have begun other episodes since the snapshot; restore it before that")
-        ledger.steps[chosen], ledger.touched[chosen], ledger.over[chosen] = snapshot.steps, snapshot.touched, False
+        ledger.steps[chosen], ledger.num_answered[chosen] = snapshot.steps, snapshot.num_answered
+        ledger.touched[chosen], ledger.over[chosen] = snapshot.touched, False
         for name, values in snapshot.observed.items():
             batch.observations[name][chosen] = values
         for (group, members), states in zip(batch.by_structure(chosen), snapshot.states, strict=True):
