@@ -19,6 +19,7 @@ import structure  # noqa: E402
 
 MODULES = sorted((ROOT / "physexp").rglob("*.py"))
 COMMON = {field.name for field in dataclasses.fields(suite.Options)}
+SHARED = {"difficulty", "questions", "num_questions"}  # Options of several domains, or with words of the whole package.
 LONGEST = 400  # Lines of a module.
 
 # Files that may name a domain: its own, in the suite and in the analysis; the experiments, which are questions about
@@ -45,7 +46,7 @@ def words_in(path: Path) -> frozenset[str]:
 
 @pytest.mark.parametrize("domain", suite.TASKS_BY_DOMAIN)
 def test_a_domain_is_named_in_its_own_files_alone(domain):
-    options = {field.name for field in dataclasses.fields(suite.options(domain))} - COMMON - {"difficulty"}
+    options = {field.name for field in dataclasses.fields(suite.options(domain))} - COMMON - SHARED
     places = {str(path.relative_to(ROOT / "physexp")): path for path in MODULES}
     named = {
         place: found

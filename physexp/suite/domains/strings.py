@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 import dataclasses
+import functools
 import itertools
 
 from dm_control import mjcf
@@ -13,6 +14,7 @@ from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import contract, declarations, rendering, seeding
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, measures, things
+from physexp.suite.parts import questions as questions_lib
 
 PHYSICS_TIMESTEP = 0.01  # s
 
@@ -21,6 +23,8 @@ PHYSICS_TIMESTEP = 0.01  # s
 # is whether a puck is away from home: how far, and when, would tell all bands after two pulls. Only a clamp, which
 # holds a puck still and so cuts the ways through it, tells apart what is joined in a row from what is joined in a ring.
 NUM_PUCKS = 3  # By default.
+_GRAPH = "graph"  # The question which pucks are joined.
+_MOST_QUESTIONS = 8
 
 MASS = 0.0142  # kg: a puck is home again, to a reader, 0.1 s after it was pulled
 _SPRING = 60.0  # N/m
@@ -43,6 +47,43 @@ _CLAMP_RGBA = (0.15, 0.15, 0.18, 1.0)
 _HANDLE_Y, _HANDLE_TRAVEL = -0.22, (0.0, -0.14, 0.0)
 _CLAMP_Y, _CLAMP_TRAVEL = -0.03, (0.0, 0.0, 0.1)
 _FLAG_Y, _FLAG_TRAVEL = 0.2, (0.0, 0.0, 0.2)
+# A row of lamps on the cover; they are in it when they are off.
+_LAMP_SPACING, _LAMP_PLACE, _LAMP_TRAVEL = 0.07, (0.135, 0.07), 0.045
+
+
+def pairs(num_pucks: int = NUM_PUCKS) -> list[tuple[int, int]]:
+    """Returns the pairs of pucks that a band may join; label bits and hidden properties are in this order."""
+    return list(itertools.combinations(range(num_pucks), 2))
+
+
+def graphs(num_pucks: int = NUM_PUCKS) -> np.ndarray:
+    """Returns which pairs are joined in the graph of each label, bool [number of graphs, number of pairs]."""
+    number = len(pairs(num_pucks))
+    return np.arange(2**number)[:, None] >> np.arange(number) & 1 == 1
+
+
+@functools.cache
+def question_sets() -> dict[str, np.ndarray]:
+    """Returns the sets of questions that are told, by name: tables of the graphs that mean yes, bool [Q, graphs].
+
+    Four graphs mean yes. The question whether one pull moves all pucks, and its negation, are left out: one pull
+    answers them. Two whole classes are held out: those of `one_at_0` and of `odd`.
+    """
+    joined, number = graphs(), len(pairs())
+    bands = joined.sum(axis=1)
+    named = {f"tied_{i}_{j}": joined[:, pair] for pair, (i, j) in enumerate(pairs())}
+    for k in range(NUM_PUCKS):
+        named[f"one_at_{k}"] = joined[:, [k in pair for pair in pairs()]].sum(axis=1) == 1
+    named["odd"] = bands % 2 == 1
+    # Three pairs are renamed in every way as three pucks are.
+    renamings = [joined[:, order] @ 2 ** np.arange(number) for order in itertools.permutations(range(number))]
+    tables = questions_lib.balanced(len(joined))
+    tables = tables[[not np.array_equal(table == table[-1], bands > 1) for table in tables]]
+    kinds = questions_lib.classes(tables, renamings)
+    whole = [int(kinds[(tables == named[name]).all(axis=1)][0]) for name in ("one_at_0", "odd")]
+    held_out = questions_lib.are_held_out(tables, kinds, whole)
+    sets = {"all": tables, "train": tables[~held_out], "held_out": tables[held_out]}
+    return {**sets, **{name: table[None] for name, table in named.items()}}
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -59,21 +100,25 @@ class Options(options_lib.Options):
     )
     num_pucks: int = checked(NUM_PUCKS, checks.whole(3, 4), help="3 or 4: the number of pucks; the larger, the harder")
     num_clamps: int = checked(1, checks.whole(1, 2), help="1 or 2: the number of pucks that may be clamped at once")
+    questions: str = checked(
+        _GRAPH,
+        checks.word(_GRAPH, *question_sets()),
+        help="graph: which pucks are joined; or all, train or held_out, sets of questions with the answers no and yes, "
+        "of which one is drawn in each episode and told; or the name of a single one",
+    )
+    num_questions: int = checked(
+        1,
+        checks.whole(1, _MOST_QUESTIONS),
+        help=f"questions in an episode, at most {_MOST_QUESTIONS}; the next is told when one is answered",
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        if self.questions == _GRAPH and self.num_questions > 1:
+            raise ValueError(f"num_questions is {self.num_questions} of questions {_GRAPH}; give 1, or other questions")
+        if self.questions != _GRAPH and self.num_pucks != NUM_PUCKS:
+            raise ValueError(f"questions is {self.questions} of {self.num_pucks} pucks; give {_GRAPH}, or {NUM_PUCKS}")
         self.check_step(_SHORTEST_STEP, "pucks come home")
-
-
-def pairs(num_pucks: int = NUM_PUCKS) -> list[tuple[int, int]]:
-    """Returns the pairs of pucks that a band may join; label bits and hidden properties are in this order."""
-    return list(itertools.combinations(range(num_pucks), 2))
-
-
-def graphs(num_pucks: int = NUM_PUCKS) -> np.ndarray:
-    """Returns which pairs are joined in the graph of each label, bool [number of graphs, number of pairs]."""
-    number = len(pairs(num_pucks))
-    return np.arange(2**number)[:, None] >> np.arange(number) & 1 == 1
 
 
 def prior(difficulty: float, num_pucks: int = NUM_PUCKS) -> np.ndarray:
@@ -103,6 +148,7 @@ class Strings(contract.Task):
         rails = [_add_puck(room, k, x) for k, x in enumerate(places)]
         self._pairs = pairs(num_pucks)
         _, self.largest_hidden = SLACKS[num_pucks]
+        label_names = [self._name(joined) for joined in graphs(num_pucks)]
         self._bands = tuple(_add_band(root, rails, pair).full_identifier for pair in self._pairs)
         positions = [root.sensor.add("jointpos", name=f"position_{k}", joint=rail) for k, rail in enumerate(rails)]
         # In the order of `drive`. The force that presses a clamp on a puck does not push it along its rail.
@@ -127,6 +173,8 @@ class Strings(contract.Task):
                 ("away", positions, _is_away, "each puck that is away from home"),
             )
         }
+        if self.options.questions != _GRAPH:
+            readings |= self._tell_questions(room, label_names, indicators)
         controls = np.eye(3 * num_pucks)
         pull = _PULL[num_pucks]
         return contract.Scene(
@@ -139,29 +187,52 @@ class Strings(contract.Task):
                 )
                 for k in range(num_pucks)
             ],
-            label_names=[self._name(joined) for joined in graphs(num_pucks)],
+            label_names=questions_lib.LABELS if self.told else label_names,
             readings=readings,
             indicators=indicators,
         )
 
+    def _tell_questions(
+        self, room: arena.Laboratory, names: Sequence[str], indicators: list[declarations.Indicator]
+    ) -> dict[str, declarations.Reading]:
+        """Chooses the questions that are told about graphs with these names; adds lamps, and returns the reading."""
+        tables = question_sets()[self.options.questions]
+        self.question = "Is the graph of bands one of those that mean yes?"
+        self.told = told = questions_lib.Questions(tables, self.options.num_questions)
+        self.largest_hidden = np.array([self.largest_hidden] * len(self._pairs) + [len(tables) - 1] * told.count)
+        places = [(_LAMP_SPACING * (k - (len(names) - 1) / 2), *_LAMP_PLACE) for k in range(len(names))]
+        indicators += told.add_lamps(room, places, _LAMP_TRAVEL)
+        return told.add_reading(room, names)
+
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
         """Returns the slacks of the bands of some episodes, m, 0 for no band, float64 [N, number of pairs].
 
-        The pairs that are joined follow the prior; slacks are uniform within `SLACKS`.
+        The pairs that are joined follow the prior; slacks are uniform within `SLACKS`. Questions that are told add a
+        column each, with their numbers, which are uniform.
         """
-        draws = seeding.uniforms(seeds, episodes, 2 * len(self._pairs))
-        joined, slack = np.split(draws, 2, axis=1)
+        count, number = self.told.count if self.told else 0, len(self._pairs)
+        draws = seeding.uniforms(seeds, episodes, 2 * number + count)
+        joined, slack, asked = np.split(draws, [number, 2 * number], axis=1)
         least, greatest = SLACKS[self.options.num_pucks]
-        return np.where(joined * (1 + self.options.difficulty) < 1, least + (greatest - least) * slack, 0.0)
+        slacks = np.where(joined * (1 + self.options.difficulty) < 1, least + (greatest - least) * slack, 0.0)
+        return np.hstack([slacks, self.told.draw(asked)]) if self.told else slacks
 
     def answers(self, hidden: np.ndarray) -> np.ndarray:
-        return (hidden > 0) @ 2 ** np.arange(len(self._pairs))
+        numbers = self.kinds(hidden)
+        return self.told.answers(numbers, self.told.drawn(hidden)) if self.told else numbers
+
+    def kinds(self, hidden: np.ndarray) -> np.ndarray:
+        """Returns the numbers of the graphs, int64 [N]."""
+        return (self._slacks(hidden) > 0) @ 2 ** np.arange(len(self._pairs))
+
+    def _slacks(self, hidden: np.ndarray) -> np.ndarray:
+        return hidden[..., : len(self._pairs)]
 
     def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
-        bands = np.array([apparatus.model.tendon(band).id for band in self._bands])
+        bands, slacks = np.array([apparatus.model.tendon(band).id for band in self._bands]), self._slacks(hidden)
         return {
-            "tendon_stiffness": (bands, np.where(hidden > 0, _BAND[self.options.num_pucks], 0.0)),
-            "tendon_lengthspring": (bands, np.stack([-hidden, hidden], axis=-1)),  # A band pulls once it is longer.
+            "tendon_stiffness": (bands, np.where(slacks > 0, _BAND[self.options.num_pucks], 0.0)),
+            "tendon_lengthspring": (bands, np.stack([-slacks, slacks], axis=-1)),  # A band pulls once it is longer.
         }
 
     def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
@@ -177,7 +248,9 @@ class Strings(contract.Task):
         return np.concatenate([pulls, pressed, pressed * before], axis=1)
 
     def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
-        tied = [(f"puck_{i}", f"puck_{j}") for (i, j), slack in zip(self._pairs, hidden, strict=True) if slack > 0]
+        tied = [
+            (f"puck_{i}", f"puck_{j}") for (i, j), slack in zip(self._pairs, self._slacks(hidden), strict=True) if slack
+        ]
         return declarations.Revealed(marks={} if tied else {"puck_1": "no bands"}, tied=tied)
 
     def _name(self, joined: np.ndarray) -> str:
