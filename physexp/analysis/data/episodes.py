@@ -13,6 +13,7 @@ import pyarrow
 from physexp import suite
 from physexp.agents import core, environment_loop
 from physexp.analysis.data import estimates
+from physexp.suite.engine import rules as rules_lib
 
 if TYPE_CHECKING:
     from physexp.agents import rounds  # Imports torch, without which tables are read in no time.
@@ -25,7 +26,7 @@ class Episode:
     Attributes:
       seed, index: seed of the environment and index of the episode: they rebuild its instance.
       hidden: the hidden property, which no actor observes, [...].
-      answer: the right label.
+      answers: the right labels of its K questions, int64 [K].
       observations: arrays by name, before each action and at the end, [T + 1, ...].
       actions: int64 [T].
       rewards: float64 [T].
@@ -34,10 +35,20 @@ class Episode:
     seed: int
     index: int
     hidden: np.ndarray
-    answer: int
+    answers: np.ndarray
     observations: dict[str, np.ndarray]
     actions: np.ndarray
     rewards: np.ndarray
+
+    @property
+    def answer(self) -> int:
+        """The right label of its last question."""
+        return int(self.answers[-1])
+
+    def asked(self, num_interactions: int) -> np.ndarray:
+        """Returns the index of the question before each action, int64 [T]; labels follow interactions."""
+        are_answers = self.actions >= num_interactions
+        return np.cumsum(are_answers) - are_answers
 
 
 class Recorder(environment_loop.Observer):
@@ -61,7 +72,7 @@ class Recorder(environment_loop.Observer):
             seed=self._task.options.random,
             index=self._task.episode,
             hidden=self._task.hidden,
-            answer=self._task.correct_answer,
+            answers=self._task.ledger.answers[0].copy(),
             observations={name: np.stack([seen[name] for seen in self._seen]) for name in self._seen[0]},
             actions=np.array(self._actions, np.int64),
             rewards=np.array(self._rewards),
@@ -84,12 +95,14 @@ class Episodes:
       seed: seeds of the environments, int64 [N].
       episode: indices of the episodes, int64 [N]: seed and index together rebuild an episode.
       hidden: the hidden property, [N, ...]; [N, 0] where it is not recorded.
-      answer: the right labels, int64 [N].
-      label: the labels given, -1 where time ran out, int64 [N].
-      reward: final rewards, float64 [N].
-      length: actions in each episode, the label among them, int64 [N].
+      answer: the right labels of the last questions, int64 [N].
+      label: the last labels given, -1 where time ran out, int64 [N].
+      reward: sums of the rewards, float64 [N].
+      length: actions in each episode, labels among them, int64 [N].
       interactions: interaction actions in each episode, int64 [N].
-      actions: the actions, -1 after the end of an episode, int64 [N, T].
+      num_questions: questions in each episode, int64 [N].
+      actions, rewards: the actions and the rewards after them, -1 and 0 after the end of an episode, int64 and float64
+        [N, T].
     """
 
     seed: np.ndarray
@@ -100,7 +113,9 @@ class Episodes:
     reward: np.ndarray
     length: np.ndarray
     interactions: np.ndarray
+    num_questions: np.ndarray
     actions: np.ndarray
+    rewards: np.ndarray
 
     def __len__(self) -> int:
         return len(self.length)
@@ -109,16 +124,16 @@ class Episodes:
     def of_round(
         cls,
         played: "rounds.Round",
-        num_interactions: int,
+        rules: rules_lib.Rules,
         seed: np.ndarray,
         episode: int,
         hidden: np.ndarray | None = None,
     ) -> "Episodes":
         """Returns the episodes of a round in N environments, which all have the index `episode`.
 
-        `num_interactions` is that of the task, whose labels follow them; `seed` and `hidden` are as in `Episodes`.
+        The rules are those of the task; `seed` and `hidden` are as in `Episodes`.
         """
-        num_episodes = len(played.lengths)
+        num_episodes, num_interactions = len(played.lengths), rules.num_interactions
         is_played = np.arange(len(played.actions)) < played.lengths[:, None]
         actions = np.where(is_played, played.actions.T, -1)
         last = actions[np.arange(num_episodes), played.lengths - 1]
@@ -131,7 +146,9 @@ class Episodes:
             reward=played.rewards.sum(axis=0, dtype=np.float64),
             length=played.lengths,
             interactions=(is_played & (actions < num_interactions)).sum(axis=1),
+            num_questions=np.full(num_episodes, rules.num_questions),
             actions=actions,
+            rewards=played.rewards.T.astype(np.float64),
         )
 
     @classmethod
@@ -139,9 +156,10 @@ class Episodes:
         """Returns the episodes of all parts, one after the other."""
         longest = max(part.actions.shape[1] for part in parts)
         columns = {name: [vars(part)[name] for part in parts] for name in vars(parts[0])}
-        columns["actions"] = [
-            np.pad(each, ((0, 0), (0, longest - each.shape[1])), constant_values=-1) for each in columns["actions"]
-        ]
+        for name, filler in (("actions", -1), ("rewards", 0)):
+            columns[name] = [
+                np.pad(each, ((0, 0), (0, longest - each.shape[1])), constant_values=filler) for each in columns[name]
+            ]
         return cls(**{name: np.concatenate(values) for name, values in columns.items()})
 
     def first(self, count: int) -> "Episodes":
@@ -153,16 +171,23 @@ class Episodes:
         return self.actions[index, : self.length[index]]
 
     def returns(self, discount: float) -> np.ndarray:
-        """Returns discounted returns, float64 [N]: the reward, discounted once for each action before the last."""
-        return self.reward * discount ** (self.length - 1)
+        """Returns discounted returns, float64 [N]: the rewards, each discounted once for each action before it."""
+        returns: np.ndarray = (self.rewards * discount ** np.arange(self.rewards.shape[1])).sum(axis=1)
+        return returns
+
+    @property
+    def right(self) -> np.ndarray:
+        """The share of right answers to the questions of each episode, float64 [N]."""
+        right = (self.reward + self.num_questions) // 2  # The others, given or not, have cost 1 each.
+        return right / self.num_questions
 
     def summary(self, discount: float) -> dict:
         """Returns the metrics that `physexp evaluate` prints; the interval is Wilson's, at 95 %."""
-        right = int((self.reward > 0).sum())
+        right, asked = round((self.right * self.num_questions).sum()), int(self.num_questions.sum())
         return {
             "episodes": len(self),
-            "success_rate": right / len(self),
-            "success_interval": list(estimates.wilson_interval(right, len(self))),
+            "success_rate": right / asked,
+            "success_interval": list(estimates.wilson_interval(right, asked)),
             "mean_return": float(self.returns(discount).mean()),
             "mean_interactions": float(self.interactions.mean()),
             "median_interactions": float(np.median(self.interactions)),
@@ -172,7 +197,7 @@ class Episodes:
     @property
     def is_timeout(self) -> np.ndarray:
         """Whether each episode ran out of time, bool [N]."""
-        return self.interactions == self.length
+        return self.length - self.interactions < self.num_questions
 
     def table(self, schema: pyarrow.Schema, **others: Any) -> pyarrow.Table:
         """Returns the columns of a schema, a row an episode; `others` has those that this table lacks.

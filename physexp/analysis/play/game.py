@@ -21,17 +21,20 @@ class Score:
     """Score of a player."""
 
     episodes: int = 0
+    answers: int = 0
     right: int = 0
     total: float = 0.0  # The sum of the discounted returns.
 
-    def add(self, length: int, reward: float, discount: float) -> None:
-        """Adds an episode of `length` actions."""
+    def add(self, environment: suite.Environment) -> None:
+        """Adds the episode that has ended in an environment."""
+        ledger = environment.task.ledger
         self.episodes += 1
-        self.right += reward > 0
-        self.total += reward * discount ** (length - 1)
+        self.answers += environment.task.rules.num_questions
+        self.right += int(ledger.num_right[0])
+        self.total += float(ledger.returns[0])
 
     def __str__(self) -> str:
-        return f"{self.right} of {self.episodes} right, mean return {self.total / max(1, self.episodes):.3f}"
+        return f"{self.right} of {self.answers} right, mean return {self.total / max(1, self.episodes):.3f}"
 
 
 class _Quit(Exception):  # noqa: N818
@@ -65,9 +68,10 @@ class _Person(core.Actor):
             self._show(self._rules if text == _HELP else asked)
 
     def observe(self, action, next_timestep):
-        if next_timestep.last():
-            verdict = "Right!" if next_timestep.reward > 0 else "Wrong."
-            self._show(f"{verdict} The answer: {self._task.label_names[self._task.correct_answer]}.")
+        label, ledger = action - self._task.num_interactions, self._task.ledger
+        if next_timestep.last() or label >= 0:
+            answer = ledger.answers[0, ledger.num_answered[0] - (label >= 0)]
+            self._show(f"{'Right!' if label == answer else 'Wrong.'} The answer: {self._task.label_names[answer]}.")
 
 
 def play(
@@ -99,23 +103,22 @@ def play(
     observers = _viewers(domain, task, kwargs) if view else []
     rules = _rules(environment)
     show(rules)
-    others, discount = _others(domain, task, kwargs, show)
+    others = _others(domain, task, kwargs, show)
     scores = {name: Score() for name in ("you", *others)}
     you = environment_loop.EnvironmentLoop(environment, _Person(environment.task, rules, read, show), observers)
     # The others play in an environment of their own, with the same instances.
     again = suite.load(domain, task, task_kwargs={**kwargs, "random": environment.task.options.random})
     while True:
         try:
-            played = {"you": you.run_episode()}
+            you.run_episode()
         except _Quit:
             return scores
+        scores["you"].add(environment)
         for name, actor in others.items():
             again.task.next_episode = environment.task.episode
-            played[name] = its = environment_loop.EnvironmentLoop(again, actor).run_episode()
-            verdict, count = "right" if its["episode_return"] > 0 else "wrong", its["episode_length"] - 1
-            show(f"  the {name} was {verdict} after {count} interaction{'' if count == 1 else 's'}")
-        for name, its in played.items():
-            scores[name].add(its["episode_length"], its["episode_return"], discount)
+            environment_loop.EnvironmentLoop(again, actor).run_episode()
+            scores[name].add(again)
+            show(f"  the {name} was {_outcome(again)}")
         show("\n".join(f"{name:20} {score}" for name, score in scores.items()) + "\n")
 
 
@@ -127,23 +130,30 @@ def _viewers(domain: str, task: str, kwargs: Mapping[str, Any]) -> list[environm
     return [recorder, writing.Live(recorder, viewing.Viewer())]
 
 
-def _others(domain: str, task: str, kwargs: dict[str, Any], show) -> tuple[dict[str, core.Actor], float]:
-    """Returns the players to compare with, and the discount of the returns."""
+def _outcome(environment: suite.Environment) -> str:
+    """Returns how right the answers of an episode were, and after how many interactions."""
+    ledger, count = environment.task.ledger, environment.task.rules.num_questions
+    right, interactions = int(ledger.num_right[0]), int(ledger.steps[0] - ledger.num_answered[0])
+    verdict = f"right in {right} of {count} questions" if count > 1 else "right" if right else "wrong"
+    return f"{verdict} after {interactions} interaction{'' if interactions == 1 else 's'}"
+
+
+def _others(domain: str, task: str, kwargs: dict[str, Any], show) -> dict[str, core.Actor]:
+    """Returns the players to compare with."""
     others: dict[str, core.Actor] = {}
     facts = domains.find(domain)
-    discount, ideal = facts.discount, facts.ideal_with(kwargs)
+    ideal = facts.ideal_with(kwargs)
     try:
-        network, config, _ = finding.shipped_agent(domain, task, kwargs)
+        network, *_ = finding.shipped_agent(domain, task, kwargs)
     except ValueError:
         trained = "".join(f" at {name} {agent_config.shown(value)}" for name, value in kwargs.items())
         show(f"There is no agent trained{trained} to compare you with.\n")
     else:
-        discount = config.agent.discount
         others["trained agent"] = acting.RecurrentActor(network)
     if ideal is not None:
         with contextlib.suppress(ValueError):  # If it cannot play.
-            others["ideal experimenter"] = ideal(task, kwargs, discount).actor()
-    return others, discount
+            others["ideal experimenter"] = ideal(task, kwargs, facts.discount).actor()
+    return others
 
 
 def _rules(environment: suite.Environment) -> str:
@@ -151,8 +161,10 @@ def _rules(environment: suite.Environment) -> str:
     task = environment.task
     legend = terminal.legend(environment.observation_spec(), task.observer.readings)
     actions = "\n".join(f"{number:3}  {name}" for number, name in enumerate(task.action_names))
+    count = task.rules.num_questions
+    several = f"There are {count} questions; an answer takes a step, too.\n\n" if count > 1 else ""
     return (
-        f"{task.question}\n\n{legend}\n\n"
+        f"{task.question}\n\n{legend}\n\n{several}"
         f"The right answer is worth 1, a wrong one or none in {task.rules.step_limit} steps -1. Each interaction\n"
         f"before it multiplies that by {task.discount:g}. Type a number:\n\n"
         f"{actions}\n  {_HELP}  show this again\n  {_QUIT}  quit\n"

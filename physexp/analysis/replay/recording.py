@@ -211,7 +211,7 @@ class _Rebuilder:
     def _note_poses(self, physics) -> None:
         data, model = physics.data, physics.model
         positions = data.geom_xpos.copy()
-        apparatus, sensordata = self.environment.task.apparatus, data.sensordata[None]
+        apparatus, sensordata = self.environment.task.apparatus, self.environment.task.sensed(data.sensordata)
         apparatus.indicate(positions[None], sensordata)
         is_simulated = model.body_weldid[model.geom_bodyid] != 0
         positions[is_simulated] = data.geom_xpos[is_simulated]  # Even if images show them where a reading places them.

@@ -56,7 +56,7 @@ def _order(played: episodes.Episodes, selection: Selection, hardness: np.ndarray
     if selection == "any":
         return np.arange(len(played))
     if selection in ("right", "wrong"):
-        return np.flatnonzero((played.reward > 0) == (selection == "right"))
+        return np.flatnonzero((played.right == 1) == (selection == "right"))
     if selection == "longest":
         hardness = played.interactions
     elif hardness is None:  # Mean number of interactions on each hidden property.

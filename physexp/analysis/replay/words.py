@@ -53,11 +53,14 @@ def about(episode: recording.Film, ending: str) -> str:
 
 def outcome(episode: recording.Film) -> str:
     """Returns the outcome of an episode as a sentence."""
-    label, names = episode.actions[-1] - episode.declared.num_interactions, episode.declared.label_names
-    if label < 0:
-        return f"Time ran out. The right answer: {names[episode.answer]}."
-    verdict = "right" if label == episode.answer else f"wrong; it is: {names[episode.answer]}"
-    return f"Answer after {len(episode.actions) - 1} interactions: {names[label]}. That is {verdict}."
+    names, said = episode.declared.label_names, []
+    labels = episode.actions - episode.declared.num_interactions
+    steps = np.flatnonzero(labels >= 0)
+    for number, (step, label, answer) in enumerate(zip(steps, labels[steps], episode.answers, strict=False)):
+        verdict = "right" if label == answer else f"wrong; it is: {names[answer]}"
+        said.append(f"Answer after {step - number} interactions: {names[label]}. That is {verdict}.")
+    said += [f"Time ran out. The right answer: {names[answer]}." for answer in episode.answers[len(steps) :]]
+    return " ".join(said)
 
 
 def bars(labels: Sequence[str], belief: np.ndarray, answers: np.ndarray, ideal: np.ndarray | None) -> str:

@@ -143,8 +143,8 @@ class _EpisodeWriter:
         self._stream, self._episode, self._root = stream, episode, root
         self._task = episode.declared
         # Observations come before each action and at the end; a label takes no time.
-        num_interactions = int((episode.actions < self._task.num_interactions).sum())
-        self._step_times = np.minimum(np.arange(len(episode.actions) + 1), num_interactions) * episode.control_timestep
+        are_interactions = episode.actions < self._task.num_interactions
+        self._step_times = np.cumsum([0, *are_interactions]) * episode.control_timestep
 
     def write(self) -> None:
         """Writes everything."""
@@ -255,11 +255,12 @@ class _EpisodeWriter:
         episode, interactions = self._episode, self._task.interactions
         steps = np.ceil(episode.times / episode.control_timestep - 1e-6).astype(int) - 1  # Of the action under way.
         origins, vectors = np.zeros((2, len(steps), 3))
-        for frame, action in enumerate(episode.actions[np.clip(steps, 0, len(episode.actions) - 1)]):
-            if action < len(interactions):
-                origins[frame] = positions[frame, episode.shapes.names.index(interactions[action].thing)]
+        taken = [interactions[action] for action in episode.actions if action < len(interactions)]
+        for frame, step in enumerate(steps.clip(min=0)):
+            if step < len(taken):
+                origins[frame] = positions[frame, episode.shapes.names.index(taken[step].thing)]
                 # The first frame shows the controls that are about to be sent.
-                vectors[frame] = _arrow(interactions[action], episode.controls[max(frame, 1)])
+                vectors[frame] = _arrow(taken[step], episode.controls[max(frame, 1)])
         self._log(entity, rr.Arrows3D.from_fields(colors=[palette.ACTION], radii=[0.012]))
         self._columns(entity, episode.times, rr.Arrows3D.columns(origins=origins, vectors=vectors))
         end = self._step_times[-1] + 1e-3  # No arrow after the last step.

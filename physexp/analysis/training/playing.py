@@ -58,7 +58,8 @@ def play(
         if interaction == "random":
             choose = randomized(choose, num_interactions, generator)
         played = acting.play_round(network, environment, len(rounds), choose)
-        rounds.append(Episodes.of_round(played, num_interactions, environment.seeds, len(rounds), environment.hidden))
+        rules = environment.task.rules
+        rounds.append(Episodes.of_round(played, rules, environment.seeds, len(rounds), environment.hidden))
         count, steps = count + len(rounds[-1]), steps + played.num_frames
         show(min(count, num_episodes))
     environment.close()

@@ -43,7 +43,7 @@ class Recorder:
         self._run, self._config, self._tell = run, config, tell
         self._report = callbacks.expendable(report, tell, "the report of training")
         self._on_checkpoint = callbacks.expendable(on_checkpoint, tell, "the watcher of checkpoints (replays)")
-        self._num_interactions = config.load_task().num_interactions
+        self._rules = config.load_task().rules
         self._frames = self._updates = self._num_episodes = self._frames_at_row = 0
         self._seconds = 0.0
         self._started = self._checkpointed = self._row_started = time.monotonic()
@@ -144,7 +144,7 @@ class Recorder:
             "episodes": self._num_episodes,
             "seconds": self._seconds + now - self._started,
             "frames_per_second": (self._frames - self._frames_at_row) / max(1e-3, now - self._row_started),
-            "success_rate": float((episodes.reward > 0).mean()),
+            "success_rate": float(episodes.right.mean()),
             "episode_return": float(episodes.returns(discount).mean()),
             "interactions": float(episodes.interactions.mean()),
             "timeouts": float(episodes.is_timeout.mean()),
@@ -157,7 +157,7 @@ class Recorder:
 
     def _episodes(self, update: core.Update) -> episodes_lib.Episodes:
         seeds = _environment_seeds(update.seed, len(update.episodes.lengths))
-        return episodes_lib.Episodes.of_round(update.episodes, self._num_interactions, seeds, update.episode)
+        return episodes_lib.Episodes.of_round(update.episodes, self._rules, seeds, update.episode)
 
 
 def _mean(values: Sequence[float]) -> float:

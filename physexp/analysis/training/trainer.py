@@ -36,10 +36,15 @@ def make_agent(config: config_lib.TrainConfig) -> core.Agent:
 def check(config: config_lib.TrainConfig) -> None:
     """Raises ValueError if a run cannot be trained on this machine, before anything is written.
 
-    It names an unknown task, a GPU or an OpenGL library that is needed and missing, or more workers than there is room
-    for.
+    It names an unknown task, several questions for the belief learner, a GPU or an OpenGL library that is needed and
+    missing, or more workers than there is room for.
     """
-    needs_gl = config.load_task().pixels
+    task = config.load_task()
+    if config.agent.algorithm == "belief" and task.rules.num_questions > 1:
+        raise ValueError(
+            f"num_questions is {task.rules.num_questions}; give 1 to the belief learner, or another --agent"
+        )
+    needs_gl = task.pixels
     try:
         if needs_gl:
             gl.check()

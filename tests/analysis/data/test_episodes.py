@@ -7,6 +7,7 @@ import pytest
 from physexp.agents import rounds
 from physexp.analysis.data import episodes
 from physexp.analysis.training import run as run_lib
+from physexp.suite.engine import rules
 
 HIDDEN = np.array([[0.1, 0.9, 0.2, 0.3], [0.5, 0.1, 0.1, 0.4], [0.2, 0.3, 0.8, 0.1]])
 
@@ -18,7 +19,7 @@ def played(episode=7, num_steps=4):
     rewards = np.zeros((num_steps, 3), np.float32)
     rewards[[2, 0, num_steps - 1], [0, 1, 2]] = [1, -1, -1]
     of_round = rounds.Round(actions, rewards, np.array([3, 1, num_steps]), np.array([1, 0, 2]))
-    return episodes.Episodes.of_round(of_round, 4, np.array([11, 12, 13]), episode, HIDDEN)
+    return episodes.Episodes.of_round(of_round, rules.Rules(4, 4, 100), np.array([11, 12, 13]), episode, HIDDEN)
 
 
 def test_a_round_becomes_a_row_for_each_of_its_episodes():
@@ -32,6 +33,17 @@ def test_a_round_becomes_a_row_for_each_of_its_episodes():
     assert table.interactions.tolist() == [2, 0, 4] and table.is_timeout.tolist() == [False, False, True]
     assert [table.actions_of(index).tolist() for index in range(3)] == [[0, 3, 5], [7], [2, 2, 2, 2]]
     assert table.returns(0.5).tolist() == [0.25, -1, -0.125]  # 0.5^2, 0.5^0, 0.5^3.
+
+
+def test_an_episode_of_several_questions_earns_all_its_rewards_and_counts_all_its_answers():
+    """Two questions, 4 interactions, 2 labels: right and wrong; right, then out of time; right in the last step."""
+    actions = np.array([[4, 0, 5, 0], [0, 4, 0, 0], [1, 2, 3, 4]]).T
+    rewards = np.array([[1, 0, -1, 0], [0, 1, 0, -1], [0, 0, 0, 1 - 1]], np.float32).T
+    of_round = rounds.Round(actions, rewards, np.array([3, 4, 4]), np.zeros(3, int))
+    table = episodes.Episodes.of_round(of_round, rules.Rules(4, 2, 4, 2), np.arange(3), 0)
+    assert table.returns(0.5).tolist() == [1 - 0.25, 0.5 - 0.125, 0]
+    assert table.right.tolist() == [0.5, 0.5, 0.5] and table.summary(0.5)["success_rate"] == 0.5
+    assert table.is_timeout.tolist() == [False, True, True] and table.interactions.tolist() == [1, 3, 3]
 
 
 def test_rounds_of_different_lengths_are_joined_and_cut():

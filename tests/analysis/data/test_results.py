@@ -13,6 +13,7 @@ from physexp.agents.a3c import config as a3c
 from physexp.analysis.data import episodes, results
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import records
+from physexp.suite.engine import rules
 
 STORED = blocks.ROOT / "results"
 
@@ -39,7 +40,7 @@ def played(run, trial="learned", num_environments=3):
     rewards[lengths - 1, np.arange(num_environments)] = 1
     rewards[-1, -1] = -1
     of_round = rounds.Round(actions, rewards, lengths, answers)
-    table = episodes.Episodes.of_round(of_round, 4, seeds, 7)
+    table = episodes.Episodes.of_round(of_round, rules.Rules(4, 4, 100), seeds, 7)
     return records.of_episodes(table, run, trial, np.full(num_environments, 0.1))
 
 
@@ -119,7 +120,7 @@ def test_records_hold_long_episodes_and_many_actions():
     actions = np.full((40_000, 1), 199)
     actions[-1] = 399
     long = rounds.Round(actions, np.ones((40_000, 1), np.float32), np.array([40_000]), np.array([199]))
-    table = episodes.Episodes.of_round(long, 200, np.array([1]), 0)
+    table = episodes.Episodes.of_round(long, rules.Rules(200, 4, 1000), np.array([1]), 0)
     (found,) = records.of_episodes(table, config(), "learned", np.array([65e-6])).to_pylist()
     assert found["answer"] == 199 and found["actions"] == actions[:, 0].tolist()
 

@@ -30,7 +30,9 @@ def test_the_summary_of_four_episodes_is_the_one_computed_by_hand():
         reward=np.array([1.0, -1.0, -1.0, 1.0]),
         length=np.array([1, 3, 100, 2]),
         interactions=np.array([0, 2, 100, 1]),
+        num_questions=np.ones(4, int),
         actions=actions,
+        rewards=np.where(np.arange(100) == np.array([[0], [2], [99], [1]]), [[1.0], [-1.0], [-1.0], [1.0]], 0.0),
     )
     summary = played.summary(0.9)
     assert list(summary) == evaluation_figures.NAMES
