@@ -68,7 +68,7 @@ def _earned(name: str, discount: float, figures: Mapping[str, Any]) -> Iterator[
     shares = [f"{number} in {share:.1%}" for number, share in figures["histogram"].items() if share >= 5e-4]
     yield (
         f"{'It' if value == bound else 'The policy that earns the lower figure'} is right in {figures['accuracy']:.2%} "
-        f"of the episodes, after {figures['mean_interactions']:.2f} interactions on average: {', '.join(shares)}."
+        f"of the answers, after {figures['mean_interactions']:.2f} interactions on average: {', '.join(shares)}."
     )
 
 
@@ -81,6 +81,13 @@ def _compared(summary: Mapping[str, Any]) -> Iterator[str]:
         random = [f"{summary[name]:.4f}" for name in ("random_value", "random_bound") if name in summary]
         yield f"An answer without any interaction earns {summary['at_once']:.4f}."
         yield f"Random interactions with the best answers at the best moment earn {' to '.join(random)}."
+    if "forgetful_value" in summary:
+        ours, theirs = (
+            ", ".join(f"{number:.2f}" for number in summary[name]) for name in ("by_question", "forgetful_by_question")
+        )
+        share = summary["forgetful_value"] / summary["value"]
+        yield f"Before its answers, one after the other, it makes {ours} interactions."
+        yield f"An experimenter that forgets after each answer makes {theirs}, and earns {share:.3f} of the return."
 
 
 def _planned(value: float, planning: Mapping[str, float]) -> Iterator[str]:

@@ -137,16 +137,29 @@ def resting_domain(
       **facts: other attributes of the domain.
     """
 
-    def solve(task: str, task_kwargs: Mapping[str, Any], discount: float) -> "resting.Solution":
+    def solve(task: str, task_kwargs: Mapping[str, Any], discount: float) -> "ideal.Solution":
         from physexp import suite
-        from physexp.analysis.ideal import resting
+        from physexp.analysis.ideal import questions, resting
 
         played = suite.load_task(name, task, task_kwargs)
+        known = apparatus(played.options)
+        can_read = read if "features" in suite.tags(name, task) else None
+        if told := played.told:
+            return questions.Solution(
+                known,
+                told.tables,
+                told.count,
+                discount,
+                played.rules.step_limit,
+                read=can_read,
+                ask=lambda observation: observation[told.reading],
+                find=lambda hidden: (int(played.kinds(hidden[None])[0]), told.drawn(hidden)),
+            )
         return resting.Solution(
-            apparatus(played.options),
+            known,
             discount,
             played.rules.step_limit,
-            read=read if "features" in suite.tags(name, task) else None,
+            read=can_read,
             label=lambda hidden: int(played.answers(hidden[None])[0]),
         )
 
