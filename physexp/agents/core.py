@@ -25,6 +25,10 @@ class Specs(Protocol):
     def num_interactions(self) -> int:
         """Returns how many actions are interactions; they come first, labels after them."""
 
+    @property
+    def is_told(self) -> bool:
+        """Returns whether the first observation of an episode tells which question is asked."""
+
     def observation_spec(self) -> Mapping[str, specs.Array]:
         """Returns the spec of each array that one environment observes, by name."""
 

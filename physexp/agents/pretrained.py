@@ -114,7 +114,7 @@ def _make(facts: Mapping[str, Any], seed: int = 0) -> networks.RecurrentNetwork:
         key: specs.Array(tuple(shape), np.dtype(dtype), key) for key, (shape, dtype) in facts["observations"].items()
     }
     for key, value in facts["hyperparameters"].items():
-        if not checks.is_number(value) and not isinstance(value, str):
+        if not checks.is_number(value) and not isinstance(value, (str, bool)):
             raise ValueError(f"{key} is {value!r}")
     with devices.own_torch():
         torch.default_generator.manual_seed(seed)

@@ -33,7 +33,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
 
     Observations, features or the convolutions of an image, are taken relative to the start of the episode and to the
     step before, in units of their mean change, which the learner measures. The direction of the last change tells which
-    things moved together, however far.
+    things moved together, however far. A question that is told is in the first observation itself.
 
     The convolutions keep their random weights, which preserve the content of an image (Saxe et al., 2011), so that each
     image passes them once, when it is played. A projection, shared by all members, learns the part that matters.
@@ -53,6 +53,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         memory: config_lib.Memory,
         max_interactions: int,
         discount: float,
+        sees_start: bool = False,
     ):
         """Builds the network, with weights from torch's global seed; for the hyperparameters see `BeliefConfig`."""
         super().__init__(observation_spec, _PIXEL_SCALE, 1.0)
@@ -63,7 +64,8 @@ class BeliefNetwork(networks.RecurrentNetwork):
         if self.sees_images:
             self._num_seen = _WIDTH
             self.projection = Projection(self.num_inputs, _WIDTH)
-        history_size = 3 * self._num_seen + num_interactions + 1
+        self._sees_start = sees_start
+        history_size = (3 + sees_start) * self._num_seen + num_interactions + 1
         self.members = Members(history_size, num_actions - num_interactions, num_interactions, memory)
         self.register_buffer("log_scale", torch.zeros(()))
 
@@ -75,6 +77,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
             "memory": config.memory,
             "max_interactions": config.max_interactions,
             "discount": config.discount,
+            **({"sees_start": True} if task.is_told else {}),
         }
 
     def initial_state(self, batch_size: int) -> networks.State:
@@ -142,7 +145,8 @@ class BeliefNetwork(networks.RecurrentNetwork):
         change, moved = (seen - first) / unit, torch.diff(seen, dim=1, prepend=first) / unit
         direction = moved / (moved.norm(dim=-1, keepdim=True) + _STILL)
         times = torch.arange(seen.shape[1], dtype=seen.dtype, device=seen.device)[:, None] / self.max_interactions
-        return torch.cat([change, moved, direction, done, times.expand(len(seen), -1, -1)], dim=-1)
+        parts = [change, moved, direction, done, times.expand(len(seen), -1, -1)]
+        return torch.cat(parts + [(first / unit).expand_as(change)] * self._sees_start, dim=-1)
 
     def _one_hot(self, actions: torch.Tensor) -> torch.Tensor:
         """Maps actions to one number for each interaction, all 0 for a label."""
