@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 import dataclasses
+import functools
 from pathlib import Path
 
 import numpy as np
@@ -48,23 +49,26 @@ def create(folder: Path, question: protocol.Question, target: str) -> MinariStor
 
 def add(
     storage: MinariStorage,
+    question: protocol.Question,
     played: Sequence[episodes.Episode],
     judged: Sequence[ideal_base.Judgement | None],
 ) -> None:
-    """Adds episodes and, where they are known, their judgements to a data set."""
+    """Adds episodes of a task and, where they are known, their judgements to a data set."""
     first = storage.total_episodes
-    storage.update_episodes(map(_buffer, played, judged))
-    facts = [{"answer": episode.answer, "hidden": episode.hidden.ravel()} for episode in played]
+    storage.update_episodes(map(functools.partial(_buffer, question), played, judged))
+    facts = [{"answers": episode.answers, "hidden": episode.hidden.ravel()} for episode in played]
     storage.update_episode_metadata(facts, range(first, first + len(played)))
 
 
-def _buffer(episode: episodes.Episode, judged: ideal_base.Judgement | None) -> EpisodeBuffer:
+def _buffer(
+    question: protocol.Question, episode: episodes.Episode, judged: ideal_base.Judgement | None
+) -> EpisodeBuffer:
     """Returns an episode of T actions, with beliefs and values before each action and at the end."""
     infos = None
     if judged is not None:
         at_the_end = np.full((1, judged.values.shape[1]), np.nan)  # There is no action left.
         infos = {"belief": judged.beliefs, "values": np.concatenate([judged.values, at_the_end])}
-    ends = steps.ends(episode)
+    ends = steps.ends(question, episode)
     return EpisodeBuffer(
         seed=episode.seed,  # With the options, `reset` starts the episode again.
         options={"episode": episode.index},

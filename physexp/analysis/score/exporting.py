@@ -80,13 +80,15 @@ class _Writer:
         self._data_set: Any = None
         self._pending: list[episodes.Episode] = []
         self._num_pending = self._num_parts = 0
-        self._played: list[tuple[int, bool, float]] = []  # Actions, whether the answer is right, and the return.
+        self._played: list[tuple[int, float, float]] = []  # Actions, the share of right answers, and the return.
 
     def add(self, episode: episodes.Episode) -> None:
         """Adds the next episode."""
         count = len(episode.actions)
         returned = float(self.question.discount ** np.arange(count) @ episode.rewards)
-        self._played.append((count, bool(episode.rewards[-1] > 0), returned))
+        num_questions = self.question.num_questions
+        right = float((episode.rewards.sum() + num_questions) // 2) / num_questions  # Missing answers cost 1 each, too.
+        self._played.append((count, right, returned))
         self._pending.append(episode)
         self._num_pending += count
         if self._num_pending >= _ROWS:
@@ -107,7 +109,7 @@ class _Writer:
             from physexp.analysis.score import data_set
 
             self._data_set = self._data_set or data_set.create(self._minari_folder, self.question, self._minari_name)
-            data_set.add(self._data_set, self._pending, judged)
+            data_set.add(self._data_set, self.question, self._pending, judged)
         self._pending, self._num_pending = [], 0
         self._num_parts += 1
 
@@ -116,12 +118,21 @@ class _Writer:
         if not self._played:
             return {}
         question, count = self.question, len(self._played)
-        lengths, are_right, returns = zip(*self._played, strict=True)
-        names = ("options", "question", "discount", "step_limit", "num_interactions", "action_names", "label_names")
+        lengths, shares, returns = zip(*self._played, strict=True)
+        names = (
+            "options",
+            "question",
+            "discount",
+            "num_questions",
+            "step_limit",
+            "num_interactions",
+            "action_names",
+            "label_names",
+        )
         return {
             "episodes": count,
             "steps": sum(lengths),
-            "success_rate": sum(are_right) / count,
+            "success_rate": sum(shares) / count,
             "mean_return": sum(returns) / count,
             "judged": self._judge is not None,
             **{name: getattr(question, name) for name in names},

@@ -41,8 +41,9 @@ class Question:
       num_interactions: the number of interactions; they are the first actions, and answers follow.
       label_names: descriptions of the answers.
       action_names: descriptions of all actions.
+      num_questions: the number of answers in an episode; only the last one ends it.
       step_limit: the maximum number of actions in an episode; the last one in time should be an answer.
-      discount: gamma; an episode counts gamma to the power of (number of actions - 1), times its reward.
+      discount: gamma; a reward counts gamma to the power of the number of actions before it.
     """
 
     name: str
@@ -56,6 +57,7 @@ class Question:
     num_interactions: int
     label_names: tuple[str, ...]
     action_names: tuple[str, ...]
+    num_questions: int
     step_limit: int
     discount: float
 
@@ -100,6 +102,7 @@ def _question(domain: str, task: str, given: tuple[tuple[str, Any], ...]) -> Que
         num_interactions=played.num_interactions,
         label_names=tuple(played.label_names),
         action_names=tuple(played.action_names),
+        num_questions=played.rules.num_questions,
         step_limit=played.rules.step_limit,
         discount=played.discount,
     )

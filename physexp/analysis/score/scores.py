@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 import pyarrow
-from scipy import stats
+from scipy import special, stats
 
 from physexp.analysis.data import episodes
 from physexp.analysis.ideal import base, mistakes
@@ -55,10 +55,15 @@ def reference(question: protocol.Question, num_episodes: int) -> Reference | Non
     _, first, counts = np.unique(drawn, axis=0, return_index=True, return_counts=True)
     with contextlib.closing(protocol.load(question)) as environment:
         played = [episodes.play(environment, actor, int(index)) for index in first]
-    gains = [mistakes.information(solution.beliefs(one.hidden, one.actions))[:-1] for one in played]
-    lengths = np.array([len(bits) for bits in gains])
-    padded = np.array([np.pad(bits, (0, lengths.max() - len(bits))) for bits in gains])
-    return Reference(float(counts @ lengths / num_episodes), counts @ padded / num_episodes)
+    taken = [one.actions < question.num_interactions for one in played]
+    bits = [
+        np.where(interacts, mistakes.information(solution.beliefs(one.hidden, one.actions)), 0.0)[:-1]
+        for one, interacts in zip(played, taken, strict=True)
+    ]
+    longest = max(map(len, bits))
+    padded = np.array([np.pad(each, (0, longest - len(each))) for each in bits])
+    interactions = np.array([interacts.sum() for interacts in taken])
+    return Reference(float(counts @ interactions / num_episodes), counts @ padded / num_episodes)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -91,10 +96,12 @@ def _of_task(
     """Returns the score of a task; `seed` draws its bootstrap."""
     first = columns["step"] == 0
     last = np.append(first[1:], True)
-    index, length = np.cumsum(first) - 1, np.flatnonzero(last) - np.flatnonzero(first) + 1
+    index, num_episodes = np.cumsum(first) - 1, int(first.sum())
     are_answers = columns["action"] >= question.num_interactions
     factors = question.discount ** columns["step"].astype(float)
-    ideal, at_once = float(columns["value"][0]), float(columns["answering"][0])
+    ideal, at_once = (_mean(columns[name][first]) for name in ("value", "answering"))
+    if question.num_questions > 1:  # The value of an answer has that of the questions after it.
+        at_once = protocol.ideal(question).compared()["at_once"]
     floor = base.floor(at_once, question.discount, question.step_limit)
 
     def discounted(values: np.ndarray) -> np.ndarray:
@@ -105,12 +112,13 @@ def _of_task(
     costs = {kind: discounted(cost) / (ideal - floor) for kind, cost in each.items()}
     scores = 1 - np.sum(list(costs.values()), axis=0)
     raw = (discounted(columns["reward"]) - floor) / (ideal - floor)
-    silent = ~are_answers[last]
-    interactions = length - ~silent
-    gains = np.bincount(columns["step"][~are_answers], columns["bits"][~are_answers]) / first.sum()
+    answered, interactions = np.bincount(index, are_answers), np.bincount(index, ~are_answers)
+    # A question that is not answered costs as much as a wrong answer.
+    right = (np.bincount(index, columns["reward"]) + question.num_questions) // 2
+    gains = np.bincount(columns["step"][~are_answers], columns["bits"][~are_answers]) / num_episodes
     resampled = _resampled(scores, seed)
     metrics = {
-        "episodes": len(length),
+        "episodes": num_episodes,
         "ideal": ideal,
         "floor": floor,
         "at_once": at_once,
@@ -121,11 +129,11 @@ def _of_task(
         "raw_interval": _interval(_resampled(raw, seed)),
         "luck": float((raw - scores).mean()),
         "mistakes": {kind: float(cost.mean()) for kind, cost in costs.items()},
-        "success_rate": float((columns["reward"][last] > 0).mean()),
-        "timeouts": int(silent.sum()),
+        "success_rate": float(right.mean() / question.num_questions),
+        "timeouts": int((answered < question.num_questions).sum()),
         "mean_interactions": float(interactions.mean()),
         "ideal_interactions": known and known.interactions,
-        "bits_per_interaction": float(gains.sum() * len(length) / max(1, interactions.sum())),
+        "bits_per_interaction": float(gains.sum() * num_episodes / max(1, interactions.sum())),
         "ideal_bits_per_interaction": known and float(known.gains.sum() / (known.interactions or 1.0)),
         "gains": gains.tolist(),
         "ideal_gains": known and known.gains.tolist(),
@@ -134,13 +142,16 @@ def _of_task(
 
 
 def random_return(question: protocol.Question) -> float:
-    """Returns the expected return of uniformly random actions; one of the L answers is right in each episode."""
+    """Returns the expected return of uniformly random actions; one of the L answers to each question is right."""
     num_labels = question.num_actions - question.num_interactions
     goes_on = question.num_interactions / question.num_actions
-    steps = np.arange(question.step_limit)
+    steps, number = np.arange(question.step_limit), np.arange(question.num_questions)[:, None]  # Of answers given.
     answer = rules.WRONG + (rules.RIGHT - rules.WRONG) / num_labels
-    answered = np.sum((question.discount * goes_on) ** steps) * (1 - goes_on) * answer
-    return float(answered + question.discount ** steps[-1] * goes_on**question.step_limit * rules.WRONG)
+    odds = ((1 - goes_on) / goes_on) ** number
+    answered = np.sum(special.comb(steps, number) * odds * (question.discount * goes_on) ** steps)
+    unanswered = np.sum(special.comb(question.step_limit, number) * odds * (question.num_questions - number))
+    given = answered * (1 - goes_on) * answer
+    return float(given + question.discount ** steps[-1] * goes_on**question.step_limit * unanswered * rules.WRONG)
 
 
 def summary(found: Sequence[TaskScore]) -> dict[str, Any]:
@@ -175,6 +186,11 @@ def _resampled(values: np.ndarray, seed: int) -> np.ndarray:
     """Returns bootstrap means of values, [N], float64 [_RESAMPLES]."""
     generator = np.random.default_rng(seed)
     return np.array([values[generator.integers(len(values), size=len(values))].mean() for _ in range(_RESAMPLES)])
+
+
+def _mean(values: np.ndarray) -> float:
+    """Returns the mean of values, [N], to the last bit if all are equal."""
+    return float(values[0] + (values - values[0]).mean())
 
 
 def _interval(means: np.ndarray) -> list[float]:

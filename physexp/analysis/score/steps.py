@@ -25,7 +25,7 @@ def schema(question: protocol.Question) -> pyarrow.Schema:
             ("truncated", pyarrow.bool_()),  # The simulation has diverged: the episode has no outcome.
             *((f"next_observation_{name}", kind) for name, kind in seen.items()),
             ("hidden", _type(hidden.dtype, hidden.shape)),
-            ("answer", pyarrow.int32()),  # The right label.
+            ("answer", pyarrow.int32()),  # The right label of the current question.
             *((name, _type(np.dtype(float), (count,))) for name, count in judged.items()),
         ]
     )
@@ -38,9 +38,9 @@ def rows(
     count = len(episode.actions)
     found = {
         **log.taken(question, episode),
-        **ends(episode),
+        **ends(question, episode),
         "hidden": np.repeat(episode.hidden[None], count, axis=0),
-        "answer": np.repeat(episode.answer, count),
+        "answer": episode.answers[episode.asked(question.num_interactions)],
     }
     for name, seen in episode.observations.items():
         found |= {f"observation_{name}": seen[:-1], f"next_observation_{name}": seen[1:]}
@@ -49,10 +49,11 @@ def rows(
     return found
 
 
-def ends(episode: episodes.Episode) -> dict[str, np.ndarray]:
+def ends(question: protocol.Question, episode: episodes.Episode) -> dict[str, np.ndarray]:
     """Returns after which of T actions an episode is `terminated`, and after which `truncated`, bool [T] each."""
     last = np.arange(len(episode.actions)) == len(episode.actions) - 1
-    is_lost = last & (episode.rewards == 0)  # Every other end is right or wrong.
+    # Every other end has an answer, or costs 1 for each missing one.
+    is_lost = last & (episode.rewards == 0) & (episode.actions < question.num_interactions)
     return {"terminated": last & ~is_lost, "truncated": is_lost}
 
 

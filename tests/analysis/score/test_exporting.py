@@ -97,7 +97,7 @@ def test_a_data_set_of_minari_equals_the_table(monkeypatch):
             np.testing.assert_array_equal(loaded.infos["belief"][:-1], played["belief"])
             np.testing.assert_array_equal(loaded.infos["belief"][1:], played["next_belief"])
             np.testing.assert_array_equal(loaded.infos["values"][:-1], played["values"])
-            assert fact["answer"] == played["answer"][0]
+            assert fact["answers"] == played["answer"][0]
             np.testing.assert_array_equal(fact["hidden"], played["hidden"][0])
 
 
@@ -110,7 +110,7 @@ def test_the_seed_and_options_of_minari_s_episodes_rebuild_them():
     for loaded, told in zip(data_set, data_set.storage.get_episode_metadata(range(4)), strict=True):
         seen = [environment.reset(seed=told["seed"], options=told["options"])[0]]
         seen += [environment.step(action)[0] for action in loaded.actions]
-        assert environment.unwrapped.dm_env.task.correct_answer == told["answer"]
+        assert environment.unwrapped.dm_env.task.correct_answer == told["answers"]
         for name, values in loaded.observations.items():
             np.testing.assert_array_equal(values, [observation[name] for observation in seen])
     environment.close()

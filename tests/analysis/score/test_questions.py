@@ -1,10 +1,13 @@
 """A task is scored with its options, which its name says."""
 
+import contextlib
+import functools
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from physexp.analysis.score import log, protocol, scoring, targets, verifying
+from physexp.analysis.score import log, protocol, scores, scoring, targets, verifying
 
 
 @pytest.mark.parametrize(
@@ -40,7 +43,7 @@ def test_an_unknown_option_is_refused_with_those_that_are_allowed(name, said):
         protocol.named([name])
 
 
-def test_a_task_without_an_exact_ideal_is_refused_before_anything_is_played(here):
+def test_a_task_without_an_exact_ideal_is_refused_at_once(here):
     (noisy,) = protocol.named(["which_is_heavier/features,noise=0.001"])
     with pytest.raises(ValueError, match="noise=0.001 has no score: .*, without noise, variation and step_variation"):
         scoring.score(targets.find("random"), [noisy], 1, Path("scored"))
@@ -59,3 +62,48 @@ def test_settings_of_one_task_are_scored_side_by_side(here):
     assert single["score"] == pytest.approx(1) and double["ideal"] > single["ideal"]
     assert verifying.verify(folder)["episodes"] == 2 * 3
     assert set(log.of_task(log.read(folder), one)["task"]) == {"features,num_cans=1"}
+
+
+SEVERAL = "strings/features,questions=all,num_questions=3"
+
+
+def test_every_right_answer_to_several_questions_counts(here):
+    (asked,), folder = protocol.named([SEVERAL]), Path("scored")
+    of_ideal = scoring.score(targets.find("ideal"), [asked], 6, Path("ideal"))["tasks"][SEVERAL]
+    assert of_ideal["score"] == pytest.approx(1)
+    assert of_ideal["mean_interactions"] == of_ideal["ideal_interactions"]
+    gains, reference = of_ideal["gains"], of_ideal["ideal_gains"]  # The last steps are answers.
+    assert gains == pytest.approx(reference[: len(gains)], abs=1e-12) and not any(reference[len(gains) :])
+    metrics = scoring.score(targets.find("random"), [asked], 6, folder)["tasks"][SEVERAL]
+    assert metrics["score"] + sum(metrics["mistakes"].values()) == pytest.approx(1)
+    assert metrics["score"] + metrics["luck"] == pytest.approx(metrics["raw_score"])
+    right, returns = 0, []
+    with contextlib.closing(protocol.load(asked)) as environment:
+        for actions in log.split(log.of_task(log.read(folder), asked)):
+            environment.reset()
+            rewards = []
+            for action in actions["action"]:
+                right += action == asked.num_interactions + environment.task.correct_answer
+                rewards.append(environment.step(int(action)).reward)
+            returns.append(np.dot(asked.discount ** np.arange(len(rewards)), rewards))
+    assert metrics["success_rate"] == pytest.approx(right / (3 * 6))
+    share = (np.mean(returns) - metrics["floor"]) / (metrics["ideal"] - metrics["floor"])
+    assert metrics["raw_score"] == pytest.approx(share)
+    assert verifying.verify(folder)["episodes"] == 6
+
+
+@pytest.mark.parametrize("name", ["crush/features", SEVERAL])
+def test_random_actions_earn_the_mean_over_all_of_them(name):
+    (asked,) = protocol.named([name])
+    num_labels = asked.num_actions - asked.num_interactions
+
+    @functools.cache
+    def expected(step, left):
+        """From a step on, with some questions left; a right answer earns 1, all others and those left over cost 1."""
+        if step == asked.step_limit or not left:
+            return -left / asked.discount  # At the step before.
+        answer = 1 / num_labels - (num_labels - 1) / num_labels + asked.discount * expected(step + 1, left - 1)
+        interaction = asked.discount * expected(step + 1, left)
+        return (num_labels * answer + asked.num_interactions * interaction) / asked.num_actions
+
+    assert scores.random_return(asked) == pytest.approx(expected(0, asked.num_questions))
