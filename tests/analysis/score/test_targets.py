@@ -20,7 +20,7 @@ def test_an_unknown_target_is_refused_with_the_known_ones():
         targets.find("fly")
 
 
-def test_an_agent_plays_the_task_that_it_was_trained_on_and_others_with_equal_spaces():
+def test_an_agent_plays_its_own_task_and_others_with_equal_spaces():
     name = "which_is_heavier-features-difficulty3"
     assert names(name) == ["which_is_heavier/features,difficulty=3"]
     asked = targets.find(name).choose(["which_is_heavier/features,difficulty=2"], "features")
