@@ -21,44 +21,55 @@ def _hardest() -> np.ndarray:
 
 
 def _play(rng, batch, weights):
-    """Plays laying blocks, mostly on pans, which are often equally full; yields places, tilts, and what is observed."""
-    places = np.zeros(weights.shape, int)
+    """Plays laying blocks, mostly on pans, which are often equally full; with a latch, half of the actions release it.
+
+    Yields whether beams are free, [N], places, [N, 6], tilts, [N], and what is observed.
+    """
+    places, latch = np.zeros(weights.shape, int), batch.task.options.latch
+    release = len(SIDES) * balance.NUM_BLOCKS
 
     def draw():
         chosen = rng.choice(len(SIDES), size=len(weights), p=[0.1, 0.45, 0.45])
-        return len(SIDES) * rng.integers(balance.NUM_BLOCKS, size=len(weights)) + chosen
+        placings = len(SIDES) * rng.integers(balance.NUM_BLOCKS, size=len(weights)) + chosen
+        return np.where(rng.random(len(weights)) < 0.5 * latch, release, placings)
 
     for actions, seen in episodes.play(rng, batch, weights, draw):
-        places[np.arange(len(weights)), actions // 3] = SIDES[actions % 3]
+        (rows,) = (actions < release).nonzero()
+        places[rows, actions[rows] // 3] = SIDES[actions[rows] % 3]
         surplus = (places * weights).sum(axis=1)
-        yield places, np.sign(np.where(np.abs(surplus) < 1e-9, 0, surplus)), seen
+        is_free = (actions == release) | (not latch)
+        yield is_free, places, np.sign(np.where(is_free & (np.abs(surplus) > 1e-9), surplus, 0)), seen
 
 
-@pytest.mark.parametrize("control_timestep, time_limit", [(0.1, 4.0), (0.08, 8.0), (0.2, 8.0)])
-def test_the_beam_tilts_to_the_heavier_pan_whatever_was_there_before(seed, control_timestep, time_limit):
+@pytest.mark.parametrize(
+    "control_timestep, time_limit, latch", [(0.1, 4.0, False), (0.08, 8.0, False), (0.2, 8.0, False), (0.1, 6.0, True)]
+)
+def test_the_beam_tilts_to_the_heavier_pan_whatever_was_there_before(seed, control_timestep, time_limit, latch):
     rng = np.random.default_rng(seed)
     drawn = episodes.drawn("balance", *rng.integers(2**31, size=(2, 72)))
     weights = np.concatenate([np.tile(_hardest(), (3, 1)), drawn])
-    kwargs = {"random": seed, "control_timestep": control_timestep, "time_limit": time_limit}
+    kwargs = {"random": seed, "control_timestep": control_timestep, "time_limit": time_limit, "latch": latch}
     batch = suite.load_batch("balance", "features", len(weights), kwargs)
-    first = batch.reset(hidden=weights).observation
-    assert not first["places"].any() and not first["tilt"].any()
+    assert not any(values.any() for values in batch.reset(hidden=weights).observation.values())
     where_equally_full = set()
-    for places, tilts, seen in _play(rng, batch, weights):
+    for is_free, places, tilts, seen in _play(rng, batch, weights):
         np.testing.assert_array_equal(seen["places"], places)
         np.testing.assert_array_equal(seen["tilt"][:, 0], tilts)
-        where_equally_full |= set(tilts[places.sum(axis=1) == 0])
+        if latch:
+            np.testing.assert_array_equal(seen["released"][:, 0], is_free)
+        where_equally_full |= set(tilts[is_free & (places.sum(axis=1) == 0)])
     assert where_equally_full == {-1, 0, 1}
 
 
+@pytest.mark.parametrize("latch", [False, True])
 @episodes.features_and_pixels
-def test_observations_tell_nothing_but_places_and_tilt(seed, task):
-    """Observations follow from these two, for all weights and all histories."""
+def test_observations_tell_nothing_but_places_tilt_and_release(seed, task, latch):
+    """Observations follow from these three, for all weights and all histories."""
     weights = np.tile(_hardest(), (2, 1))
-    batch = suite.load_batch("balance", task, len(weights), {"random": seed})
+    batch = suite.load_batch("balance", task, len(weights), {"random": seed, "latch": latch})
     followed = episodes.Followed()
-    for places, tilts, observation in _play(np.random.default_rng(seed), batch, weights):
-        followed.add(map(tuple, np.column_stack([places, tilts])), observation)
+    for is_free, places, tilts, observation in _play(np.random.default_rng(seed), batch, weights):
+        followed.add(map(tuple, np.column_stack([is_free, places, tilts])), observation)
     assert followed.num_different() > 200
 
 

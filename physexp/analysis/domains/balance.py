@@ -7,7 +7,7 @@ def _apparatus(options):
     from physexp.analysis.ideal import counterfeit
     from physexp.suite.domains import balance
 
-    return counterfeit.Scale(balance.NUM_BLOCKS, balance.num_suspects(options.difficulty))
+    return counterfeit.Scale(balance.NUM_BLOCKS, balance.num_suspects(options.difficulty), options.latch)
 
 
 DOMAIN = base.resting_domain(

@@ -37,10 +37,12 @@ _DAMPING = 2 * np.sqrt(_STIFFNESS * _INERTIA)  # N m s/rad
 _STOPPING = material.stop(PHYSICS_TIMESTEP)
 
 _SHORTEST_STEP = 0.08  # s: a beam is at rest, to a reader, within it
+_SHORTEST_STEP_WITH_LATCH = 0.1  # s: the same, if the loads of all blocks come and go at once
 
 _SPACING = 0.15  # m, between blocks
 _REACH = 0.34  # m, from where a block lies aside to where it lies on a pan
 _POINTER_Y, _POINTER_TRAVEL = -0.58, 0.34  # m
+_LATCH, _LATCH_TRAVEL = (0.0, 0.55), (0.2, 0.0, 0.0)  # m
 _PAN_HALF_SIZE = (0.08, 0.47, 0.004)  # m
 _PAN_RGBA, _POINTER_RGBA = (0.55, 0.55, 0.60, 1.0), (0.15, 0.15, 0.18, 1.0)
 _ROOM = dict(mat_size=[0.5, 0.68], camera_pos=[0, -1.9, 3.2], camera_target=[0, -0.07, 0], fovy=19.0)
@@ -58,10 +60,16 @@ class Options(options_lib.Options):
         checks.among(1, 2, 3),
         help="1, 2 or 3: 1 plus the number of blocks, drawn grey, that cannot be the odd one; the larger, the easier",
     )
+    latch: bool = checked(
+        False,
+        checks.flag,
+        help="whether a latch holds the beam level until one more action releases it, for a step; harder",
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.check_step(_SHORTEST_STEP, "the beam comes to rest")
+        shortest = _SHORTEST_STEP_WITH_LATCH if self.latch else _SHORTEST_STEP
+        self.check_step(shortest, "the beam comes to rest")
 
 
 def num_suspects(difficulty: float) -> int:
@@ -91,6 +99,7 @@ class Balance(contract.Task):
     def build(self) -> contract.Scene:
         room = arena.Laboratory(**_ROOM, contact=False)
         hinge = _add_beam(room)
+        latch = self.options.latch
         for side, sign in SIDES.items():
             room.add_scenery(f"{side}_pan", _PAN_HALF_SIZE, [sign * _REACH, 0, _PAN_HALF_SIZE[2]], _PAN_RGBA)
         blocks, torques = [], []
@@ -99,30 +108,42 @@ class Balance(contract.Task):
             cube = things.Block(things.COLORS[k] if is_suspect else _PAN_RGBA, mass=WEIGHT, name=f"block_{k}")
             room.attach(cube).pos = [0, ((NUM_BLOCKS - 1) / 2 - k) * _SPACING, things.HALF_SIZE]
             blocks.append(cube)
-            torques.append(room.add_actuator(f"block_{k}", hinge))
-        self._loads = tuple(torque.actuator.full_identifier for torque in torques)
+            torques.append(room.add_actuator(f"block_{k}", hinge, gear=[0.0 if latch else 1.0]))
+        # With a latch these keep the places alone, and others load the beam when it is released.
+        loads = [room.add_actuator(f"load_{k}", hinge) for k in range(NUM_BLOCKS)] if latch else torques
+        self._loads = tuple(load.actuator.full_identifier for load in loads)
         pointer = things.stand_flag(room, "pointer", _POINTER_RGBA, (0, _POINTER_Y), "tilt", (_POINTER_TRAVEL, 0, 0))
         angle = room.mjcf_model.sensor.add("jointpos", name="angle", joint=hinge)
         places_meaning = "where each block lies: -1 on the left pan, 1 on the right pan, 0 aside"
         tilt_meaning = "which pan is heavier: -1 the left one, 1 the right one, 0 neither"
+        controls = np.eye(2 * NUM_BLOCKS + 1 if latch else NUM_BLOCKS)  # In the order of `drive`.
+        interactions = [
+            declarations.Interaction(
+                f"put block {k} {place}", side * controls[k], f"block_{k}", (0.0, 0.0, -float(abs(side)))
+            )
+            for k in range(NUM_BLOCKS)
+            for place, side in PLACES.items()
+        ]
+        readings = {
+            "places": measures.coarse(torques, places_meaning, np.sign, (-1, 1), NUM_BLOCKS),
+            "tilt": measures.coarse([angle], tilt_meaning, _tilt, (-1, 1)),
+        }
+        indicators = [
+            *(declarations.Indicator(cube.geom, "places", k, (_REACH, 0, 0)) for k, cube in enumerate(blocks)),
+            pointer,
+        ]
+        if latch:
+            interactions.append(declarations.Interaction("release the beam", controls[-1], "latch", (0.0, 0.0, -1.0)))
+            released = room.add_actuator("latch", hinge, gear=[0.0])
+            meaning = "1 if the last action released the beam, 0 otherwise"
+            readings["released"] = measures.coarse([released], meaning, measures.is_on)
+            indicators.append(things.stand_flag(room, "latch", _POINTER_RGBA, _LATCH, "released", _LATCH_TRAVEL))
         return contract.Scene(
             arena=room,
-            interactions=[
-                declarations.Interaction(
-                    f"put block {k} {place}", side * np.eye(NUM_BLOCKS)[k], f"block_{k}", (0.0, 0.0, -float(abs(side)))
-                )
-                for k in range(NUM_BLOCKS)
-                for place, side in PLACES.items()
-            ],
+            interactions=interactions,
             label_names=[f"block {k} is {kind}" for k in range(NUM_BLOCKS) for kind in ("heavier", "lighter")],
-            readings={
-                "places": measures.coarse(torques, places_meaning, np.sign, (-1, 1), NUM_BLOCKS),
-                "tilt": measures.coarse([angle], tilt_meaning, _tilt, (-1, 1)),
-            },
-            indicators=[
-                *(declarations.Indicator(cube.geom, "places", k, (_REACH, 0, 0)) for k, cube in enumerate(blocks)),
-                pointer,
-            ],
+            readings=readings,
+            indicators=indicators,
         )
 
     largest_hidden = WEIGHT * (1 + DIFFERENCES[1])
@@ -151,12 +172,17 @@ class Balance(contract.Task):
         return {"actuator_gainprm": (np.array([apparatus.model.actuator(load).id for load in self._loads]), gains)}
 
     def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
-        """Returns where the blocks are, -1 for the left pan, 1 for the right one, 0 for aside, [N, NUM_BLOCKS]."""
-        places = ctrl.copy()
-        moved = np.asarray(actions) // len(PLACES)
-        rows = np.arange(len(places))
-        places[rows, moved] = self.controls[actions][rows, moved]
-        return places
+        """Returns where the blocks are, -1 for the left pan, 1 for the right one, 0 for aside, [N, NUM_BLOCKS].
+
+        With a latch, also the places that load the beam, and whether it is released, [N, 2 * NUM_BLOCKS + 1].
+        """
+        is_moved = np.asarray(actions)[:, None] // len(PLACES) == np.arange(NUM_BLOCKS)
+        wanted = self.controls[actions]
+        places = np.where(is_moved, wanted[:, :NUM_BLOCKS], ctrl[:, :NUM_BLOCKS])
+        if not self.options.latch:
+            return places
+        released = wanted[:, -1:]
+        return np.concatenate([places, places * released, released], axis=1)
 
     def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
         return declarations.Revealed(marks={f"block_{k}": f"{weight:.2f} kg" for k, weight in enumerate(hidden)})

@@ -78,13 +78,18 @@ def specimens_of(prior, num_specimens):
     return dict(enumerate(prior)), moves, num_specimens
 
 
-def coins(num_things, num_suspects):
-    """One suspect is heavier or lighter; an interaction puts a thing aside, on the left pan or on the right one."""
+def coins(num_things, num_suspects, is_held):
+    """One suspect is heavier or lighter; an interaction puts a thing aside, on the left pan or on the right one.
+
+    The tilt is seen at once, or only if one more interaction asks for it.
+    """
 
     def moves(sides):
         for thing, side in itertools.product(range(num_things), (0, -1, 1)):
             moved = (*sides[:thing], side, *sides[thing + 1 :])
-            yield moved, functools.partial(tilt, moved)
+            yield moved, (lambda label: None) if is_held else functools.partial(tilt, moved)
+        if is_held:
+            yield sides, functools.partial(tilt, sides)
 
     def tilt(sides, label):
         odd, sign = label
@@ -134,9 +139,18 @@ def test_a_search_over_sets_of_levels_finds_the_same_values():
         agree(intervals.Thresholds(prior), levels(prior), discount, int(step_limit))
 
 
-@pytest.mark.parametrize("things, suspects, discount, step_limit", [(3, 2, 0.95, 9), (4, 3, 0.5, 8), (4, 2, 1.0, 7)])
-def test_a_search_over_placings_of_coins_finds_the_same_values(things, suspects, discount, step_limit):
-    agree(counterfeit.Scale(things, suspects), coins(things, suspects), discount, step_limit)
+@pytest.mark.parametrize(
+    "things, suspects, discount, step_limit, is_held",
+    [
+        (3, 2, 0.95, 9, False),
+        (4, 3, 0.5, 8, False),
+        (4, 2, 1.0, 7, False),
+        (3, 3, 0.98, 12, True),
+        (4, 2, 1.0, 7, True),
+    ],
+)
+def test_a_search_over_placings_of_coins_finds_the_same_values(things, suspects, discount, step_limit, is_held):
+    agree(counterfeit.Scale(things, suspects, is_held), coins(things, suspects, is_held), discount, step_limit)
 
 
 UNEQUAL = [0.3, 0.2, 0.1, 0.1, 0.1, 0.1, 0.05, 0.05]
@@ -234,6 +248,13 @@ def test_played_episodes_earn_the_value():
 def test_an_impossible_reading_is_refused():
     with pytest.raises(ValueError, match=r"after interaction 6 the reading is 0; expected one of \[1\]"):
         intervals.Thresholds(np.full(8, 1 / 8)).after(between(2, 4), 6, 0)
+
+
+def test_a_latch_costs_one_action_for_each_weighing():
+    # Two placings make a new weighing, and its result is seen with the second one, or after a release.
+    free, held = (ideals.of("balance", latch=latch).outcomes() for latch in (False, True))
+    np.testing.assert_array_equal(np.sort(held[0]), np.sort(free[0] * 3 // 2))
+    assert free[1].all() and held[1].all()
 
 
 def test_it_clamps_only_if_pulls_leave_several_graphs():
