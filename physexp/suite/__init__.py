@@ -33,6 +33,7 @@ __all__ = [
     "options",
     "tagged",
     "tags",
+    "versions",
 ]
 
 _domains.register()
@@ -65,6 +66,12 @@ def options(domain_name: str) -> type[Options]:
     """Returns the class of a domain's options: the fields and defaults of its `task_kwargs`."""
     kind: type[Options] = _find_domain(domain_name).Options
     return kind
+
+
+def versions(domain_name: str) -> tuple[Mapping[str, Any], ...]:
+    """Returns the options that make each version of a domain's tasks, from v0 to the one without options."""
+    kwargs: tuple[Mapping[str, Any], ...] = getattr(_find_domain(domain_name), "VERSIONS", ({},))
+    return kwargs
 
 
 def load(

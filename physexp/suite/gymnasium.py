@@ -1,6 +1,7 @@
 """The environments for Gymnasium: one by one, and as a vector environment on a batch.
 
-Importing this module registers every task, so that Gymnasium finds them by name with the module before it::
+Importing this module registers every version of every task, so that Gymnasium finds them by name with the module
+before it::
 
     gymnasium.make("physexp.suite.gymnasium:physexp/towers-fist_pixels-v0")
     gymnasium.make_vec("physexp.suite.gymnasium:physexp/towers-fist_pixels-v0", num_envs=64,
@@ -360,15 +361,17 @@ def _masked(infos: Mapping[str, np.ndarray], mask: np.ndarray) -> Infos:
     return {**shown, **{f"_{name}": mask.copy() for name in infos}}
 
 
-def environment_id(domain: str, task: str) -> str:
-    """Returns the name under which a task is registered."""
-    return f"physexp/{domain}-{task}-v0"
+def environment_id(domain: str, task: str, version: int | None = None) -> str:
+    """Returns the name under which a version of a task, by default the newest, is registered."""
+    newest = len(suite.versions(domain)) - 1
+    return f"physexp/{domain}-{task}-v{newest if version is None else version}"
 
 
 for _domain, _task in suite.ALL_TASKS:
-    gymnasium.register(
-        environment_id(_domain, _task),
-        entry_point=f"{__name__}:Environment",
-        vector_entry_point=f"{__name__}:VectorEnvironment",
-        kwargs={"domain": _domain, "task": _task},
-    )
+    for _version, _kwargs in enumerate(suite.versions(_domain)):
+        gymnasium.register(
+            environment_id(_domain, _task, _version),
+            entry_point=f"{__name__}:Environment",
+            vector_entry_point=f"{__name__}:VectorEnvironment",
+            kwargs={"domain": _domain, "task": _task, **_kwargs},
+        )

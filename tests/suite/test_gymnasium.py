@@ -42,7 +42,7 @@ assert batch.reset(seed=0)[0]["positions"].shape == (5, 5, 3)
 
 @pytest.mark.parametrize("name", FEATURES)
 def test_an_episode_is_that_of_the_environment_behind_it(name, seed):
-    domain, task = name.removeprefix("physexp/").removesuffix("-v0").split("-")
+    domain, task = name.removeprefix("physexp/").rpartition("-v")[0].split("-")
     environment = gymnasium.make(name)
     expected = suite.load(domain, task, task_kwargs={"random": seed})
     generator = np.random.default_rng(seed)
