@@ -18,7 +18,7 @@ sys.path.insert(0, str(ROOT / "docs"))
 import structure  # noqa: E402
 
 MODULES = sorted((ROOT / "physexp").rglob("*.py"))
-COMMON = {field.name for field in dataclasses.fields(suite.Options)}
+COMMON = set(suite.Options.__annotations__)
 SHARED = {"difficulty", "questions", "num_questions"}  # Options of several domains, or with words of the whole package.
 LONGEST = 400  # Lines of a module.
 

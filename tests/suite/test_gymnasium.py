@@ -40,6 +40,12 @@ assert batch.reset(seed=0)[0]["positions"].shape == (5, 5, 3)
     subprocess.run([sys.executable, "-c", program], check=True)
 
 
+@pytest.mark.parametrize("version, physics_timestep", [(0, 0.02), (1, 0.004)])
+def test_the_first_version_of_sealed_box_has_its_coarse_steps(version, physics_timestep):
+    environment = gymnasium.make(f"physexp/sealed_box-features-v{version}")
+    assert environment.unwrapped.dm_env.task.options.physics_timestep == physics_timestep
+
+
 @pytest.mark.parametrize("name", FEATURES)
 def test_an_episode_is_that_of_the_environment_behind_it(name, seed):
     domain, task = name.removeprefix("physexp/").rpartition("-v")[0].split("-")
@@ -111,7 +117,7 @@ def assert_same(ours, theirs):
 
 @pytest.mark.parametrize("mode", gymnasium.vector.AutoresetMode)
 @pytest.mark.parametrize(
-    ("name", "is_flat"), [(NAMES[0], False), ("physexp/sealed_box-features-v0", True), (PIXELS, False)]
+    ("name", "is_flat"), [(NAMES[0], False), ("physexp/sealed_box-features-v1", True), (PIXELS, False)]
 )
 def test_a_vector_environment_is_gymnasiums_own_of_single_ones(name, is_flat, mode, seed):
     ours = gymnasium.make_vec(name, num_envs=4, flat_observation=is_flat, autoreset_mode=mode)

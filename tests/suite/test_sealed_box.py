@@ -14,18 +14,21 @@ FORCES = np.array([*sealed_box.PUSHES.values(), 0.0])
 WAIT = 4
 
 
-def _compiled(content: sealed_box.Content) -> mujoco.MjModel:
-    """A model with all that is in the box compiled into it."""
+STIFF = 'solreflimit="0.008 1" solimplimit="0.9999 0.9999 0.001 0.5 2"'
+
+
+def _compiled(content: sealed_box.Content, physics_timestep: float, walls: str) -> mujoco.MjModel:
+    """A model with all that is in the box compiled into it, and attributes of the walls in MJCF."""
     weight = content.share * content.mass
     return mujoco.MjModel.from_xml_string(f"""
         <mujoco>
-          <option timestep="0.02" gravity="0 0 0"/>
+          <option timestep="{physics_timestep}" gravity="0 0 0"/>
           <worldbody>
             <body>
               <joint name="rail" type="slide" axis="1 0 0" stiffness="60" damping="2"/>
               <geom type="box" size="0.13 0.13 0.13" mass="{content.mass - weight}" contype="0" conaffinity="0"/>
               <body>
-                <joint type="slide" axis="1 0 0" limited="true" range="{-content.gap} {content.gap}"
+                <joint type="slide" axis="1 0 0" limited="true" range="{-content.gap} {content.gap}" {walls}
                   stiffness="{content.stiffness}" damping="{content.damping}"/>
                 <geom size="0.03" mass="{weight}" contype="0" conaffinity="0"/>
               </body>
@@ -35,10 +38,33 @@ def _compiled(content: sealed_box.Content) -> mujoco.MjModel:
         </mujoco>""")
 
 
-def test_boxes_move_as_if_their_content_were_compiled_into_them(seed):
-    batch = suite.load_batch("sealed_box", "features", len(ALL), {"random": seed})
-    models = [_compiled(content) for content in sealed_box.ALL_CONTENTS]
+@pytest.mark.parametrize("physics_timestep, walls", [(0.004, STIFF), (0.002, STIFF), (0.02, "")])
+def test_boxes_move_as_if_their_content_were_compiled_into_them(seed, physics_timestep, walls):
+    kwargs = {"random": seed, "physics_timestep": physics_timestep}
+    batch = suite.load_batch("sealed_box", "features", len(ALL), kwargs)
+    models = [_compiled(content, physics_timestep, walls) for content in sealed_box.ALL_CONTENTS]
     episodes.assert_moves_as(models, FORCES, np.random.default_rng(seed), batch, ALL, atol=1e-9)
+
+
+def test_the_walls_stop_a_loose_weight_within_half_of_its_gap(seed):
+    loose = np.tile(ALL[sealed_box.KINDS == 1], 4)
+    gaps = np.array([sealed_box.ALL_CONTENTS[content].gap for content in loose])
+    kwargs = {"random": seed, "control_timestep": 0.004, "time_limit": 2.0}
+    batch, rng = suite.load_batch("sealed_box", "features", len(loose), kwargs), np.random.default_rng(seed)
+    pushes = iter(np.repeat(rng.integers(len(FORCES), size=(20, len(loose))), 25, axis=0))  # Each lasts 0.1 s.
+    for _ in episodes.play(rng, batch, loose, lambda: next(pushes)):
+        assert (np.abs(episodes.coordinates(batch)[:, 1]) < 1.5 * gaps).all()
+
+
+def test_a_finer_step_changes_few_readings(seed):
+    """A twelfth of them at 5 mm, and two fifths with the first version's coarse step."""
+    contents, seen = np.tile(ALL, 8), {}
+    for physics_timestep in (0.0005, 0.004, 0.02):
+        kwargs = {"random": seed, "physics_timestep": physics_timestep, "time_limit": 0.7}
+        batch = suite.load_batch("sealed_box", "features", len(contents), kwargs)
+        played = episodes.play(np.random.default_rng(seed), batch, contents)
+        seen[physics_timestep] = np.array([np.round(episodes.coordinates(batch)[:, 0] / 0.005) for _ in played])
+    assert np.mean(seen[0.004] != seen[0.0005]) < 0.15 < 0.3 < np.mean(seen[0.02] != seen[0.0005])
 
 
 @pytest.mark.parametrize("control_timestep", [0.02, 0.06])

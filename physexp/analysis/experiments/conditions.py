@@ -125,8 +125,10 @@ def towers(actuator: str, observations: str = "features") -> Condition:
 
 
 def _with_preset(domain: str, task: str) -> Condition:
+    """Returns A3C on a task as it is in the score's protocol."""
     agent = config_lib.preset(domain, task, algorithm="a3c").replace(num_workers=1)
-    return Condition(domain=domain, task=task, agent=agent)
+    task_kwargs = domains.find(domain).protocol_options or {}
+    return Condition(domain=domain, task=task, task_kwargs=task_kwargs, agent=agent)
 
 
 HEAVIER = tuple(

@@ -19,7 +19,7 @@ def simulation(content):
     """Returns a function from a sequence of actions to the position of a box with some content, m."""
     weight = content.share * content.mass
     spec = mujoco.MjSpec()
-    spec.option.timestep, spec.option.gravity = 0.02, [0, 0, 0]
+    spec.option.timestep, spec.option.gravity = 0.004, [0, 0, 0]
     box = spec.worldbody.add_body(mass=content.mass - weight, inertia=[1, 1, 1], explicitinertial=True)
     slide = mujoco.mjtJoint.mjJNT_SLIDE
     box.add_joint(name="rail", type=slide, axis=[1, 0, 0], stiffness=[60, 0, 0], damping=[2, 0, 0])
@@ -29,11 +29,13 @@ def simulation(content):
         axis=[1, 0, 0],
         limited=True,
         range=[-content.gap, content.gap],
+        solref_limit=[0.008, 1.0],
+        solimp_limit=[0.9999, 0.9999, 0.001, 0.5, 2.0],
         stiffness=[content.stiffness, 0, 0],
         damping=[content.damping, 0, 0],
     )
     spec.add_actuator(target="rail", trntype=mujoco.mjtTrn.mjTRN_JOINT).set_to_motor()
-    return trees.simulation(spec.compile(), FORCES, 5)
+    return trees.simulation(spec.compile(), FORCES, 25)
 
 
 def test_its_value_lies_between_the_bounds_of_a_tree():
