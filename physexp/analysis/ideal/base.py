@@ -138,8 +138,12 @@ class Player(core.EpisodicActor):
 
 
 def floor(at_once: float, discount: float, step_limit: float) -> float:
-    """Returns the better of the returns of an answer at once and of none before the time limit: a score of 0."""
-    return max(at_once, rules.WRONG * discount ** (step_limit - 1))
+    """Returns the best return without looking, given that of the likeliest answer at once.
+
+    Each interaction before that answer discounts its return once more. So a loss is smallest in the last step in time,
+    and silence, which loses 1 there, is never better.
+    """
+    return max(at_once, at_once * discount ** (step_limit - 1))
 
 
 _Numbers = TypeVar("_Numbers", float, np.ndarray)

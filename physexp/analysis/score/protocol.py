@@ -18,6 +18,7 @@ from physexp.agents import config as agent_config
 from physexp.analysis import domains
 from physexp.analysis.domains import base as domains_base
 from physexp.analysis.ideal import base as ideal_base
+from physexp.suite.engine import rules
 
 VERSION = "v1"
 SEED = 2_000_003  # Of the environments, apart from those of training and of evaluation.
@@ -128,6 +129,14 @@ def ideal(question: Question) -> ideal_base.Solution:
             f"{', '.join(one.name for one in observing('all'))}, without noise, variation and step_variation"
         )
     return known(question.task, question.options, question.discount)
+
+
+def floor(question: Question, at_once: float) -> float:
+    """Returns the return that scores 0: the better of silence and the likeliest answer at once, whose return is given.
+
+    The best return without looking, `ideal_base.floor`, is larger where that answer loses; v1 does not count from it.
+    """
+    return max(at_once, rules.WRONG * question.discount ** (question.step_limit - 1))
 
 
 def load(question: Question, seed: int = SEED) -> suite.Environment:

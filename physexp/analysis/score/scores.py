@@ -18,7 +18,7 @@ import pyarrow
 from scipy import special, stats
 
 from physexp.analysis.data import episodes
-from physexp.analysis.ideal import base, mistakes
+from physexp.analysis.ideal import mistakes
 from physexp.analysis.score import log, protocol
 from physexp.suite.engine import rules
 
@@ -102,7 +102,7 @@ def _of_task(
     ideal, at_once = (_mean(columns[name][first]) for name in ("value", "answering"))
     if question.num_questions > 1:  # The value of an answer has that of the questions after it.
         at_once = protocol.ideal(question).compared()["at_once"]
-    floor = base.floor(at_once, question.discount, question.step_limit)
+    floor = protocol.floor(question, at_once)
 
     def discounted(values: np.ndarray) -> np.ndarray:
         """Returns the sum of each episode, float64 [N]."""
