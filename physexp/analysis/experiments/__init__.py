@@ -32,6 +32,8 @@ _MODULES = {
     "clamping": "strategies",
     "shaking": "strategies",
     "aiming": "strategies",
+    "crushing": "strategies",
+    "pressing": "strategies",
     "laboratory": "laboratory",
 }
 """The module whose `EXPERIMENTS` contain an experiment, in the paper's order."""

@@ -101,6 +101,8 @@ _BUDGETS = {  # The easier the task, the sooner its curve is flat.
     "strings features": _Budget("strings features", belief=150_000),
     "sealed_box features": _Budget("sealed_box features", belief=200_000),
     "strike features": _Budget("strike features", belief=300_000),
+    "crush features": _Budget("crush features", belief=60_000),
+    "lump features": _Budget("lump features", belief=40_000),
 }
 _PAPERS_FRAMES = 2_000_000  # Of the paper's own learner at difficulty 10 from features.
 _NOISY_FRAMES = 120_000  # Of the belief learner at difficulty 5 from features, with noise.
@@ -154,8 +156,9 @@ def by_actuator(observations: str) -> list[str]:
 BY_LABEL = {condition.label: condition for condition in (*HEAVIER, *TOWERS)}
 """A3C on the paper's tasks, by their labels."""
 
-OTHERS = THRESHOLD, BALANCE, STRINGS, SEALED_BOX, STRIKE = tuple(
-    _with_preset(domain, "features") for domain in ("threshold", "balance", "strings", "sealed_box", "strike")
+OTHERS = THRESHOLD, BALANCE, STRINGS, SEALED_BOX, STRIKE, CRUSH, LUMP = tuple(
+    _with_preset(domain, "features")
+    for domain in ("threshold", "balance", "strings", "sealed_box", "strike", "crush", "lump")
 )
 """A3C in the domains that are not the paper's."""
 

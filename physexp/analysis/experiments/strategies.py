@@ -1,4 +1,4 @@
-"""Strategies that follow from the optimum in a domain: weighing, clamping, shaking and aiming. Ours.
+"""Strategies that follow from the optimum in a domain: weighing, clamping, shaking, aiming, crushing, pressing. Ours.
 
 An agent may come near the optimal return without them. In Strike the distance of pucks that are struck hard follows
 from `m sqrt(mu)` alone: a strike that stops at D needs the impulse `m sqrt(2 mu g D)`.
@@ -10,17 +10,20 @@ import itertools
 from typing import Any
 
 import numpy as np
+import pandas
 from scipy import stats
 
 from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, curves
 from physexp.analysis.training import records
-from physexp.suite.domains import balance, sealed_box, strike, strings
+from physexp.suite.domains import balance, crush, lump, sealed_box, strike, strings
 
 WEIGHING = conditions.with_belief(conditions.BALANCE, answers_revealed=True)
 CLAMPING = conditions.with_belief(conditions.STRINGS)
 SHAKING = conditions.with_belief(conditions.SEALED_BOX)
 AIMING = conditions.with_belief(conditions.STRIKE)
+CRUSHING = conditions.with_belief(conditions.CRUSH, answers_revealed=True)
+PRESSING = conditions.with_belief(conditions.LUMP)
 
 _SIDES = np.array(list(balance.PLACES.values()))
 _PROPERTIES = {"asked": "m √μ", "mass": "m", "friction": "μ"}
@@ -137,12 +140,15 @@ def _taken(frame):
     return frame.groupby(["training_seed", "content"]).interactions.mean().unstack()
 
 
-def _rank_correlation(frame) -> estimates.Estimate:
+def _rank_correlation(x, y) -> float:
+    """Returns the rank correlation of two series, and 0 if the first is constant."""
+    return stats.spearmanr(x, y).statistic if np.ptp(x) else 0.0
+
+
+def _likeness(frame) -> estimates.Estimate:
     taken, best = _taken(frame), frame.groupby("content").ideal.first()
     ideal = best[taken.columns]
-    # An agent with a constant number has no correlation.
-    ranks = [stats.spearmanr(row, ideal).statistic if np.ptp(row) else 0.0 for row in taken.to_numpy()]
-    return estimates.median(ranks)
+    return estimates.median([_rank_correlation(row, ideal) for row in taken.to_numpy()])
 
 
 def _draw_contents(axes, frame) -> None:
@@ -196,13 +202,78 @@ def _draw_left(axes, frame) -> None:
     axes.set(xlabel="logarithm of", ylabel="spread left, share of the prior's", ylim=(0, 1.05))
 
 
+# Crushing in Crush: the last whole can must be spared, so the force rises in steps, and the steps shrink.
+
+
+def rising(actions, answer: int) -> np.ndarray:
+    """Returns the steps between the forces of an episode's presses, up to the first press that crushes a can, int [N].
+
+    The first step is the first force itself. `answer` is the label of the smallest force that crushes a can.
+    """
+    presses = np.array([action for action in actions if action < crush.NUM_FORCES], int)
+    return np.diff(presses[: (presses < answer).cumprod().sum() + 1], prepend=-1)
+
+
+def _with_steps(frame):
+    episodes = zip(frame.actions, frame.answer, strict=True)
+    return frame.assign(steps=[rising(*episode) for episode in episodes])
+
+
+def _steps(frame):
+    """Returns a row for each step: the agent, the step's `number` in its episode, from 1 on, and its `size`."""
+    steps = frame[["training_seed", "steps"]].reset_index(drop=True).explode("steps").dropna()
+    return steps.assign(number=steps.groupby(level=0).cumcount() + 1, size=steps.steps.astype(int))
+
+
+def _shrinking(frame) -> estimates.Estimate:
+    agents = _steps(frame).groupby("training_seed")
+    return estimates.mean([_rank_correlation(steps["size"], steps.number) for _, steps in agents])
+
+
+def _draw_steps(axes, frame) -> None:
+    steps = _steps(frame)
+    for _, sizes in steps.groupby(["training_seed", "number"])["size"].mean().groupby("training_seed"):
+        axes.plot(
+            sizes.index.get_level_values("number"), sizes, "o-", markersize=2, linewidth=0.8, color=plots.COLORS[2]
+        )
+    axes.set(xlabel="press while no can is crushed", ylabel="mean step between forces")
+    axes.set_ylim(bottom=0)
+
+
+# Pressing in Lump: only hard presses dent clay and putty clearly, and only waits show what comes back.
+
+_HARD, _WAIT = int(np.argmax(lump.PRESSES)), len(lump.PRESSES)
+
+
+def waits(actions) -> int:
+    """Returns the number of waits in an episode's actions if two hard presses come first, else 0."""
+    first, then = list(actions[:2]), list(actions[2:])
+    return then.count(_WAIT) if first == [_HARD, _HARD] else 0
+
+
+def _with_waits(frame):
+    return frame.assign(waits=[waits(actions) for actions in frame.actions])
+
+
+def _draw_waits(axes, frame) -> None:
+    counts = np.arange(frame.waits.max() + 1)
+    shares = pandas.crosstab(frame.waits, frame.answer, normalize="all").reindex(counts, fill_value=0.0)
+    for kind, share in shares.items():
+        below = shares.loc[:, :kind].sum(axis=1) - share
+        axes.bar(counts, share, bottom=below, color=plots.COLORS[kind], label=lump.MATERIALS[kind])
+    axes.set(xlabel="waits after two hard presses (0: another beginning)", ylabel="share of episodes")
+    axes.legend(fontsize=6)
+
+
 _one_against_one = claims.mean_of_agents(lambda rows: rows["first"] == 1, estimates.mean_share)
 _only_if_needed = claims.mean_of_agents(lambda rows: rows.clamps == rows.together, estimates.mean_share)
 _aims = {
     "goal_is_known": claims.of_rows(lambda rows: estimates.mean(_spreads(rows, "asked"))),
     "rest_is_unknown": claims.of_rows(lambda rows: estimates.mean(_spreads(rows, "friction"))),
 }
-_longer_if_hard = claims.of_rows(_rank_correlation)
+_longer_if_hard = claims.of_rows(_likeness)
+_steps_shrink = claims.of_rows(_shrinking)
+_hard_first = claims.mean_of_agents(lambda rows: rows.waits.between(1, 4), estimates.mean_share)
 
 EXPERIMENTS = {
     "weighing": _experiment(
@@ -215,4 +286,10 @@ EXPERIMENTS = {
         "shaking", SHAKING, ("content",), _with_ideal, {"longer_if_hard": _longer_if_hard}, _draw_contents
     ),
     "aiming": _experiment("aiming", AIMING, ("actions", "puck"), _with_left, _aims, _draw_left),
+    "crushing": _experiment(
+        "crushing", CRUSHING, ("actions", "answer"), _with_steps, {"steps_shrink": _steps_shrink}, _draw_steps
+    ),
+    "pressing": _experiment(
+        "pressing", PRESSING, ("actions", "answer"), _with_waits, {"hard_first": _hard_first}, _draw_waits
+    ),
 }

@@ -375,6 +375,17 @@ def _aimings(generator, asked=0.01, friction=0.8):
     return {**left, "interactions": generator.integers(2, 7, _EPISODES)}
 
 
+def _crushings(generator, shrinking=1.0):
+    steps = [np.arange(5, 0, -1) if generator.random() < shrinking else np.arange(1, 6) for _ in range(_EPISODES)]
+    return {"steps": [its[: generator.integers(1, 6)] for its in steps], "interactions": 5}
+
+
+def _pressings(generator, patient=1.0):
+    waits = np.where(generator.random(_EPISODES) < patient, generator.integers(1, 5, _EPISODES), 0)
+    waits[: generator.integers(0, 3)] = 5
+    return {"answer": np.arange(_EPISODES) % 4, "waits": waits, "interactions": 2 + waits}
+
+
 def shares(num_agents, generator, **of_learners):
     """Shares of the ideal's return in all domains, by the learner's title."""
 
@@ -408,6 +419,8 @@ _weighing = functools.partial(strategy, strategies.WEIGHING, _weighings)
 _clamping = functools.partial(strategy, strategies.CLAMPING, _clampings)
 _shaking = functools.partial(strategy, strategies.SHAKING, _shakings)
 _aiming = functools.partial(strategy, strategies.AIMING, _aimings)
+_crushing = functools.partial(strategy, strategies.CRUSHING, _crushings)
+_pressing = functools.partial(strategy, strategies.PRESSING, _pressings)
 _clumsy = ("clumsy", {"share": 0.9}, {"near_optimum"})
 
 # The maker of an experiment's data, and its worlds: a name, the arguments of the maker, and the claims that are false.
@@ -546,6 +559,8 @@ _MADE = {
         ("all is known", {"friction": 0.1}, {"rest_is_unknown"}),
         _clumsy,
     ),
+    "crushing": (_crushing, _PAPER, ("steps that grow", {"shrinking": 0.0}, {"steps_shrink"}), _clumsy),
+    "pressing": (_pressing, _PAPER, ("gentle presses", {"patient": 0.5}, {"hard_first"}), _clumsy),
     "laboratory": (
         shares,
         _PAPER,

@@ -2,6 +2,7 @@
 
 import math
 
+import ideals
 import made_data
 from made_data import generator, made
 import numpy as np
@@ -9,7 +10,8 @@ import pandas
 import pytest
 from scipy import stats
 
-from physexp.analysis.data import estimates
+from physexp import suite
+from physexp.analysis.data import episodes, estimates
 from physexp.analysis.experiments import EXPERIMENTS, NAMES, claims, curves, efficiency, interactions, strategies
 from physexp.suite.domains import strike
 
@@ -211,3 +213,34 @@ def test_pokes_tell_most_of_the_property_that_the_goal_needs():
     assert all(share == pytest.approx(1) for name in at_once for share in at_once[name])
     poked = {name: left.mean() for name, left in strategies.shares_left(pucks, [[1, 2, 1, 3]] * len(pucks)).items()}
     assert poked["asked"] < poked["mass"] < poked["friction"] < 1
+
+
+def test_steps_end_with_the_first_press_that_crushes_a_can():
+    # Presses 4 and 8 leave a can of label 10 whole, and 11 crushes it; 9 comes after that, and 26 is an answer.
+    assert strategies.rising([4, 8, 11, 9, 26], 10).tolist() == [5, 4, 3]
+    assert strategies.rising([4, 8, 11, 13, 14, 31], 15).tolist() == [5, 4, 3, 2, 1]
+    assert strategies.rising([4, 0, 18], 2).tolist() == [5]
+    assert strategies.rising([8, 4, 8, 18], 15).tolist() == [9, -4, 4]
+    assert strategies.rising([18], 2).tolist() == []
+
+
+def test_waits_count_after_two_hard_presses():
+    assert strategies.waits([1, 1, 2, 0, 2, 4]) == 2
+    assert strategies.waits([1, 2, 1, 2, 3]) == strategies.waits([0, 1, 2, 3]) == strategies.waits([1]) == 0
+
+
+def ideal_plays(domain):
+    """Episodes of the ideal experimenter."""
+    environment, actor = suite.load(domain, "features", task_kwargs={"random": 0}), ideals.of(domain).actor()
+    return [episodes.play(environment, actor, index) for index in range(60)]
+
+
+def test_the_ideals_steps_shrink_in_crush():
+    # If n presses are left at most and the next one crushes a can, the n - 1 others are for as many weaker forces.
+    for played in ideal_plays("crush"):
+        steps = strategies.rising(played.actions, played.answer)
+        assert steps.tolist() == [5, 4, 3, 2, 1][: len(steps)]
+
+
+def test_the_ideal_presses_a_lump_hard_twice_and_waits_one_to_four_times():
+    assert {strategies.waits(played.actions) for played in ideal_plays("lump")} == {1, 2, 3, 4}
