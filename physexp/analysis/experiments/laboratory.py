@@ -73,7 +73,7 @@ def _cell(agents) -> str:
 def draw(frame):
     """Draws a panel for each domain: every agent's share of the ideal's return, and that of random interactions."""
     by_task = dict(list(frame.groupby("condition", sort=False)))
-    num_columns = min(4, len(by_task))
+    num_columns = min(5, len(by_task))
     grid: dict[str, Any] = dict(columns=num_columns, rows=-(-len(by_task) // num_columns), width=1.9, height=2.0)
     figure, panels = plots.new(**grid, sharex=True, sharey=True, squeeze=False)
     for axes in panels.flat[len(by_task) :]:
