@@ -15,7 +15,6 @@ from scipy import stats
 
 from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, curves
-from physexp.analysis.training import records
 from physexp.suite.domains import balance, crush, lump, sealed_box, strike, strings
 
 WEIGHING = conditions.with_belief(conditions.BALANCE, answers_revealed=True)
@@ -39,15 +38,13 @@ def _experiment(
 ) -> base.Experiment:
     """Returns an experiment on one condition; `behaviour` adds columns to its episodes, for `statistics` and `draw`.
 
-    The episodes have the `share` of the ideal's value that each returned, and the attribute `ideal`: the ideal's share
-    of episodes for each number of interactions.
+    The attribute `ideal` of the episodes has the ideal's share of episodes for each number of interactions. The returns
+    of these agents are in `laboratory`.
     """
 
     def load(results: base.Results):
-        episodes = results.episodes([base.EVALUATION], [condition], ["reward", "length", "interactions", *columns])
-        ideal = condition.ideal()
-        frame = behaviour(episodes.assign(share=records.discounted_return(episodes) / ideal.value))
-        frame.attrs["ideal"] = ideal.figures()["histogram"]
+        frame = behaviour(results.episodes([base.EVALUATION], [condition], ["interactions", *columns]))
+        frame.attrs["ideal"] = condition.ideal().figures()["histogram"]
         return frame
 
     return base.Experiment(
@@ -55,7 +52,7 @@ def _experiment(
         conditions=(condition,),
         trials=(base.EVALUATION,),
         load=load,
-        statistics=statistics | {"near_optimum": claims.mean_of_agents(lambda rows: rows.share, estimates.median)},
+        statistics=statistics,
         draw=functools.partial(_draw, draw),
     )
 
