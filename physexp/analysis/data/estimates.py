@@ -94,6 +94,14 @@ def wilson_interval(successes: int, trials: int) -> tuple[float, float]:
     return float(interval.low), float(interval.high)
 
 
+def median_interval(values: Values) -> tuple[float, float]:
+    """Returns the 95 % confidence interval of a median, between order statistics; NaN at an end without one."""
+    from scipy import stats
+
+    interval = stats.quantile_test(values, p=0.5).confidence_interval(_LEVEL)
+    return float(interval.low), float(interval.high)
+
+
 def proportion(successes: int, trials: int) -> Estimate:
     """Returns a share of independent trials with Wilson's interval; p-values are those of the score test."""
     from scipy import stats
@@ -133,27 +141,6 @@ def mean_share(shares: Values) -> Estimate:
 def difference_of_pairs(first: Any, second: Any) -> Estimate:
     """Returns the mean of the first less the second of two pandas Series, over the common index."""
     return mean(np.subtract(*first.align(second, join="inner")))
-
-
-def median(values: Values) -> Estimate:
-    """Returns the median of independent values with the interval of order statistics.
-
-    It is infinite for fewer than six values, and with a NaN.
-    """
-    from scipy import stats
-
-    values = np.asarray(values)
-    if np.isnan(values).any():
-        return Estimate(math.nan, -math.inf, math.inf)
-    low, high = map(float, stats.quantile_test(values, p=0.5).confidence_interval(_LEVEL))
-    if math.isnan(low) and math.isnan(high):
-        return Estimate(float(np.median(values)), -math.inf, math.inf)
-    ends = (-math.inf if math.isnan(low) else low, math.inf if math.isnan(high) else high)
-
-    def p_value(bound: float, alternative: Alternative) -> float:
-        return float(stats.quantile_test(values, q=bound, p=0.5, alternative=alternative).pvalue)
-
-    return Estimate(float(np.median(values)), *ends, p_value)
 
 
 def geometric_mean(values: Values) -> Estimate:
@@ -206,32 +193,6 @@ def normal(value: float, standard_error: float) -> Estimate:
     from scipy import stats
 
     return _around(value, standard_error, stats.norm) if standard_error else _exact(value)
-
-
-def bootstrap(values: Values, statistic: Callable[[np.ndarray], float], seed: int = 0) -> Estimate:
-    """Returns a statistic of independent values with the bootstrap's percentile interval, infinite for one value."""
-    from scipy import stats
-
-    values = np.asarray(values, float)
-    if len(values) < 2:
-        return Estimate(statistic(values), -math.inf, math.inf)
-    drawn = stats.bootstrap(
-        (values,),
-        statistic,
-        vectorized=False,
-        method="percentile",
-        n_resamples=2000,
-        confidence_level=_LEVEL,
-        rng=np.random.default_rng(seed),
-    )
-    found = drawn.bootstrap_distribution
-
-    def p_value(bound: float, alternative: Alternative) -> float:
-        beyond = found <= bound if alternative == "greater" else found >= bound
-        return float(1 + beyond.sum()) / (1 + len(found))
-
-    interval = drawn.confidence_interval
-    return Estimate(statistic(values), float(interval.low), float(interval.high), p_value)
 
 
 def correlation(x: np.ndarray, y: np.ndarray) -> Estimate:

@@ -51,15 +51,15 @@ def _load(results: base.Results, trials: Mapping[float, base.Trial], wanted: Seq
     columns = ["reward", "answer", "label", "interactions", "time"]
     rows = []
     for names, _, its in results.agents(list(trials.values()), wanted, columns):
-        wrong, time = its[its.reward < 0], estimates.median(its.time)
+        wrong, (low, high) = its[its.reward < 0], estimates.median_interval(its.time)
         summary = {
             "episodes": len(its),
             "timeouts": (its.label < 0).sum(),
             "right": (its.reward > 0).mean(),
             "interactions": its.interactions.median(),
-            "time": time.value,
-            "low": time.low,
-            "high": time.high,
+            "time": its.time.median(),
+            "low": low,
+            "high": high,
             "too_many": (wrong.label > wrong.answer).mean(),
         }
         rows.append(names | {"step": steps[names["trial"]]} | summary)
@@ -214,7 +214,7 @@ EXPERIMENTS = {
         prepare=prepare_timing,
         load=load_timing,
         statistics={
-            "right": claims.of_rows(lambda frame: estimates.median(_by_step(frame, MANY).min(axis=1))),
+            "right": claims.of_rows(lambda frame: estimates.mean(_by_step(frame, MANY).min(axis=1))),
             "same_time": _ratio_of_steps("time", SHORTEST, _USUAL, MANY),
             "not_same_steps": _ratio_of_steps("interactions", SHORTEST, _USUAL, MANY),
             "better_than_rule": claims.of_rows(_less_rule),

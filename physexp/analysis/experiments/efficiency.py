@@ -106,14 +106,6 @@ def sees_pixels(label: str) -> bool:
     return label in conditions.BY_LABEL and conditions.BY_LABEL[label].observations == "pixels"
 
 
-def middle(rows, values) -> estimates.Estimate:
-    """Returns the middle of values of agents, of which these are the rows.
-
-    From pixels it is their mean: five agents are too few for an interval of the median at the corrected level.
-    """
-    return (estimates.mean if sees_pixels(rows.condition.iloc[0]) else estimates.median)(values)
-
-
 def reached(rows, along: str = "frames") -> np.ndarray:
     """Returns the position on a column at which each agent first reaches `LEVEL`; infinity if it does not."""
     return curves.reached(rows, LEVEL, along, "score")
@@ -154,22 +146,18 @@ def _of_belief(statistic: Callable[[Any], estimates.Estimate], player: str = "be
     return estimated
 
 
-def _steps(rows) -> estimates.Estimate:
-    estimate = estimates.geometric_mean if sees_pixels(rows.condition.iloc[0]) else estimates.median
-    return estimate(reached(rows))
+def _mean_reached(rows, along: str = "frames") -> estimates.Estimate:
+    return estimates.geometric_mean(reached(rows, along))
 
 
 def _calibration(rows) -> estimates.Estimate:
-    return estimates.median(rows.sort_values("frames").groupby("training_seed").calibration_error.nth(-1))
+    return estimates.mean(rows.sort_values("frames").groupby("training_seed").calibration_error.nth(-1))
 
 
 def _agents(rows):
-    """Returns a row for each agent that has been evaluated."""
-    return claims.rows(rows.dropna(subset=["share"]).drop_duplicates("training_seed"))
-
-
-def _share(rows) -> estimates.Estimate:
-    return middle(rows, _agents(rows).share)
+    """Returns the last row of each agent that has been evaluated."""
+    rows = claims.rows(rows.dropna(subset=["share"]))
+    return rows.sort_values("frames").drop_duplicates("training_seed", keep="last")
 
 
 def _worst(rows) -> estimates.Estimate:
@@ -251,11 +239,11 @@ EXPERIMENTS = {
         prepare=ideal_towers.prepare,
         load=load_efficiency,
         statistics={
-            "few_steps": _of_belief(_steps),
-            "few_steps_revealed": _of_belief(_steps, "belief_revealed"),
-            "minutes": _of_belief(lambda rows: estimates.median(reached(rows, "seconds"))),
+            "few_steps": _of_belief(_mean_reached),
+            "few_steps_revealed": _of_belief(_mean_reached, "belief_revealed"),
+            "minutes": _of_belief(lambda rows: _mean_reached(rows, "seconds")),
             "calibrated": _of_belief(_calibration),
-            "near_optimum": _of_belief(_share),
+            "near_optimum": _of_belief(lambda rows: estimates.mean(_agents(rows).share)),
             "none_far": _of_belief(_worst),
             "fewer_steps": _ratio("belief", "a3c"),
             "many_episodes": _ratio("a3c", "a3c_paper"),

@@ -10,7 +10,7 @@ import pandas
 
 from physexp.analysis import domains
 from physexp.analysis.data import estimates, plots
-from physexp.analysis.experiments import base, claims, conditions, efficiency
+from physexp.analysis.experiments import base, claims, conditions
 from physexp.analysis.ideal import rollouts
 from physexp.analysis.training import playing, records
 
@@ -109,7 +109,7 @@ def _worst_of_rule(rows) -> estimates.Estimate:
 
 def _share_of_rule(rows) -> estimates.Estimate:
     varied, rule = (_by_test(rows, player, "return")["varied"] for player in (VARIED, RULE))
-    return estimates.median(varied / rule.iloc[0])
+    return estimates.mean(varied / rule.iloc[0])
 
 
 def draw(frame):
@@ -145,10 +145,8 @@ EXPERIMENTS = {
         prepare=prepare,
         load=load,
         statistics={
-            "unseen": claims.of_rows(lambda rows: efficiency.middle(rows, _by_test(rows, VARIED)["varied"])),
-            "held_out": claims.of_rows(
-                lambda rows: efficiency.middle(rows, _by_test(rows, VARIED)[HELD_OUT].min(axis=1))
-            ),
+            "unseen": claims.of_rows(lambda rows: estimates.mean(_by_test(rows, VARIED)["varied"])),
+            "held_out": claims.of_rows(lambda rows: estimates.mean(_by_test(rows, VARIED)[HELD_OUT].min(axis=1))),
             "by_heart": claims.of_rows(_gain),
             "rule": claims.of_rows(_worst_of_rule),
             "near_rule": claims.of_rows(_share_of_rule),

@@ -48,17 +48,12 @@ def _costs(condition: conditions.Condition, episodes) -> dict[str, float]:
     return {kind: float(cost.mean()) for kind, cost in costs.items()}
 
 
-def median_of_better_half(shares: np.ndarray) -> float:
-    """Returns the median of the larger half of some values."""
-    return float(np.median(shares[estimates.better_half(shares)]))
-
-
 def _best(agents) -> estimates.Estimate:
     best = agents.loc[agents.share.idxmax()]
     return estimates.normal(best.share, best.error)
 
 
-_better_half = claims.of_rows(lambda agents: estimates.bootstrap(agents.share.to_numpy(), median_of_better_half))
+_mean_share = claims.of_rows(lambda agents: estimates.mean(agents.share))
 
 
 def draw(agents):
@@ -113,8 +108,8 @@ EXPERIMENTS = {
         prepare=ideal_towers.prepare,
         load=load,
         statistics={
-            "near_ideal_if_hard": _better_half,
-            "near_ideal": _better_half,
+            "near_ideal_if_hard": _mean_share,
+            "near_ideal": _mean_share,
             "none_better": claims.of_rows(_best),
         },
         draw=draw,

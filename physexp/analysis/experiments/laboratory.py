@@ -46,11 +46,11 @@ def load(results: base.Results):
 
 
 def _share(player: str) -> claims.Statistic:
-    return claims.of_rows(lambda agents: estimates.median(claims.rows(agents, player=player).share))
+    return claims.of_rows(lambda agents: estimates.mean(claims.rows(agents, player=player).share))
 
 
 def table(frame) -> list[tuple[str, ...]]:
-    """Returns a header and a row for each domain: the median share of each learner, and its training."""
+    """Returns a header and a row for each domain: the mean share of each learner, and its training."""
     header = ("task", "ideal's return", "answer at once", "random interactions", *LEARNERS.values())
     rows = [tuple(name.replace("\n", " ") for name in header)]
     for label, agents in frame.groupby("condition", sort=False):
@@ -62,10 +62,10 @@ def table(frame) -> list[tuple[str, ...]]:
 
 
 def _cell(agents) -> str:
-    """Returns the median share, frames and minutes in words; nothing without agents."""
+    """Returns the mean share, frames and minutes in words; nothing without agents."""
     if not len(agents):
         return ""
-    count, (share, frames, minutes) = len(agents), agents[["share", "frames", "minutes"]].median()
+    count, (share, frames, minutes) = len(agents), agents[["share", "frames", "minutes"]].mean()
     noun = "agent" if count == 1 else "agents"
     return f"{share:.3f} ({count} {noun}, {frames / 1000:,.0f} K steps, {minutes:.1f} min)"
 
@@ -96,12 +96,12 @@ def draw(frame):
 
 
 def _draw_shares(axes, number: int, shares) -> None:
-    """Draws the agents of a learner beside each other, and their median."""
+    """Draws the agents of a learner beside each other, and their mean."""
     if len(shares):
         spread = np.linspace(-0.15, 0.15, len(shares)) if len(shares) > 1 else 0.0
         color, marker = plots.COLORS[number], plots.MARKERS[number]
         axes.plot(number + spread, shares, marker, color=color, markersize=3, alpha=0.7)
-        axes.plot([number - 0.3, number + 0.3], [shares.median()] * 2, color=color, linewidth=1.6)
+        axes.plot([number - 0.3, number + 0.3], [shares.mean()] * 2, color=color, linewidth=1.6)
 
 
 def _title(label: str) -> str:

@@ -181,9 +181,9 @@ def _by_agent(statistic: Callable[[Any], float], player: str, frame):
     return pandas.Series({seed: statistic(agent) for seed, agent in agents}, dtype=float)
 
 
-def _with_noise(statistic: Callable[[Any], float], middle: Callable = estimates.mean) -> claims.Statistic:
+def _with_noise(statistic: Callable[[Any], float]) -> claims.Statistic:
     """Returns the mean over agents of a statistic of the episodes with noise."""
-    return claims.of_rows(lambda frame: middle(_by_agent(statistic, NOISY, frame)))
+    return claims.of_rows(lambda frame: estimates.mean(_by_agent(statistic, NOISY, frame)))
 
 
 def _noisy_less_exact(statistic: Callable[[Any], float]) -> claims.Statistic:
@@ -250,7 +250,7 @@ EXPERIMENTS = {
         statistics={
             "again_if_small": _with_noise(_gap_of_repeats),
             "longer_if_small": _with_noise(_correlation),
-            "near_ideal": _with_noise(lambda agent: agent.share.mean(), estimates.median),
+            "near_ideal": _with_noise(lambda agent: agent.share.mean()),
             "again": _noisy_less_exact(lambda agent: agent.again.mean()),
             "steeper": _noisy_less_exact(_slope_of_repeats),
             "clearer": _noisy_less_exact(_correlation),

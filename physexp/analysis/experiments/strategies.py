@@ -145,7 +145,7 @@ def _rank_correlation(x, y) -> float:
 def _likeness(frame) -> estimates.Estimate:
     taken, best = _taken(frame), frame.groupby("content").ideal.first()
     ideal = best[taken.columns]
-    return estimates.median([_rank_correlation(row, ideal) for row in taken.to_numpy()])
+    return estimates.mean([_rank_correlation(row, ideal) for row in taken.to_numpy()])
 
 
 def _draw_contents(axes, frame) -> None:
