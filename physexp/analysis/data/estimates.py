@@ -179,13 +179,19 @@ def ratio_of_means(numerators: Values, denominators: Values) -> Estimate:
     return _exponential(Estimate(difference, float(interval.low), float(interval.high), p_value))
 
 
-def at_most(estimate: Estimate) -> Estimate:
-    """Returns the estimate of a positive value that the measured value only bounds from above."""
+def between(lower: Estimate, upper: Estimate) -> Estimate:
+    """Returns the estimate of a value that is bounded by two others; the value shown is the upper bound."""
 
     def p_value(bound: float, alternative: Alternative) -> float:
-        return estimate.p_value(bound, alternative) if alternative == "less" else 1.0
+        return (lower if alternative == "greater" else upper).p_value(bound, alternative)
 
-    return dataclasses.replace(estimate, low=0.0, p_value=p_value if estimate.can_be_tested else _unknown)
+    can_be_tested = lower.can_be_tested or upper.can_be_tested
+    return Estimate(upper.value, lower.low, upper.high, p_value if can_be_tested else _unknown)
+
+
+def at_most(estimate: Estimate) -> Estimate:
+    """Returns the estimate of a positive value that the measured value only bounds from above."""
+    return between(_UNKNOWN_POSITIVE, estimate)
 
 
 def normal(value: float, standard_error: float) -> Estimate:

@@ -75,15 +75,26 @@ def load_curves(results: base.Results, wanted: Sequence[conditions.Condition]):
 def evaluated(
     results: base.Results, wanted: Sequence[conditions.Condition], ideal: Callable[[conditions.Condition], float]
 ):
-    """Returns a row for each evaluated agent, with `ideal_towers.share`; `ideal` returns that of a condition."""
+    """Returns a row for each evaluated agent: `ideal_towers.share`, and the share of right answers, `right`.
+
+    `ideal` returns that of a condition.
+    """
     agents = results.agents([base.EVALUATION], wanted, ["reward", "length"])
-    return results.frame(names | ideal_towers.share(its, ideal(condition)) for names, condition, its in agents)
+    return results.frame(
+        names | ideal_towers.share(its, ideal(condition)) | {"right": (its.reward > 0).mean()}
+        for names, condition, its in agents
+    )
 
 
 def load_efficiency(results: base.Results):
-    """Returns the learning curves of all learners, each row with the `share` and `error` of the agent's evaluation."""
+    """Returns the learning curves of all learners, each row with the agent's evaluation: see `evaluated`.
+
+    The score of the finished agent with drawn actions is `final`.
+    """
     frame = load_curves(results, CONDITIONS)
-    return frame.merge(evaluated(results, CONDITIONS, lambda task: ideal_towers.ideal_return(task, results)), "left")
+    agents = evaluated(results, CONDITIONS, lambda task: ideal_towers.ideal_return(task, results))
+    final = agents.share.where(~agents.condition.map(sees_pixels), agents.right)
+    return frame.merge(agents.assign(final=final), "left")
 
 
 def load_ablations(results: base.Results):
@@ -111,29 +122,46 @@ def reached(rows, along: str = "frames") -> np.ndarray:
     return curves.reached(rows, LEVEL, along, "score")
 
 
-def ratio_of_steps(quick, slow) -> estimates.Estimate:
-    """Returns the ratio of the environment steps to `LEVEL` of some agents to those of others, from their rows.
+def ratio_of_steps(quick: np.ndarray, slow) -> estimates.Estimate:
+    """Returns the ratio of environment steps to `LEVEL` of some agents, [N], to those of others, from their rows.
 
     An agent of the quick ones that never reaches it counts as infinitely slow, so the ratio is unknown. A slow agent
     that never reaches it counts with all its training, which is less than it needs: the ratio is then an upper bound.
     """
     needed, trained = reached(slow), slow.groupby("training_seed").frames.max().to_numpy()
-    ratio = estimates.ratio_of_means(reached(quick), np.minimum(needed, trained))
+    ratio = estimates.ratio_of_means(quick, np.minimum(needed, trained))
     return ratio if np.isfinite(needed).all() else estimates.at_most(ratio)
+
+
+def reached_at_end(rows) -> np.ndarray:
+    """Returns the environment steps of the training of each evaluated agent; infinity if its `final` score is lower."""
+    agents = _agents(rows)
+    return agents.frames.where(agents.final >= LEVEL, np.inf).to_numpy()
 
 
 def _ratio(*players: str) -> claims.Statistic:
     """Returns the statistic that compares two players in a condition."""
 
     def ratio(frame, condition: str) -> estimates.Estimate:
-        return ratio_of_steps(*(claims.rows(frame, condition=condition, player=player) for player in players))
+        quick, slow = (claims.rows(frame, condition=condition, player=player) for player in players)
+        return ratio_of_steps(reached(quick), slow)
 
     return ratio
 
 
+def _belief_over_a3c(frame, condition: str) -> estimates.Estimate:
+    """Returns bounds of the ratio where actions are drawn, as the curves of A3C are.
+
+    Belief learners' curves are of greedy episodes, in which they reach the level sooner. With drawn actions they are
+    known to have reached it at the end.
+    """
+    belief, a3c = (claims.rows(frame, condition=condition, player=player) for player in ("belief", "a3c"))
+    return estimates.between(*(ratio_of_steps(needed(belief), a3c) for needed in (reached, reached_at_end)))
+
+
 def _fist_over_direct(frame, kind: str) -> estimates.Estimate:
-    names = conditions.by_actuator(kind)
-    return ratio_of_steps(*(claims.rows(frame, condition=name, player="belief") for name in names))
+    fist, direct = (claims.rows(frame, condition=name, player="belief") for name in conditions.by_actuator(kind))
+    return ratio_of_steps(reached(fist), direct)
 
 
 def _of_belief(statistic: Callable[[Any], estimates.Estimate], player: str = "belief") -> claims.Statistic:
@@ -175,6 +203,15 @@ def _draw_scores(axes, frame, label: str, names: Mapping[str, str], along: str =
     axes.set(xscale="log", ylim=(_FLOOR, 1.05))
 
 
+def _draw_finished(axes, rows, along: str) -> None:
+    """Draws the median final score of the agents of each learner, at the end of its training."""
+    unit, _ = curves.AXES[along]
+    for number, learner in enumerate(LEARNERS):
+        its = rows[rows.player == learner]
+        middle = its.drop_duplicates("training_seed").final.median()
+        axes.plot(its[along].max() / unit, middle, "o", color=plots.COLORS[number], markersize=3)
+
+
 def _draw_efficiency(frame):
     """Draws a row for each task, features left and pixels right, each against frames and against minutes."""
     shown = [task for task in TASKS if (frame.condition == task.label).any()]
@@ -193,6 +230,7 @@ def _draw_efficiency(frame):
             axes = lowest[place] = panels[row, place]
             axes.set_axis_on()
             _draw_scores(axes, frame, task.label, LEARNERS, along)
+            _draw_finished(axes, frame[frame.condition == task.label], along)
             plots.reference(axes, LEVEL, "")
             handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
         score = "right answers" if sees_pixels(task.label) else "share of the ideal"
@@ -245,7 +283,7 @@ EXPERIMENTS = {
             "calibrated": _of_belief(_calibration),
             "near_optimum": _of_belief(lambda rows: estimates.mean(_agents(rows).share)),
             "none_far": _of_belief(_worst),
-            "fewer_steps": _ratio("belief", "a3c"),
+            "fewer_steps": _belief_over_a3c,
             "many_episodes": _ratio("a3c", "a3c_paper"),
             "fist_is_faster": _fist_over_direct,
         },

@@ -87,6 +87,14 @@ def test_a_ratio_needs_positive_and_finite_values(wrong):
         assert_unknown(estimate, (0, math.inf))
 
 
+def test_a_value_between_two_bounds_is_tested_by_the_bound_on_each_side():
+    lower, upper = estimates.geometric_mean([0.2, 0.3, 0.4]), estimates.geometric_mean([0.5, 0.6, 0.7])
+    both = estimates.between(lower, upper)
+    assert (both.value, both.low, both.high) == (upper.value, lower.low, upper.high)
+    assert both.p_value(0.1, "greater") == lower.p_value(0.1, "greater")
+    assert both.p_value(0.9, "less") == upper.p_value(0.9, "less")
+
+
 def test_an_upper_bound_is_tested_from_above_alone():
     whole = estimates.geometric_mean([0.5, 0.6, 0.7])
     bound = estimates.at_most(whole)

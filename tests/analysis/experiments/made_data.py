@@ -149,8 +149,8 @@ def few_steps(
         * learners.get(config.player, belief * factors.get(config.label[0], 1.0))
         for config in configs
     }
-    rows = scores(num_agents, generator, middles, frame).assign(calibration_error=error)
-    rows.loc[rows.player.str.startswith("belief"), "score"] *= learned
+    rows = scores(num_agents, generator, middles, frame).assign(calibration_error=error, final=0.98)
+    rows.loc[rows.player.str.startswith("belief"), ["score", "final"]] *= learned
 
     def final(config, seed):
         share = 1 - loss * (1 - table["near_optimum"].above[config.label])

@@ -159,12 +159,25 @@ def test_agents_that_never_learn_are_not_taken_for_quick_ones():
 def test_slow_agents_that_never_arrive_give_the_upper_end_of_a_ratio():
     frame = made_data.few_steps(10, generator(), SOME)
     quick, slow = (claims.rows(frame, condition="10-F", player=learner) for learner in ("belief", "a3c"))
-    whole = efficiency.ratio_of_steps(quick, slow)
+    whole = efficiency.ratio_of_steps(efficiency.reached(quick), slow)
     cut = slow[slow.frames < slow.frames.max() / 4]
-    part = efficiency.ratio_of_steps(quick, cut)
+    part = efficiency.ratio_of_steps(efficiency.reached(quick), cut)
     assert np.isinf(efficiency.reached(cut)).all() and 0 < whole.low < whole.high < part.high
     assert part.low == 0 and part.p_value(1e-9, "greater") == 1
     assert part.p_value(part.high, "less") == pytest.approx(0.025)
+
+
+def test_learners_are_compared_where_both_draw_their_actions():
+    # Curves of the belief learner are of greedy episodes. With drawn actions it is at the level at the end alone.
+    compare = EXPERIMENTS["data_efficiency"].statistics["fewer_steps"]
+    frame = made_data.few_steps(6, generator(), SOME)
+    belief, a3c = (claims.rows(frame, condition="10-F", player=player) for player in ("belief", "a3c"))
+    whole = belief.groupby("training_seed").frames.max()
+    ratio = compare(frame, "10-F")
+    assert ratio.value == pytest.approx(stats.gmean(whole) / stats.gmean(efficiency.reached(a3c)))
+    assert ratio.low < ratio.value / 2  # In greedy episodes it is there in less than half of its training.
+    short = compare(frame.assign(final=0.94), "10-F")
+    assert short.low == ratio.low and short.high == math.inf
 
 
 def test_one_agent_unlike_the_others_fails_the_claim_about_each_agent():
