@@ -37,6 +37,7 @@ class Claim:
       is_check: whether it could fail only if something were broken; then it is not counted.
       is_found: whether the statistic was found in the data that it is tested on.
       reason: our explanation, if it fails.
+      plainly: by verdict, a sentence of the report's first paragraph; a condition in braces is its estimate.
     """
 
     id: str
@@ -50,6 +51,7 @@ class Claim:
     is_check: bool = False
     is_found: bool = False
     reason: str = ""
+    plainly: Mapping[str, str] = dataclasses.field(default_factory=dict)
 
     def tested(self, condition: str, estimate: estimates.Estimate) -> "Tested":
         """Returns the claim with the estimate of its statistic under a condition."""

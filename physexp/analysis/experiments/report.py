@@ -2,13 +2,14 @@
 
 import collections
 from collections.abc import Sequence
+import contextlib
 import json
 import math
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from physexp.agents import files
-from physexp.analysis.data import plots, provenance, text
+from physexp.analysis.data import estimates, plots, provenance, text
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions, sweep
 from physexp.analysis.experiments import claims as claims_lib
 from physexp.analysis.training import callbacks
@@ -23,6 +24,12 @@ _INTRODUCTION = (
     "found in these data says so, and its verdict describes them. Of the agents planned, those that are not trained "
     "yet are named below their figure."
 )
+_POWER = (
+    "**Power.** Claims about agents are about their mean, with Student's interval, so one agent decides nothing. Four "
+    "times in five, before the correction, a mean is told from the end of a range that is so many standard deviations "
+    "of the agents away: {} agents."
+)
+_NUMBERS = (2, 3, 4, 5, 6, 10)  # Of agents in a condition.
 
 _VERDICTS = (claims_lib.FAILS, claims_lib.UNDECIDED, claims_lib.HOLDS)
 _HEADER = ("verdict", "claim", "condition", "statistic", "estimate", "95 % interval", "wanted", "section", "experiment")
@@ -67,6 +74,7 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
         "# Results",
         *_summary([row for row in papers if not row.claim.is_check], runs.config),
         _INTRODUCTION,
+        _POWER.format(", ".join(f"{estimates.detectable(number):.1f} with {number}" for number in _NUMBERS)),
         *_table_of_claims("Claims of the paper", papers),
         *_table_of_claims("Claims of ours", ours),
         *sections,
@@ -80,7 +88,7 @@ def write(results: base.Results, tell: callbacks.Tell = callbacks.ignore) -> Pat
 
 
 def _summary(rows: Sequence[Row], configs: Sequence[str]) -> list[str]:
-    """Returns the number of claims of each verdict, and below a heading for each verdict a point for each claim.
+    """Returns a paragraph in plain words, and below a heading for each verdict a point for each claim.
 
     A claim counts with the worst verdict of its conditions. `configs` are those of the runs, in JSON.
     """
@@ -89,12 +97,13 @@ def _summary(rows: Sequence[Row], configs: Sequence[str]) -> list[str]:
         by_text[row.claim.text, row.claim.section].append(row)
     groups: dict[str, list[list[Row]]] = {verdict: [] for verdict in _VERDICTS}
     for its in by_text.values():
-        groups[min((row.verdict for row in its), key=_VERDICTS.index)].append(its)
+        groups[_worst(its)].append(its)
     held, failed, is_open = (groups[verdict] for verdict in (claims_lib.HOLDS, claims_lib.FAILS, claims_lib.UNDECIDED))
     numbers = (
-        f"Claims of the paper: {len(by_text)}. Held in every condition in which they were tested: {len(held)}. Failed "
-        f"in at least one: {len(failed)}. Undecided in at least one, and failed in none: {len(is_open)}."
+        f"Of {len(by_text)} claims of the paper, {len(held)} hold wherever they are tested, {len(failed)} fail "
+        f"somewhere, and {len(is_open)} cannot be decided somewhere."
     )
+    words = [numbers, _plainly("Replicated", held), _plainly("Not replicated", failed), _workers(configs)]
     points = {
         "Replicated:": [f"{_named(its)} ({len(its)} condition{'' if len(its) == 1 else 's'})." for its in held],
         "Not replicated:": [
@@ -104,11 +113,25 @@ def _summary(rows: Sequence[Row], configs: Sequence[str]) -> list[str]:
             " ".join([f"{_named(its)}.", *map(_opening, _with(its, claims_lib.UNDECIDED))]) for its in is_open
         ],
     }
-    found = [f"{numbers} {_workers(configs)}".strip()]
+    found = [" ".join(filter(None, words))]
     for heading, sentences in points.items():
         if sentences:
             found += [heading, "\n".join(f"- {sentence}" for sentence in sentences)]
     return found
+
+
+def _plainly(heading: str, claims: Sequence[Sequence[Row]]) -> str:
+    """Returns a heading and the plain words that claims have for their verdict and conditions; nothing without."""
+    sentences = []
+    for its in claims:
+        values = {row.claim.condition: row.claim.estimate.value for row in its}
+        with contextlib.suppress(KeyError):
+            sentences.append(its[0].claim.plainly[_worst(its)].format_map(values))
+    return " ".join([f"**{heading}.**", *sentences]) if sentences else ""
+
+
+def _worst(rows: Sequence[Row]) -> str:
+    return min((row.verdict for row in rows), key=_VERDICTS.index)
 
 
 def _workers(configs: Sequence[str]) -> str:
@@ -119,8 +142,8 @@ def _workers(configs: Sequence[str]) -> str:
         return ""
     share = f"All {alone}" if alone == len(workers) else f"{alone} of the {len(workers)}"
     return (
-        f"{share} A3C agents of these data were trained by a single worker, and so synchronously; the paper's learner "
-        "has many workers, which do not wait for each other."
+        f"{share} A3C agents had one worker each, and so learned synchronously; the paper's learner has many workers, "
+        "which do not wait for each other."
     )
 
 

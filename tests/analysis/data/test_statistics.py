@@ -149,6 +149,13 @@ def test_too_few_or_unknown_values_tell_nothing():
         assert_unknown(estimate, (0, math.inf))
 
 
+@pytest.mark.parametrize("number", [2, 6, 10])
+def test_a_detectable_distance_is_noticed_in_four_cases_of_five(number):
+    drawn = generator().normal(estimates.detectable(number), 1, (4000, number))
+    noticed = np.sum(stats.ttest_1samp(drawn, 0, axis=1).pvalue < 0.05)
+    assert stats.binomtest(int(noticed), len(drawn), 0.8).pvalue > P_VALUE
+
+
 def test_the_p_value_at_an_end_of_an_interval_is_a_fortieth():
     source = generator()
     x, y = source.normal(size=(2, 30))
