@@ -4,6 +4,7 @@ import chance
 import episodes
 import numpy as np
 import pytest
+from scipy import stats
 
 from physexp import suite
 from physexp.suite.domains import threshold
@@ -51,6 +52,44 @@ def test_observations_tell_nothing_but_the_push_and_whether_the_block_slid(seed,
     for pushes, observation in episodes.play(np.random.default_rng(seed), batch, frictions):
         followed.add(zip(pushes, LEVELS[pushes] > frictions, strict=True), observation)
     assert followed.num_different() > 1.5 * threshold.NUM_LEVELS
+
+
+def test_flags_are_wrong_as_often_as_asked_and_independently(seed):
+    noise, size = 0.2, 500
+    batch = suite.load_batch("threshold", "features", size, {"random": seed, "flag_noise": noise})
+    frictions = batch.reset().observation["slid"] + batch.hidden[:, :1]  # The first flags are down.
+    np.testing.assert_array_equal(frictions[:, 0], episodes.drawn("threshold", batch.seeds, np.zeros(size, int)))
+    played = episodes.play(np.random.default_rng(seed), batch, batch.hidden)
+    wrong = np.array([(seen["slid"][:, 0] == 1) != (LEVELS[pushes] > frictions[:, 0]) for pushes, seen in played])
+    chance.assert_drawn([wrong.sum(), (~wrong).sum()], [noise, 1 - noise])
+    chance.assert_drawn([(wrong[0] & wrong[1]).sum(), (~(wrong[0] & wrong[1])).sum()], [noise**2, 1 - noise**2])
+    chance.assert_drawn(np.bincount(wrong.sum(axis=0), minlength=15), stats.binom(14, noise).pmf(np.arange(15)))
+
+
+@episodes.features_and_pixels
+def test_observations_tell_nothing_but_the_push_and_an_unsure_flag(seed, task):
+    """They follow from these two, in a batch and alone; and a hidden property determines the flags of its episode."""
+    frictions = _edges_of_intervals()
+    batch = suite.load_batch("threshold", task, len(frictions), {"random": seed, "flag_noise": 0.3})
+    hidden = np.column_stack([frictions, np.random.default_rng(seed).random(len(frictions))])
+    played = list(episodes.play(np.random.default_rng(seed), batch, hidden))
+    pushes, followed = np.array([pushes for pushes, _ in played]), episodes.Followed()
+    flags = np.transpose([batch.task.flags(one, taken) for one, taken in zip(hidden, pushes.T, strict=True)])
+    for taken, shown, (_, observation) in zip(pushes, flags, played, strict=True):
+        followed.add(zip(taken, shown, strict=True), observation)
+    assert followed.num_different() > 1.5 * threshold.NUM_LEVELS
+    single = suite.load("threshold", task, task_kwargs={"random": seed, "flag_noise": 0.3})
+    single.task.give_hidden(hidden[5])
+    single.reset()
+    followed.add(
+        zip(pushes[:, 5], flags[:, 5], strict=True), _stacked(single.step(one) for one in pushes[:, 5].tolist())
+    )
+
+
+def _stacked(timesteps):
+    """The observations of time steps, with a leading axis."""
+    seen = [timestep.observation for timestep in timesteps]
+    return {name: np.array([one[name] for one in seen]) for name in seen[0]}
 
 
 @pytest.mark.parametrize("difficulty", [1.0, 2.0, 5.0])

@@ -2,6 +2,7 @@
 
 import dataclasses
 
+import mujoco
 import numpy as np
 
 from physexp import checks
@@ -50,6 +51,9 @@ class Options(options_lib.Options):
         help="how much more likely low levels are than high ones, >= 1; at 1 all are equally likely; the larger, the "
         "easier",
     )
+    flag_noise: float = checked(
+        0.0, checks.within(0, 0.5, without=0.5), help="probability that the flag is wrong after a push, less than 0.5"
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -72,18 +76,20 @@ def prior(difficulty: float) -> np.ndarray:
     return -np.diff(above**difficulty)
 
 
+def frictions(hidden: np.ndarray) -> np.ndarray:
+    """Returns the frictions, N, float64 [N], of hidden properties, as `Threshold.draw` returns them."""
+    return hidden.reshape(len(hidden), -1)[:, 0]
+
+
 def _is_right(positions: np.ndarray) -> np.ndarray:
     """Returns whether a block leans on the right-hand stop, from its position on the rail, m."""
     return positions > TRAVEL / 2
 
 
-def _slid(values: np.ndarray) -> np.ndarray:
-    """Returns 1 where the last push took the block to the other stop, from its position, m, and the force, N, [N, 2].
-
-    A push goes away from the stop that the block leans on: if it leans on the stop ahead of the push, it has slid.
-    """
-    positions, forces = values.T
-    return np.where(_is_right(positions), forces > 0, forces < 0).astype(float)[:, None]
+def _are_wrong(places: np.ndarray, flag_noise: float) -> np.ndarray:
+    """Returns whether flags are wrong, bool [N], from their places in the sequences of mistakes, float64 [N]."""
+    integers = (2.0**32 * places).astype(np.int64)
+    return seeding.uniforms(integers, np.zeros_like(integers), 1)[:, 0] < flag_noise
 
 
 class Threshold(contract.Task):
@@ -101,19 +107,25 @@ class Threshold(contract.Task):
         rail = room.put_on_rail(cube, [-TRAVEL / 2, 0, things.HALF_SIZE], [1, 0, 0], **limits)
         self._rails = (rail.full_identifier,)
         position = room.mjcf_model.sensor.add("jointpos", name="position", joint=rail)
-        force = room.add_actuator("push", rail)
+        force, places = room.add_actuator("push", rail), []
         slid_meaning = "1 if the last push made the block slide, otherwise 0"
+        if noise := self.options.flag_noise:
+            slid_meaning += f"; wrong with probability {noise:g}"
+            # Readings are made of sensors alone. This actuator moves nothing; its force is the number of the last push
+            # plus the place, in (0, 1), where the mistakes of the episode begin.
+            places = [room.add_actuator("mistakes", rail, "general", gear=[0], biastype="affine")]
         levels = [LEVEL_SPACING * (k + 1) for k in range(NUM_LEVELS)]
+        controls = np.outer(levels, np.eye(1 + len(places))[0])
         return contract.Scene(
             arena=room,
             interactions=[
-                declarations.Interaction(f"push with {newtons:g} N", np.array([newtons]), "block", (newtons, 0.0, 0.0))
-                for newtons in levels
+                declarations.Interaction(f"push with {newtons:g} N", control, "block", (newtons, 0.0, 0.0))
+                for newtons, control in zip(levels, controls, strict=True)
             ],
             label_names=[f"{newtons:g} N" for newtons in levels],
             readings={
                 "strength": measures.strength(force, "push", NUM_LEVELS * LEVEL_SPACING),
-                "slid": measures.coarse([position, force], slid_meaning, _slid),
+                "slid": measures.coarse([position, force, *places], slid_meaning, self._flag),
             },
             indicators=[
                 things.stand_flag(room, "flag", things.COLORS[1], (_FLAG_X, 0), "slid", _RISE),
@@ -121,29 +133,62 @@ class Threshold(contract.Task):
             ],
         )
 
+    def _flag(self, values: np.ndarray) -> np.ndarray:
+        """Returns 1 where the last push took the block to the other stop, or where the flag is wrong, and 0 elsewhere.
+
+        A push goes away from the stop that the block leans on: if it leans on the stop ahead of the push, it has slid.
+        The values, [N, 2 or 3], are the block's position, m, the force, N, and the place of the flag, as above.
+        """
+        positions, forces, *places = values.T
+        is_up = np.where(_is_right(positions), forces > 0, forces < 0)
+        for each in places:
+            is_up ^= _are_wrong(each, self.options.flag_noise) & (forces != 0)
+        return is_up.astype(float)[:, None]
+
+    def flags(self, hidden: np.ndarray, pushes: np.ndarray) -> np.ndarray:
+        """Returns the flag after each of the first pushes of an episode, int64 [T]; hidden property as in `draw`."""
+        friction, *places = np.ravel(hidden)
+        is_up = LEVEL_SPACING * (pushes + 1) > friction
+        for each in places:
+            is_up ^= _are_wrong(1 + np.arange(len(pushes)) + each, self.options.flag_noise)
+        return is_up.astype(np.int64)
+
     largest_hidden = LEVEL_SPACING * (NUM_LEVELS - MARGIN)
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
         """Returns the frictions of some episodes, N, float64 [N].
 
         The label follows `prior`; friction is uniform between the forces of two neighbouring levels, away from both.
+        With `flag_noise` it returns [N, 2]: a friction, and a number in (0, 1) from which the mistakes of the flag
+        follow.
         """
-        draws = seeding.uniforms(seeds, episodes, 2)
+        draws = seeding.uniforms(seeds, episodes, 3)
         labels = priors.choose(prior(self.options.difficulty), draws[:, 0])
-        return LEVEL_SPACING * (labels + MARGIN + (1 - 2 * MARGIN) * draws[:, 1])
+        newtons = LEVEL_SPACING * (labels + MARGIN + (1 - 2 * MARGIN) * draws[:, 1])
+        return np.column_stack([newtons, draws[:, 2]]) if self.options.flag_noise else newtons
 
     def answers(self, hidden: np.ndarray) -> np.ndarray:
-        return (hidden // LEVEL_SPACING).astype(np.int64)
+        return (frictions(hidden) // LEVEL_SPACING).astype(np.int64)
 
     def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
-        return apparatus_lib.frictions(apparatus, self._rails, hidden[:, None])
+        fields = apparatus_lib.frictions(apparatus, self._rails, frictions(hidden)[:, None])
+        if not self.options.flag_noise:
+            return fields
+        biases = np.zeros((len(hidden), 1, mujoco.mjNBIAS))
+        biases[:, 0, 0] = hidden[:, 1]
+        return {**fields, "actuator_biasprm": (np.array([1]), biases)}  # Of `mistakes`; actuator 0 is `push`.
 
     def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
-        """Returns the force of a push, which goes away from the stop that the block leans on, N [N, 1]."""
-        return self.controls[actions] * np.where(_is_right(qpos), -1, 1)
+        """Returns the force of a push, which goes away from the stop that the block leans on, N [N, 1].
+
+        With `flag_noise` the number of the push is next to it, [N, 2].
+        """
+        controls = self.controls[actions] * np.where(_is_right(qpos), -1, 1)
+        controls[:, 1:] = ctrl[:, 1:] + 1
+        return controls
 
     def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
-        return declarations.Revealed(marks={"block": f"friction {float(hidden):.1f} N"})
+        return declarations.Revealed(marks={"block": f"friction {np.ravel(hidden)[0]:.1f} N"})
 
     def hardness(self, hidden: np.ndarray) -> np.ndarray:
         """Returns how rare the right answer is: the rarer, the more pushes it takes to find."""

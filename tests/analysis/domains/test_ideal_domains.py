@@ -120,6 +120,7 @@ def test_a_question_is_solved_once_whatever_its_seed():
         ("towers", "features", {}, {}, "task_name is 'features'; tasks of towers: direct_features"),
         ("towers", "direct_features", {}, {"resolution": -1.0}, "resolution is -1.0; give a finite number >= 0"),
         ("towers", "fist_pixels", {"variation": 1.0}, {}, "task is 'fist_pixels'; .* choose from direct_features"),
+        ("threshold", "features", {"flag_noise": 0.1, "time_limit": 3}, {}, "an episode has 30 steps; .* at most 15"),
         ("strings", "features", {"step_variation": 0.5}, {}, "step_variation is 0.5; give 0"),
         ("which_is_heavier", "features", {"difficulty": 1e7}, {}, "difficulty is 1.*; give a number from 1 to 1e.06"),
         ("which_is_heavier", "features", {}, {"blocks": 1}, "blocks is 1; give an integer >= 2 and <= 20"),
