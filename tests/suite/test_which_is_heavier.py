@@ -33,15 +33,18 @@ def _draw(seed, difficulty, count):
     return heavier.draw_masses(np.full(count, seed), np.arange(count), difficulty)
 
 
-def test_a_poke_lifts_a_block_as_the_spring_damper_law_predicts(seed):
-    env = suite.load("which_is_heavier", "features", task_kwargs={"random": seed, "difficulty": 1})
-    for episode in range(20):
-        for block in range(4):
+@pytest.mark.parametrize("num_blocks", [4, 12])
+def test_a_poke_lifts_a_block_as_the_spring_damper_law_predicts(seed, num_blocks):
+    kwargs = {"random": seed, "difficulty": 1, "num_blocks": num_blocks}
+    env = suite.load("which_is_heavier", "features", task_kwargs=kwargs)
+    for episode in range(80 // num_blocks):
+        for block in range(num_blocks):
             env.task.next_episode = episode
             env.reset()
             kilograms = LIGHTEST + (HEAVIEST - LIGHTEST) * env.task.hidden[block]
-            height = env.step(block).observation["heights"][block]
-            assert height == pytest.approx(_height_after_one_poke(kilograms), abs=1e-6)
+            heights = env.step(block).observation["heights"]
+            assert heights[block] == pytest.approx(_height_after_one_poke(kilograms), abs=1e-6)
+            assert not np.delete(heights, block).any()
 
 
 @pytest.mark.parametrize("pokes_first", [0, 20], ids=["random pokes", "pushed to the ceiling first"])
@@ -75,13 +78,15 @@ def test_the_masses_of_an_episode_are_independent(seed, difficulty):
     assert stats.kstest(largest, lambda x: heavy.cdf(x) * light.cdf(x) ** 3).pvalue > chance.P_VALUE
 
 
-@pytest.mark.parametrize("difficulty", [1, 1e300])
-def test_exactly_one_block_is_heaviest_and_it_is_the_answer(seed, difficulty):
-    masses = _draw(seed, difficulty, 20_000)
+@pytest.mark.parametrize("difficulty, num_blocks", [(1, 4), (1e300, 4), (3, 12)])
+def test_exactly_one_block_is_heaviest_and_it_is_the_answer(seed, difficulty, num_blocks):
+    kwargs = {"random": seed, "difficulty": difficulty, "num_blocks": num_blocks}
+    env = suite.load("which_is_heavier", "features", task_kwargs=kwargs)
+    masses = env.task.draw(np.full(20_000, seed), np.arange(20_000))
+    assert masses.shape == (20_000, num_blocks)
     assert ((masses >= 0) & (masses <= 1)).all()
     assert ((masses == masses.max(axis=1, keepdims=True)).sum(axis=1) == 1).all()
-    chance.assert_drawn(np.bincount(masses.argmax(axis=1), minlength=4), [1 / 4] * 4)
-    env = suite.load("which_is_heavier", "features", task_kwargs={"random": seed, "difficulty": difficulty})
+    chance.assert_drawn(np.bincount(masses.argmax(axis=1), minlength=num_blocks), [1 / num_blocks] * num_blocks)
     for expected in masses[:50]:
         env.reset()
         np.testing.assert_array_equal(env.task.hidden, expected)

@@ -1,33 +1,21 @@
 """Facts about Which is Heavier: presets, the paper's names of conditions, its ideal experimenter, its columns."""
 
 from collections.abc import Mapping
-import dataclasses
 import functools
 from typing import Any
 
-from physexp import checks
 from physexp.agents.a3c import config as a3c
 from physexp.analysis.domains import base
 
 _NAME = "which_is_heavier"
-_MOST_BLOCKS = 20  # The grids of the ideal experimenter grow with their number.
 
 _FEATURES = a3c.A3CConfig(envs_per_worker=128, gae_lambda=0.98, observation_scale=80.0)
 # Every frame passes the convolutions, which makes frames expensive: few of them, in small updates.
 _PIXELS = a3c.A3CConfig(frames=500_000, envs_per_worker=64, learning_rate=1e-3, gae_lambda=0.9, observation_scale=8.0)
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class IdealOptions:
-    """Options of the ideal experimenter, to which one poke reveals a mass exactly."""
-
-    blocks: int | None = checks.checked(
-        None, checks.optional(checks.whole(2, _MOST_BLOCKS)), help="number of blocks, 2 to 20; by default the task's"
-    )
-
-
-def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks: int | None = None):
-    """Returns the ideal experimenter; with another number of blocks than the task's it cannot play.
+def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float):
+    """Returns the ideal experimenter, to which one poke reveals a mass exactly.
 
     With noise, it is a policy that takes the noise into account. With variation, it is the policy without variation,
     which reads all heights as if the force were the usual one. The upper bound is the value without noise and
@@ -38,8 +26,6 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks
     from physexp.suite.domains import which_is_heavier
 
     if not bounds.is_certain(task_kwargs):
-        if blocks is not None:
-            raise ValueError(f"blocks is {blocks}; leave it out with noise or variation: the policy has to be played")
         certain = bounds.made_certain(task_kwargs)
         usual = _solve(task, certain, discount)
         make_actor = usual.actor
@@ -48,10 +34,8 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, blocks
             make_actor = functools.partial(noisy.Player, usual, responses, task_kwargs["noise"])
         return bounds.Solution(_NAME, task, task_kwargs, discount, make_actor, lambda: [usual.value])
     played = suite.load_task(_NAME, task, task_kwargs)
-    prior = which_is_heavier.prior(played.options.difficulty)
-    if blocks is not None:
-        prior = dataclasses.replace(prior, num_things=blocks)
-    can_read = "features" in suite.tags(_NAME, task) and blocks is None
+    prior = which_is_heavier.prior(played.options.difficulty, played.options.num_blocks)
+    can_read = "features" in suite.tags(_NAME, task)
     find_read = functools.cache(functools.partial(calibration.calibrate, _NAME, task, "heights", task_kwargs))
     return odd_one_out.Solution(prior, discount, played.rules.step_limit, find_read if can_read else None)
 
@@ -78,6 +62,6 @@ DOMAIN = base.Domain(
         "which_is_heavier-pixels-difficulty5": ("mean_return", 0.84),
         "which_is_heavier-pixels-difficulty10": ("mean_return", 0.88),
     },
-    ideal=base.Ideal(_NAME, _solve, IdealOptions),
+    ideal=base.Ideal(_NAME, _solve),
     hidden_columns=_hidden_columns,
 )

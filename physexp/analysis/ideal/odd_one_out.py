@@ -21,7 +21,7 @@ from physexp.suite.engine import priors, rules
 _LARGEST_NODES, _RATIO_NODES = 400, 33
 _QUADRATURE_NODES = 48  # For each half of a density; 16 times as many for the first touch.
 _EPISODES = 2**17  # For the histogram; drawn evenly (Sobol), so that its error is far below 0.001.
-_NEGLIGIBLE = 1e-9  # Part of a return.
+_NEGLIGIBLE = 1e-4  # Part of a return.
 _EASIEST = 1e6  # The largest difficulty for which the grid is exact enough.
 
 

@@ -1,4 +1,4 @@
-"""Which is Heavier: four equal blocks, and the question which of them is heaviest (paper, Section 5)."""
+"""Which is Heavier: equal blocks, and the question which of them is heaviest (paper, Section 5)."""
 
 import dataclasses
 from typing import Any
@@ -12,7 +12,7 @@ from physexp.suite.engine import contract, declarations, priors
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, things
 
-NUM_BLOCKS = 4
+NUM_BLOCKS = 4  # By default, the paper's.
 SPACING = 0.16  # m, between the centres of neighbours
 
 PHYSICS_TIMESTEP = 0.025  # s; the paper's example: four simulation steps to a control step
@@ -29,7 +29,11 @@ FLOOR, CEILING = -0.01, 0.4  # m, displacements from rest at which the rail ends
 
 FORCE_VARIATION, SPACING_VARIATION = 0.1, 0.1  # Shares of their values without variation.
 
-_ROOM = dict(mat_size=[0.36, 0.12], camera_pos=[0, -2.6, 0.9], camera_target=[0, 0, 0.28], fovy=14.5)
+# With more blocks the mat is longer and the camera farther away.
+_MAT_SIZE, _CAMERA_POS = np.array([0.36, 0.12]), np.array([0, -2.6, 0.9])  # m
+_VIEW = dict(camera_target=[0, 0, 0.28], fovy=14.5)
+# The second six are paler than the first.
+_COLORS = (*things.COLORS, *((*(0.5 + value / 2 for value in color[:3]), 1.0) for color in things.COLORS))
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -42,21 +46,28 @@ class Options(options_lib.Options):
     difficulty: float = checked(  # By default, the middle one of the paper's three.
         5.0, checks.at_least(1, "the paper's beta"), help="the paper's beta, >= 1; the larger, the easier"
     )
+    num_blocks: int = checked(
+        NUM_BLOCKS, checks.whole(2, len(_COLORS)), help="the number of blocks, 2 to 12; the more, the harder"
+    )
 
 
 class WhichIsHeavier(contract.Task):
-    """Four blocks in a line that move only vertically; their masses are hidden."""
+    """Blocks in a line that move only vertically; their masses are hidden."""
 
     options: Options
-    question = "Which of the four blocks is heaviest?"
+    question = "Which block is heaviest?"
 
     def build(self) -> contract.Scene:
-        room = arena.Laboratory(**_ROOM, contact=False, gravity=False)
+        count = self.options.num_blocks
+        scale = count / NUM_BLOCKS
+        room = arena.Laboratory(
+            mat_size=_MAT_SIZE * [scale, 1], camera_pos=_CAMERA_POS * scale, **_VIEW, contact=False, gravity=False
+        )
         spring = dict(stiffness=STIFFNESS, damping=DAMPING, limited=True, range=[FLOOR, CEILING])
         rails, heights = [], []
-        for k in range(NUM_BLOCKS):
-            cube = things.Block(rgba=things.COLORS[k], mass=HEAVIEST, name=f"block_{k}")
-            place = [(k - (NUM_BLOCKS - 1) / 2) * SPACING, 0, things.HALF_SIZE]
+        for k in range(count):
+            cube = things.Block(rgba=_COLORS[k], mass=HEAVIEST, name=f"block_{k}")
+            place = [(k - (count - 1) / 2) * SPACING, 0, things.HALF_SIZE]
             rails.append(room.put_on_rail(cube, place, [0, 0, 1], **spring))
             room.mjcf_model.actuator.add("motor", name=f"poke_{k}", joint=rails[-1])
             heights.append(room.mjcf_model.sensor.add("jointpos", name=f"height_{k}", joint=rails[-1]))
@@ -67,18 +78,18 @@ class WhichIsHeavier(contract.Task):
             arena=room,
             interactions=[
                 declarations.Interaction(f"poke block {k}", control, f"block_{k}", (0.0, 0.0, POKE_FORCE))
-                for k, control in enumerate(POKE_FORCE * np.eye(NUM_BLOCKS))
+                for k, control in enumerate(POKE_FORCE * np.eye(count))
             ],
-            label_names=[f"block {k} is heaviest" for k in range(NUM_BLOCKS)],
-            readings={"heights": declarations.Reading(heights, (NUM_BLOCKS,), meaning, "m", bounds=bounds, noisy=True)},
+            label_names=[f"block {k} is heaviest" for k in range(count)],
+            readings={"heights": declarations.Reading(heights, (count,), meaning, "m", bounds=bounds, noisy=True)},
             num_nuisances=5,
         )
 
     largest_hidden = 1.0
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
-        """Returns masses on the paper's scale, float64 [N, 4] in [0, 1]; to kilograms: `kilograms`."""
-        return draw_masses(seeds, episodes, self.options.difficulty)
+        """Returns masses on the paper's scale, float64 [N, K] in [0, 1]; to kilograms: `kilograms`."""
+        return prior(self.options.difficulty, self.options.num_blocks).draw(seeds, episodes)
 
     def answers(self, hidden: np.ndarray) -> np.ndarray:
         return hidden.argmax(axis=1)
@@ -120,9 +131,9 @@ def kilograms(masses: Any) -> Any:
     return LIGHTEST + (HEAVIEST - LIGHTEST) * masses
 
 
-def prior(difficulty: float) -> priors.OddOneOut:
+def prior(difficulty: float, num_blocks: int = NUM_BLOCKS) -> priors.OddOneOut:
     """Returns the prior of the masses: Beta(difficulty, 1) for one block, Beta(1, difficulty) for the others."""
-    return priors.OddOneOut(NUM_BLOCKS, difficulty)
+    return priors.OddOneOut(num_blocks, difficulty)
 
 
 def draw_masses(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> np.ndarray:
@@ -131,7 +142,7 @@ def draw_masses(seeds: np.ndarray, episodes: np.ndarray, difficulty: float) -> n
 
 
 def mass_gaps(masses: np.ndarray) -> np.ndarray:
-    """Returns by how much the heaviest block is heavier than the second, [N], of masses [N, 4] in [0, 1]."""
+    """Returns by how much the heaviest block is heavier than the second, [N], of masses [N, K] in [0, 1]."""
     return priors.gaps(masses)
 
 

@@ -91,6 +91,11 @@ def test_a_larger_difficulty_is_easier(domain, difficulties, task_kwargs):
         assert (np.diff([solution.figures()["mean_interactions"] for solution in solutions]) < 0).all()
 
 
+def test_more_blocks_are_harder():
+    values = [ideals.of("which_is_heavier", num_blocks=number, difficulty=3.0).value for number in (2, 4, 6)]
+    assert (np.diff(values) < -0.05).all()
+
+
 def test_more_cans_are_easier_to_crush():
     solutions = [ideals.of("crush", num_cans=number) for number in (1, 2, 3)]
     assert (np.diff([solution.value for solution in solutions]) > 0.01).all()
@@ -123,9 +128,14 @@ def test_a_question_is_solved_once_whatever_its_seed():
         ("threshold", "features", {"flag_noise": 0.1, "time_limit": 3}, {}, "an episode has 30 steps; .* at most 15"),
         ("strings", "features", {"step_variation": 0.5}, {}, "step_variation is 0.5; give 0"),
         ("which_is_heavier", "features", {"difficulty": 1e7}, {}, "difficulty is 1.*; give a number from 1 to 1e.06"),
-        ("which_is_heavier", "features", {}, {"blocks": 1}, "blocks is 1; give an integer >= 2 and <= 20"),
-        ("which_is_heavier", "features", {"noise": 0.001}, {"blocks": 3}, "blocks is 3; leave it out with noise"),
-        ("which_is_heavier", "features", {"reveal": True}, {"blocks": 3}, "blocks is 3; leave it out with reveal"),
+        ("which_is_heavier", "features", {"num_blocks": 1}, {}, "num_blocks is 1; give an integer >= 2 and <= 12"),
+        (
+            "towers",
+            "direct_features",
+            {"reveal": True},
+            {"resolution": 0.1},
+            "resolution is 0.1; leave it out with rev",
+        ),
     ],
 )
 def test_a_question_without_an_answer_is_refused_in_one_line(domain, task, task_kwargs, options, message):

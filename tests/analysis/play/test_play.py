@@ -126,7 +126,7 @@ def test_features_fit_the_terminal(columns):
 @pytest.mark.parametrize(
     ("domain", "task", "words"),
     [
-        ("which_is_heavier", "features", ["Which of the four blocks is heaviest?", "0  poke block 0"]),
+        ("which_is_heavier", "features", ["Which block is heaviest?", "0  poke block 0"]),
         ("towers", "fist_features", ["How many rigid bodies is the tower made of?", "O is the fist"]),
     ],
 )
