@@ -204,12 +204,11 @@ def _draw_scores(axes, frame, label: str, names: Mapping[str, str], along: str =
 
 
 def _draw_finished(axes, rows, along: str) -> None:
-    """Draws the median final score of the agents of each learner, at the end of its training."""
+    """Draws the median final score of the agents of each learner, where the shortest run ends."""
     unit, _ = curves.AXES[along]
     for number, learner in enumerate(LEARNERS):
-        its = rows[rows.player == learner]
-        middle = its.drop_duplicates("training_seed").final.median()
-        axes.plot(its[along].max() / unit, middle, "o", color=plots.COLORS[number], markersize=3)
+        agents = rows[rows.player == learner].groupby("training_seed").agg({along: "max", "final": "first"})
+        axes.plot(agents[along].min() / unit, agents.final.median(), "o", color=plots.COLORS[number], markersize=3)
 
 
 def _draw_efficiency(frame):
