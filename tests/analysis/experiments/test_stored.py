@@ -1,5 +1,6 @@
 """Experiments whose stored data are incomplete or damaged."""
 
+import collections
 import dataclasses
 import json
 import shutil
@@ -39,6 +40,15 @@ def test_the_stored_report_follows_from_the_stored_tables(name):
     stored = (RESULTS / "report.md").read_text()
     for claim, verdict in zip(found, claims.corrected(found), strict=True):
         assert " | ".join(report.cells(report.Row(claim, verdict, name))) in stored
+
+
+def test_the_same_statistic_has_one_verdict_wherever_it_stands():
+    rows = [line.split(" | ") for line in (RESULTS / "report.md").read_text().splitlines() if line.startswith("| **")]
+    verdicts = collections.defaultdict(list)
+    for verdict, _, *numbers, _, experiment in rows:  # Condition, statistic, estimate and its interval, wanted range.
+        verdicts[tuple(numbers)].append((verdict, experiment))
+    assert len(rows) > 100
+    assert not [its for its in verdicts.values() if len({verdict for verdict, _ in its}) > 1]
 
 
 def test_a_domain_new_in_the_laboratory_is_solved_and_others_are_kept(results):
