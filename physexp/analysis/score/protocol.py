@@ -136,7 +136,8 @@ def floor(question: Question, at_once: float) -> float:
 
     The best return without looking, `ideal_base.floor`, is larger where that answer loses; v1 does not count from it.
     """
-    return max(at_once, rules.WRONG * question.discount ** (question.step_limit - 1))
+    silence = rules.WRONG * question.num_questions * question.discount ** (question.step_limit - 1)
+    return max(at_once, silence)
 
 
 def load(question: Question, seed: int = SEED) -> suite.Environment:
