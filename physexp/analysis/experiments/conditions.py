@@ -101,8 +101,8 @@ _BUDGETS = {  # The easier the task, the sooner its curve is flat.
     "strings features": _Budget("strings features", belief=150_000),
     "sealed_box features": _Budget("sealed_box features", belief=200_000),
     "strike features": _Budget("strike features", belief=300_000),
-    "crush features": _Budget("crush features", belief=60_000),
-    "lump features": _Budget("lump features", belief=40_000),
+    "crush features": _Budget("crush features", belief=60_000, a3c=1_000_000),
+    "lump features": _Budget("lump features", belief=40_000, a3c=1_000_000),
 }
 _PAPERS_FRAMES = 2_000_000  # Of the paper's own learner at difficulty 10 from features.
 _NOISY_FRAMES = 120_000  # Of the belief learner at difficulty 5 from features, with noise.
@@ -130,7 +130,8 @@ def _with_preset(domain: str, task: str) -> Condition:
     """Returns A3C on a task as it is in the score's protocol."""
     agent = config_lib.preset(domain, task, algorithm="a3c").replace(num_workers=1)
     task_kwargs = domains.find(domain).protocol_options or {}
-    return Condition(domain=domain, task=task, task_kwargs=task_kwargs, agent=agent)
+    condition = Condition(domain=domain, task=task, task_kwargs=task_kwargs, agent=agent)
+    return condition.changed(agent.replace(frames=_BUDGETS[condition.label].a3c or agent.frames))
 
 
 HEAVIER = tuple(
