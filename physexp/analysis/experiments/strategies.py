@@ -258,8 +258,8 @@ def _draw_waits(axes, frame) -> None:
     for kind, share in shares.items():
         below = shares.loc[:, :kind].sum(axis=1) - share
         axes.bar(counts, share, bottom=below, color=plots.COLORS[kind], label=lump.MATERIALS[kind])
-    axes.set(xlabel="waits after two hard presses (0: another beginning)", ylabel="share of episodes")
-    axes.legend(fontsize=6)
+    axes.set(xlabel="waits after two hard presses", ylabel="share of episodes")
+    axes.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=len(lump.MATERIALS), fontsize=6)
 
 
 _one_against_one = claims.mean_of_agents(lambda rows: rows["first"] == 1, estimates.mean_share)
