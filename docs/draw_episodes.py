@@ -1,7 +1,4 @@
-"""Draws docs/DOMAIN.gif of each domain: an episode of an agent that comes with the package.
-
-The ideal experimenter plays where no agent comes with the package.
-"""
+"""Draws docs/DOMAIN.gif of each domain: an episode of an agent that comes with the package."""
 
 from collections.abc import Iterator, Sequence
 import dataclasses
@@ -12,9 +9,6 @@ from matplotlib.backends import backend_agg
 import numpy as np
 from PIL import Image
 
-from physexp import suite
-from physexp.agents import environment_loop
-from physexp.analysis import domains
 from physexp.analysis.replay import beliefs, palette, recording
 from physexp.analysis.training import finding
 from physexp.suite.engine import rendering
@@ -28,11 +22,9 @@ EPISODES = {
     "sealed_box": ("sealed_box/features", 5, 7),
     "strike": ("strike/features", 5, 0),
     "crush": ("crush/features", 5, 6),
-    "lump": ("lump/features", 5, 11),
+    "lump": ("lump/features", 5, 6),
 }
 """For each picture the agent, which keeps a belief, and the seed and the index of the episode."""
-
-PLAYED_BY_THE_IDEAL = ("crush", "lump")
 
 SCALE = 2  # For dense screens.
 SIZE = (880 * SCALE, 400 * SCALE)  # pixels
@@ -67,22 +59,8 @@ class Frame:
 def recorded(name: str) -> recording.Film:
     """Returns the episode that a picture shows."""
     target, seed, index = EPISODES[name]
-    if name in PLAYED_BY_THE_IDEAL:
-        return played_by_the_ideal(*target.split("/"), seed, index)
     agent = finding.find_agent(target)
     return recording.reenact(agent.network, agent.config, seed, index, None)
-
-
-def played_by_the_ideal(domain: str, task: str, seed: int, index: int) -> recording.Film:
-    """Returns an episode of the ideal experimenter with its beliefs."""
-    known = domains.find(domain)
-    environment = suite.load(domain, task, task_kwargs={"random": seed})
-    environment.task.next_episode = index
-    recorder = recording.EpisodeRecorder(domain, task)
-    actor = known.ideal(task, {}, known.discount).actor()
-    environment_loop.EnvironmentLoop(environment, actor, [recorder]).run_episode()
-    episode = recorder.episode
-    return dataclasses.replace(episode, beliefs=beliefs.of_ideal(episode)[:-1])
 
 
 def frames(episode: recording.Film) -> list[Frame]:
@@ -150,8 +128,7 @@ def drawn(episode: recording.Film, frame: Frame, scene: np.ndarray) -> Image.Ima
     axes.barh(names, frame.belief, color=colors, height=0.7)
     axes.invert_yaxis()
     axes.set_xlim(0, 1)
-    player = "the ideal experimenter" if episode.domain in PLAYED_BY_THE_IDEAL else "the agent"
-    axes.set_title(f"{player}'s belief", fontsize=11, loc="left", color="#555555")
+    axes.set_title("the agent's belief", fontsize=11, loc="left", color="#555555")
     axes.set_xticks([])
     axes.tick_params(axis="y", length=0, labelsize=9 if are_many else 12)
     axes.spines[:].set_visible(False)
