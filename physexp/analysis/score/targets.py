@@ -159,16 +159,20 @@ def _is_team(name: str) -> bool:
 
 @functools.cache  # The cards of all agents are read.
 def _shipped(learner: str) -> list[str]:
-    """Returns the agents that come with the package, one for each task: the best ones, or those of a learner."""
+    """Returns the agents that come with the package, of tasks without options and of the protocol's, one for each.
+
+    They are the best ones, or those of a learner.
+    """
     from physexp.agents import pretrained
     from physexp.analysis.training import finding, publishing
 
-    team: dict[str, str] = {}
+    team: dict[protocol.Question, str] = {}
     for name in pretrained.names():
         config = finding.config_of(pretrained.card_named(name))
         is_wanted = "/" not in name if learner == SHIPPED else config.agent.algorithm == learner
-        if is_wanted and publishing.is_default(config):
-            team.setdefault(config.task_name, name)
+        question = protocol.question(config.domain, config.task, config.task_kwargs)
+        if is_wanted and (publishing.is_default(config) or question in protocol.observing("all")):
+            team.setdefault(question, name)
     return list(team.values())
 
 

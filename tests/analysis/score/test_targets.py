@@ -67,6 +67,7 @@ def test_each_agent_of_a_team_plays_its_own_task():
     assert names("a3c") == ["which_is_heavier/features", "towers/direct_features", "towers/fist_features"]
     team = targets.find("shipped")
     features, pixels = ([asked.name for asked in team.choose([], kind)] for kind in ("features", "pixels"))
+    assert set(protocol.observing("all")) <= set(team.agents)
     assert {"threshold/features", "strike/features"} < set(features) and "threshold/pixels" not in features
     assert "threshold/pixels" in pixels and "threshold/features" not in pixels
     assert names("threshold/features,strings/features") == ["threshold/features", "strings/features"]
