@@ -5,6 +5,9 @@ import functools
 from physexp.analysis import domains
 from physexp.analysis.score import protocol
 
+QUICK = {"strike": {"time_limit": 0.5}}
+"""Options of domains where the search takes half a minute at the usual time limit."""
+
 
 @functools.cache
 def of(domain: str, task: str = "features", **task_kwargs):

@@ -18,13 +18,12 @@ from physexp.suite.domains import crush
 
 NAMES = [name for name, domain in domains.DOMAINS.items() if domain.ideal is not None]
 TASKS = [(domain, task) for domain, task in suite.tagged("features") if domain in NAMES]
-QUICK = {"strike": {"time_limit": 0.5}}  # At its usual time limit the search takes half a minute.
 
 
 @pytest.mark.parametrize(("domain", "task"), TASKS)
 def test_its_mean_return_in_the_real_environment_is_its_value(domain, task):
     discount = domains.find(domain).discount
-    options = QUICK.get(domain, {})
+    options = ideals.QUICK.get(domain, {})
     solution = ideals.of(domain, task, **options)
     rewards, lengths = rollouts.play([solution.actor() for _ in range(48)], domain, task, options, 8, fresh_seed())
     returns = rewards * discount ** (lengths - 1)
@@ -43,7 +42,7 @@ def test_its_mean_return_in_the_real_environment_is_its_value(domain, task):
 
 @pytest.mark.parametrize(("domain", "task"), TASKS)
 def test_its_belief_starts_at_the_prior_and_ends_at_its_answer(domain, task):
-    options = QUICK.get(domain, {})
+    options = ideals.QUICK.get(domain, {})
     solution = ideals.of(domain, task, **options)
     environment = suite.load(domain, task, task_kwargs={**options, "random": fresh_seed()})
     recorder = observers.Watcher()
@@ -59,7 +58,8 @@ def test_its_belief_starts_at_the_prior_and_ends_at_its_answer(domain, task):
 
 
 @pytest.mark.parametrize(
-    "domain", [pytest.param(name, marks=[pytest.mark.long] * (name in QUICK)) for name in NAMES if name != "towers"]
+    "domain",
+    [pytest.param(name, marks=[pytest.mark.long] * (name in ideals.QUICK)) for name in NAMES if name != "towers"],
 )
 def test_there_is_something_to_find_out(domain, monkeypatch):
     monkeypatch.setattr(random_play, "_NUM_SEQUENCES", 64)  # The standard error stays below 0.03.
