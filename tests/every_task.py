@@ -15,7 +15,7 @@ _UNREGISTERED = {"bolted/features": bolted.features, "bolted/pixels": bolted.pix
 NAMES = [*("/".join(names) for names in suite.ALL_TASKS), *_UNREGISTERED]
 FEATURES = [name for name in NAMES if name.endswith("features")]
 
-UNTRAINED = {("crush", "pixels"), ("lump", "pixels")}
+UNTRAINED = {("crush", "pixels")}
 """Tasks of which no agent has been trained yet."""
 
 NOISY = ["which_is_heavier/features", "towers/direct_features", "towers/fist_features"]

@@ -15,7 +15,7 @@ DOMAIN = base.search_domain(
     "lump",
     _hypotheses,
     presets=base.PRESETS_OF_BITS,
-    targets={"lump-features": ("mean_return", 0.77)},
+    targets={"lump-features": ("mean_return", 0.77), "lump-pixels": ("mean_return", 0.75)},
     protocol_options=None,
     hidden_columns=lambda hidden: {"lump": hidden},  # An index in `lump.ALL_LUMPS`.
 )
