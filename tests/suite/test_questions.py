@@ -35,7 +35,7 @@ def _alike(question) -> frozenset:
     return frozenset(found)
 
 
-def test_questions_are_those_that_half_of_the_graphs_answer_and_one_pull_does_not():
+def test_half_of_the_graphs_mean_yes_and_no_pull_alone_answers():
     halves = {frozenset(chosen) for chosen in itertools.combinations(_graphs(), 4)}
     together = frozenset(graph for graph in _graphs() if len(graph) >= 2)  # A pull moves all pucks.
     assert _as_sets(strings.question_sets()["all"]) == halves - _alike(together)
@@ -65,7 +65,7 @@ def test_a_question_may_be_chosen_by_its_name(name, seed):
     np.testing.assert_array_equal(answers, meant[name])
 
 
-def test_questions_are_drawn_uniformly_whatever_the_bands_and_the_other_questions_are(seed):
+def test_questions_are_uniform_and_independent_of_bands_and_each_other(seed):
     hidden, answers = episodes.drawn_with_answers("strings", seed, questions="all", num_questions=2)
     without = episodes.drawn("strings", np.full(len(hidden), seed), np.arange(len(hidden)))
     np.testing.assert_array_equal(hidden[:, :3], without)
@@ -95,7 +95,7 @@ class _Referee:
 
 
 @pytest.mark.parametrize("kwargs", [{"reveal": True}, {"step_variation": 0.5, "control_timestep": 0.2}])
-def test_an_answer_brings_the_next_question_at_once_and_single_environments_agree_with_a_batch(seed, kwargs):
+def test_an_answer_brings_the_next_question_at_once_in_a_batch_too(seed, kwargs):
     rng, size = np.random.default_rng(seed), 8
     batch = suite.load_batch("strings", "features", size, {**SEVERAL, **kwargs, "random": seed})
     singles = [

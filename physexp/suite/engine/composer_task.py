@@ -164,7 +164,7 @@ class ComposerTask(composer.Task):
             state = {field: getattr(data, field)[None] for field in task.observer.fields}
             if not self.answered:
                 self.ledger.touched |= self.apparatus.moved(data.qpos[None], self._starts.qpos)
-            # After an answer, sensors tell what they told before it.
+            # An answer changes the values of no other sensors.
             state["sensordata"] = self.sensed(self.measured if self.answered else data.sensordata)
             self._look(state)
             self.apparatus.indicate(data.geom_xpos[None], self.measured)  # For `physics.render`.

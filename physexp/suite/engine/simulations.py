@@ -54,7 +54,7 @@ class Group:
         self._look(ledger, rows, {field: values[rows] for field, values in self._looked_at.items()}, observations)
 
     def look_again(self, ledger: episodes.Ledger, rows: np.ndarray, observations: Mapping[str, np.ndarray]) -> None:
-        """Writes the last observations of rows, with the questions that are asked now; sensors tell what they told."""
+        """Writes the last observations of rows with the current questions; the values of other sensors stay."""
         self._batch.forward(ids=rows, stage=mujoco.mjtStage.mjSTAGE_POS)  # A reset changes only coordinates.
         state = {field: values[rows] for field, values in self._looked_at.items()}
         self._look(ledger, rows, {**state, "sensordata": self._measured[rows]}, observations)

@@ -52,7 +52,7 @@ class Questions:
     def add_reading(self, room: composer.Arena, kinds: Sequence[str]) -> dict[str, declarations.Reading]:
         """Adds the sensors that tell the question to a room; returns its reading by name, for kinds in words."""
         sensors = [room.mjcf_model.sensor.add("user", name=kind, dim=1, needstage="pos") for kind in kinds]
-        meaning = f"1 for each that means yes, of {'; '.join(kinds)}"
+        meaning = f"1 for each of these that means yes: {'; '.join(kinds)}"
         return {self.reading: declarations.Reading(sensors, (len(kinds),), meaning, bounds=(0, 1))}
 
     def add_lamps(

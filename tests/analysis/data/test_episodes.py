@@ -35,7 +35,7 @@ def test_a_round_becomes_a_row_for_each_of_its_episodes():
     assert table.returns(0.5).tolist() == [0.25, -1, -0.125]  # 0.5^2, 0.5^0, 0.5^3.
 
 
-def test_an_episode_of_several_questions_earns_all_its_rewards_and_counts_all_its_answers():
+def test_several_questions_earn_all_rewards_and_count_all_answers():
     """Two questions, 4 interactions, 2 labels: right and wrong; right, then out of time; right in the last step."""
     actions = np.array([[4, 0, 5, 0], [0, 4, 0, 0], [1, 2, 3, 4]]).T
     rewards = np.array([[1, 0, -1, 0], [0, 1, 0, -1], [0, 0, 0, 1 - 1]], np.float32).T
