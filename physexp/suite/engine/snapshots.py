@@ -8,6 +8,8 @@ import numpy as np
 from physexp import checks
 from physexp.suite.engine import batch as batch_lib
 
+_COUNTED = ("steps", "num_answered", "num_right", "returns", "touched")
+
 
 @dataclasses.dataclass(frozen=True)
 class Snapshot:
@@ -16,7 +18,7 @@ class Snapshot:
     Attributes:
       environments: their indices, int64 [N].
       identity: arrays [N, ...] that tell the episodes from others of the same environments.
-      steps, num_answered, touched: as in `episodes.Ledger`.
+      counted: the attributes of `episodes.Ledger` that change in an episode, arrays [N, ...] by name.
       observed: the last observations, arrays [N, ...] by name.
       states: states of the simulations and their sensors, one array for each structure, float64 [number of its
         environments, ...].
@@ -25,16 +27,15 @@ class Snapshot:
 
     environments: np.ndarray
     identity: tuple[np.ndarray, ...]
-    steps: np.ndarray
-    num_answered: np.ndarray
-    touched: np.ndarray
+    counted: dict[str, np.ndarray]
     observed: dict[str, np.ndarray]
     states: tuple[np.ndarray, ...]
     coordinates: tuple[np.ndarray, ...]
 
     def with_step_count(self, steps: int) -> "Snapshot":
         """Returns the same snapshot with another number of control steps taken."""
-        return dataclasses.replace(self, steps=np.full_like(self.steps, steps))
+        counted = {**self.counted, "steps": np.full_like(self.counted["steps"], steps)}
+        return dataclasses.replace(self, counted=counted)
 
     def repeated(self, times: int, stride: int) -> "Snapshot":
         """Returns the snapshot of several copies of the environments, whose indices are `stride` apart."""
@@ -61,9 +62,7 @@ def take(batch: batch_lib.BatchEnvironment, environments: np.ndarray | None = No
         return Snapshot(
             environments=chosen.copy(),
             identity=_identity(batch, chosen),
-            steps=ledger.steps[chosen],
-            num_answered=ledger.num_answered[chosen],
-            touched=ledger.touched[chosen],
+            counted={name: getattr(ledger, name)[chosen] for name in _COUNTED},
             observed={name: values[chosen] for name, values in batch.observations.items()},
             states=tuple(group.save(rows) for group, rows in by_structure),
             coordinates=tuple(group.coordinates(rows) for group, rows in by_structure),
@@ -76,8 +75,9 @@ def restore(batch: batch_lib.BatchEnvironment, snapshot: Snapshot) -> None:
         ledger = batch.ledger
         if not all(map(np.array_equal, _identity(batch, chosen), snapshot.identity)):
             raise ValueError("environments have begun other episodes since the snapshot; restore it before that")
-        ledger.steps[chosen], ledger.num_answered[chosen] = snapshot.steps, snapshot.num_answered
-        ledger.touched[chosen], ledger.over[chosen] = snapshot.touched, False
+        ledger.over[chosen] = False
+        for name, values in snapshot.counted.items():
+            getattr(ledger, name)[chosen] = values
         for name, values in snapshot.observed.items():
             batch.observations[name][chosen] = values
         for (group, members), states in zip(batch.by_structure(chosen), snapshot.states, strict=True):
