@@ -25,6 +25,9 @@ class Train:
         config_lib.DEFAULT_ALGORITHM, "the learner; belief needs the fewest frames, a3c is the paper's"
     )
     replay_every: int = option(config_lib.REPLAY_EVERY, "environment steps between replays, 0 for no replays")
+    also: tuple[str, ...] = option(
+        (), "further settings of the task that training takes turns in, each as OPTION=VALUE,OPTION=VALUE", "SETTING"
+    )
     run_dir: Path | None = option(None, "the folder of the run; by default one named after the run, under runs/")
     tensorboard: bool = option(False, "write the metrics for TensorBoard too")
     resume: bool = option(False, "continue the run in --run-dir with its own configuration")
@@ -63,12 +66,14 @@ class Train:
         from physexp import suite
         from physexp.analysis.training import publishing, trainer, verdict
         from physexp.analysis.training import run as run_lib
+        from physexp.suite.engine import options
 
         suite.load_task(self.domain, self.task, self.task_kwargs)
         config = config_lib.TrainConfig(
             domain=self.domain,
             task=self.task,
             task_kwargs=self.task_kwargs,
+            also=tuple(map(options.parsed, self.also)),
             replay_every=self.replay_every,
             agent=self.config,
         )

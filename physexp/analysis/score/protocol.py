@@ -3,7 +3,6 @@
 All targets play the same instances: episode e of a task is the one with index e in the environment of one seed.
 """
 
-import ast
 from collections.abc import Mapping, Sequence
 import dataclasses
 import functools
@@ -18,6 +17,7 @@ from physexp.agents import config as agent_config
 from physexp.analysis import domains
 from physexp.analysis.domains import base as domains_base
 from physexp.analysis.ideal import base as ideal_base
+from physexp.suite.engine import options as options_lib
 from physexp.suite.engine import rules
 
 VERSION = "v1"
@@ -159,23 +159,12 @@ def named(names: Sequence[str]) -> tuple[Question, ...]:
     """
     known, found = {"/".join(names): names for names in suite.ALL_TASKS}, []
     for name in names:
-        given, *options = name.split(",")
+        given, _, options = name.partition(",")
         if given not in known:
             raise ValueError(f"task is {given!r}; choose from {', '.join(known)}")
         domain, task = known[given]
-        found.append(question(domain, task, {**_of_protocol(domain), **dict(map(_option, options))}))
+        found.append(question(domain, task, {**_of_protocol(domain), **options_lib.parsed(options)}))
     return tuple(dict.fromkeys(found))
-
-
-def _option(text: str) -> tuple[str, Any]:
-    """Returns the name and the value of an option, `name=value`; its domain checks both."""
-    name, equals, value = text.partition("=")
-    if not equals:
-        raise ValueError(f"{text!r} is no option of a task; give NAME=VALUE")
-    try:
-        return name, ast.literal_eval(value)
-    except (ValueError, SyntaxError):  # A word.
-        return name, value
 
 
 def observing(kind: str) -> tuple[Question, ...]:

@@ -44,6 +44,7 @@ class TrainConfig:
     Attributes:
       domain, task: names of the environment.
       task_kwargs: the `task_kwargs` of `suite.load` that were chosen, without the seed: numbers, texts or flags.
+      also: options of further settings, beside `task_kwargs`; rounds of training take turns in all of them.
       replay_every: environment steps between replays that training writes; 0 for none.
       agent: the agent's configuration.
     """
@@ -51,15 +52,15 @@ class TrainConfig:
     domain: str
     task: str
     task_kwargs: Mapping[str, Any] = dataclasses.field(default_factory=dict, hash=False)  # Dictionaries have no hash.
+    also: tuple[Mapping[str, Any], ...] = dataclasses.field(default=(), hash=False)
     replay_every: int = 0
     agent: agent_config.AgentConfig
 
     def __post_init__(self):
         object.__setattr__(self, "replay_every", checks.integer("replay_every", self.replay_every, 0))
-        if not isinstance(self.task_kwargs, Mapping):
-            raise ValueError(f"task_kwargs is {self.task_kwargs!r}; give a dictionary")
-        task_kwargs = {name: _as_python(name, value) for name, value in self.task_kwargs.items()}
-        object.__setattr__(self, "task_kwargs", task_kwargs)  # A copy, which the caller cannot change.
+        task_kwargs, *also = map(_as_options, (self.task_kwargs, *self.also))  # Copies, which the caller cannot change.
+        object.__setattr__(self, "task_kwargs", task_kwargs)
+        object.__setattr__(self, "also", tuple(also))
 
     @property
     def task_name(self) -> str:
@@ -74,10 +75,15 @@ class TrainConfig:
     @property
     def name(self) -> str:
         """A name for the run's folder."""
-        options = "".join(f"-{name}{agent_config.shown(value)}" for name, value in sorted(self.task_kwargs.items()))
+        options = "-also".join(map(_in_name, (self.task_kwargs, *self.also)))
         algorithm = "" if self.agent.title == _UNNAMED else f"-{self.agent.title}"
         numbers = f"discount{self.agent.discount:g}-seed{self.agent.seed}"
         return f"{self.domain}-{self.task}{options}{algorithm}-{numbers}"
+
+    @property
+    def settings(self) -> list[dict[str, Any]]:
+        """The options of each setting that training takes turns in; the first are `task_kwargs`."""
+        return [{**self.task_kwargs, **more} for more in ({}, *self.also)]
 
     def load_task(self) -> Any:
         """Returns the task with its options; see `suite.load_task`."""
@@ -98,7 +104,17 @@ class TrainConfig:
             for name, value in fields["agent"].items()
         }
         algorithm = ALGORITHMS[agent.pop("algorithm")]
-        return cls(**{**fields, "agent": algorithm(**agent)})
+        return cls(**{**fields, "also": tuple(fields.get("also", ())), "agent": algorithm(**agent)})
+
+
+def _as_options(options: Any) -> dict[str, Any]:
+    if not isinstance(options, Mapping):
+        raise ValueError(f"task_kwargs is {options!r}; give a dictionary")
+    return {name: _as_python(name, value) for name, value in options.items()}
+
+
+def _in_name(options: Mapping[str, Any]) -> str:
+    return "".join(f"-{name}{agent_config.shown(value)}" for name, value in sorted(options.items()))
 
 
 def _as_python(name: str, value):

@@ -118,7 +118,7 @@ def config_of(card: Mapping[str, Any]) -> config_lib.TrainConfig:
     """Returns the configuration that an agent was trained with; raises ValueError if its card does not say so."""
     try:
         facts = {name: card[name] for name in ("domain", "task", "task_kwargs", "agent")}
-        return config_lib.TrainConfig.from_json(facts)
+        return config_lib.TrainConfig.from_json({**facts, "also": card.get("also", ())})
     except (KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"an agent's card lacks its configuration: {error!r}; publish the agent again") from None
 
@@ -146,7 +146,8 @@ def command(config: config_lib.TrainConfig) -> str:
     changed = [(name, value) for name, value in dataclasses.asdict(config.agent).items() if value != preset[name]]
     for name, value in [*config.task_kwargs.items(), *changed]:
         words += _flag(name, value)
-    return " ".join(words)
+    also = [",".join(f"{name}={agent_config.shown(value)}" for name, value in more.items()) for more in config.also]
+    return " ".join([*words, *(["--also", *also] if also else [])])
 
 
 def _flag(name: str, value: Any) -> list[str]:

@@ -33,6 +33,7 @@ def publish(run: run_lib.Run, folder: Path, num_episodes: int, replaces: bool = 
         "domain": config.domain,
         "task": config.task,
         "task_kwargs": dict(config.task_kwargs),
+        **({"also": config.also} if config.also else {}),
         "default": is_default(config),
         **trained,
         "versions": created["versions"],

@@ -43,7 +43,7 @@ class Recorder:
         self._run, self._config, self._tell = run, config, tell
         self._report = callbacks.expendable(report, tell, "the report of training")
         self._on_checkpoint = callbacks.expendable(on_checkpoint, tell, "the watcher of checkpoints (replays)")
-        self._rules = config.load_task().rules
+        self._rules, self._settings = config.load_task().rules, len(config.settings)
         self._frames = self._updates = self._num_episodes = self._frames_at_row = 0
         self._seconds = 0.0
         self._started = self._checkpointed = self._row_started = time.monotonic()
@@ -151,7 +151,9 @@ class Recorder:
             **{name: _mean([update.metrics[name] for update in self._window]) for name in self._config.agent.metrics},
         }
         self._run.append_metrics(row)
-        self._rows.append(parts[-1].table(run_lib.EPISODES, frames=self._frames))
+        first = [part for part, update in zip(parts, self._window, strict=True) if not update.episode % self._settings]
+        if first:  # Stored episodes are of the task itself.
+            self._rows.append(first[-1].table(run_lib.EPISODES, frames=self._frames))
         self._window, self._row_started, self._frames_at_row = [], now, self._frames
         return row
 

@@ -5,7 +5,7 @@ import functools
 import shutil
 
 from physexp import suite
-from physexp.agents import core, devices, networks, processes, registry, starting
+from physexp.agents import alternating, core, devices, networks, processes, registry, starting
 from physexp.analysis.training import callbacks, stopping
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import recorder as recorder_lib
@@ -18,8 +18,11 @@ _CHECKPOINTS_AT_ONCE = 3  # Two are kept, and the next is written before the old
 
 def make_environment(config: config_lib.TrainConfig, seed: int, num_environments: int, num_threads: int):
     """Returns a batch of a run's environments, with a seed of their own."""
-    task_kwargs = {**config.task_kwargs, "random": seed}
-    return suite.load_batch(config.domain, config.task, num_environments, task_kwargs, num_threads)
+    batches = [
+        suite.load_batch(config.domain, config.task, num_environments, {**options, "random": seed}, num_threads)
+        for options in config.settings
+    ]
+    return alternating.Alternating(batches) if config.also else batches[0]
 
 
 def make_network(config: config_lib.TrainConfig) -> networks.RecurrentNetwork:
@@ -39,7 +42,7 @@ def check(config: config_lib.TrainConfig) -> None:
     It names an unknown task, several questions for the belief learner, a GPU or an OpenGL library that is needed and
     missing, or more workers than there is room for.
     """
-    task = config.load_task()
+    task, *_ = [suite.load_task(config.domain, config.task, options) for options in config.settings]
     if config.agent.algorithm == "belief" and task.rules.num_questions > 1:
         raise ValueError(
             f"num_questions is {task.rules.num_questions}; give 1 to the belief learner, or another --agent"

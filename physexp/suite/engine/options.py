@@ -1,5 +1,6 @@
 """The options that every task has."""
 
+import ast
 import dataclasses
 import math
 from typing import Any, ClassVar
@@ -11,6 +12,23 @@ from physexp.checks import checked
 from physexp.suite.engine import seeding
 
 _ROUNDING = 1e-6  # A control step is as good as a multiple that it differs from by less: float32 keeps 7 digits.
+
+
+def parsed(text: str) -> dict[str, Any]:
+    """Returns the options of a text, `name=value,name=value`, whose names and values are not checked.
+
+    Raises ValueError for a part without a value.
+    """
+    found = {}
+    for part in text.split(",") if text else []:
+        name, equals, value = part.partition("=")
+        if not equals:
+            raise ValueError(f"{part!r} is no option of a task; give NAME=VALUE")
+        try:
+            found[name] = ast.literal_eval(value)
+        except (ValueError, SyntaxError):  # A word.
+            found[name] = value
+    return found
 
 
 def _seed(name: str, value: Any) -> int:

@@ -25,6 +25,7 @@ def make_config(**changes):
     [
         {"task_kwargs": {"control_timestep": 0.05, "blocks": 3, "colour": "red"}},
         {"task_kwargs": {"difficulty": np.float32(3.5), "blocks": np.int64(3)}, "replay_every": np.int64(5)},
+        {"also": ({"difficulty": np.float64(5)}, {"difficulty": 10.0, "noise": 0.01})},
     ],
 )
 def test_a_configuration_survives_json(changes):
