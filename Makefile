@@ -18,7 +18,7 @@ help: ## Show this list.
 install: .venv/installed-all ## Install physexp into .venv with everything that its commands can use.
 	$(HOW_TO_RUN)
 
-demo: .venv/installed-figures ## Train an agent to find the heaviest block and compare it with random pokes.
+demo: .venv/installed-figures ## Train an agent in about a minute and compare it with the ideal experimenter.
 	$(BIN)/physexp demo
 	$(HOW_TO_RUN)
 

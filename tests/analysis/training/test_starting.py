@@ -169,7 +169,7 @@ def test_the_demo_refuses_a_folder_with_another_run(tmp_path, capsys):
 
 
 def test_the_demo_moves_an_earlier_one_aside_and_judges_its_agent(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(demo, "config", lambda: small(frames=100))  # Too few to learn anything from.
+    monkeypatch.setattr(demo, "FRAMES", 100)  # Too few to learn anything from.
     monkeypatch.setattr(demo, "EPISODES", 10)
     run = run_lib.Run(tmp_path / "demo")
     run.create(demo.config())
@@ -178,5 +178,8 @@ def test_the_demo_moves_an_earlier_one_aside_and_judges_its_agent(tmp_path, monk
     before = folders.contents(run.path)
     demo.Demo(run_dir=run.path).run()
     assert folders.contents(run.path / "superseded-1") == before and run.is_finished and not checkpoint.exists()
-    errors = capsys.readouterr().err
-    assert "the agent" in errors and "chance is 25.0%" in errors and re.search(r"--frames \d+ or more", errors)
+    printed = capsys.readouterr()
+    assert "the agent" in printed.err and "chance is 12.5%" in printed.err
+    assert re.search(r"--frames \d+ or more", printed.err)
+    assert f"{0.95**3:.4f}" in printed.out and "score: " in printed.out  # Three pushes halve eight forces to one.
+    assert {"learning_curve.png", "replay.rrd", "score"} <= {path.name for path in run.path.iterdir()}
