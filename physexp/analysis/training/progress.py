@@ -45,9 +45,10 @@ class Progress:
     def __call__(self, row: dict) -> None:
         """Shows a row of metrics."""
         self._rates = [*self._rates[-11:], row["frames_per_second"]]
-        left = (self._config.agent.frames - row["frames"]) / max(1.0, sum(self._rates) / len(self._rates))
         cells = {name: form.format(row[name]) for name, form in _COLUMNS if name in row}
-        cells["time left"] = duration(max(0.0, left))
+        if len(self._rates) > 1:  # The first row holds the start of training, which takes time and few frames.
+            left = (self._config.agent.frames - row["frames"]) / max(1.0, sum(self._rates) / len(self._rates))
+            cells["time left"] = duration(max(0.0, left))
         if self._live is not None:
             from rich import table
 
