@@ -11,6 +11,15 @@ import structure
 from physexp import checks, suite
 
 
+def cards() -> Iterator[Sequence[str]]:
+    """Yields the rows of the table of questions, with a moving picture of each."""
+    yield "an agent experiments", "question", "gamma"
+    for domain, names in suite.TASKS_BY_DOMAIN.items():
+        task = suite.load_task(domain, names[0])
+        words = domain.replace("_", " ").title()
+        yield f"![{words}, played by an agent]({domain}.gif)", f"**{words}.** {task.question}", f"{task.discount:g}"
+
+
 def tasks() -> Iterator[Sequence[str]]:
     """Yields the rows of the table of tasks."""
     yield "task", "actions", "observations (float32)", "question"
@@ -65,7 +74,7 @@ def limits() -> Iterator[Sequence[str]]:
         yield f"`{domain}`", str(task.rules.step_limit), f"{task.discount:g}"
 
 
-TABLES = {function.__name__: function for function in (tasks, features, options, common_options, limits)}
+TABLES = {function.__name__: function for function in (cards, tasks, features, options, common_options, limits)}
 
 
 class SuiteTable(SphinxDirective):

@@ -17,11 +17,11 @@ from physexp.analysis.replay import writing
 
 README = ROOT / "README.md"
 BLOCKS = blocks.of(README)
-FIRST, BATCH, PRETRAINED, GYMNASIUM = [block for block in BLOCKS if block.language == "python"]
+FIRST, POLICY, PRETRAINED = [block for block in BLOCKS if block.language == "python"]
 COMMANDS = [
     line.split("#")[0].strip() for language, code, _ in BLOCKS if language == "sh" for line in code.splitlines()
 ]
-TRAINING = ("physexp train", "physexp evaluate", "physexp score")
+TRAINING = ("physexp train", "physexp evaluate", "physexp score runs", "physexp replay")
 
 
 def physexp(command, capsys):
@@ -45,20 +45,24 @@ def elsewhere(tmp_path, monkeypatch):
 
 def test_every_command_of_the_readme_has_a_test_and_make_has_its_targets():
     assert {block.language for block in BLOCKS} == {"python", "sh"}
-    others = ("tasks", "doctor", "replay", "ideal", "reproduce", "report")
-    tested = ("make", *TRAINING, *(f"physexp {name}" for name in others))
+    tested = ("make", *TRAINING, "physexp score mine", "physexp ideal", "physexp reproduce")
     assert all(line.startswith(tested) for line in COMMANDS)
     for command in [line for line in COMMANDS if line.startswith("make")]:
         subprocess.run([*command.split(), "--dry-run"], check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
 
 
-def test_the_first_snippets_need_no_graphics():
-    run_each = "import sys\nfor code in sys.argv[1:]:\n    exec(code, {'__name__': '__main__'})"
-    command = [sys.executable, "-c", run_each, FIRST.code, BATCH.code]
+def test_the_first_snippet_needs_no_graphics():
+    command = [sys.executable, "-c", FIRST.code]
     printed = subprocess.run(
         command, env={**os.environ, "MUJOCO_GL": "disabled"}, capture_output=True, text=True, check=True
     ).stdout
-    assert printed == FIRST.shown + BATCH.shown and "heaviest: right" in FIRST.shown
+    assert printed == FIRST.shown and printed.endswith(": right\n")
+
+
+def test_the_policy_scores_1(tmp_path, capsys):
+    (tmp_path / "mine.py").write_text(POLICY.code)
+    printed = json.loads(physexp(only("physexp score mine") + " --json", capsys))
+    assert printed["tasks"]["threshold/features"]["score"] == pytest.approx(1, abs=1e-9)
 
 
 def test_the_pretrained_agent_counts_at_least_18_of_20_towers():
@@ -68,22 +72,11 @@ def test_the_pretrained_agent_counts_at_least_18_of_20_towers():
     assert int(number.fullmatch(PRETRAINED.shown)[1]) >= 18
 
 
-def test_the_gymnasium_snippet_prints_the_shown_output():
-    assert blocks.run(GYMNASIUM) == GYMNASIUM.shown
-
-
-def test_the_list_of_tasks_has_every_task(capsys):
+def test_the_readme_and_the_list_of_tasks_have_every_task(capsys):
     words = physexp("physexp tasks", capsys).replace(":", " ").split()
     assert {name for names in suite.ALL_TASKS for name in names} <= set(words)
     for domain, task in suite.ALL_TASKS:
         assert f"`{domain}`" in README.read_text() and f"`{task}`" in README.read_text()
-
-
-def test_the_replay_is_a_whole_recording_of_two_episodes(tmp_path, capsys):
-    assert "replay.rrd" in physexp(only("physexp replay"), capsys)
-    path = tmp_path / "replay.rrd"
-    subprocess.run([writing.PROGRAM, "rrd", "verify", path], check=True, capture_output=True)
-    assert [entry.kind for entry in RrdReader(str(path)).recordings()] == ["recording"] * 2
 
 
 def test_the_ideal_experimenter_earns_the_return_of_the_documentation(capsys):
@@ -93,26 +86,21 @@ def test_the_ideal_experimenter_earns_the_return_of_the_documentation(capsys):
     assert found["value"] == pytest.approx(float(value), abs=1e-4)
 
 
-def test_an_experiment_draws_its_figure_and_holds_and_the_report_has_it(tmp_path, capsys):
+def test_an_experiment_draws_its_figure_and_its_claim_holds(tmp_path, capsys):
     printed = physexp(only("physexp reproduce"), capsys)
     assert "holds" in printed and (tmp_path / "results/figures/mass_gap.png").exists()
-    physexp("physexp report", capsys)
-    report = (tmp_path / "results/report.md").read_text()
-    assert "figures/mass_gap.png" in report and "**holds (sanity check)**" in report
 
 
 @pytest.mark.long
-def test_the_trained_agent_experiments_well_and_is_scored(tmp_path, capsys):
-    evaluations = []
+def test_the_trained_agent_experiments_well_is_scored_and_replayed(tmp_path, capsys):
+    printed = {}
     for command in (line for line in COMMANDS if line.startswith(TRAINING)):
-        is_evaluation = command.startswith("physexp evaluate")
-        printed = physexp(command + " --json" * (is_evaluation and "--json" not in command), capsys)
-        if is_evaluation:
-            evaluations.append(json.loads(printed))
-    learned, random = evaluations
-    # Chance is 0.25. The command reached 0.974 and 0.979 with two seeds: less than 0.92 of 200 has a chance of 1e-5.
-    assert learned["success_rate"] >= 0.92
-    assert learned["mean_return"] > random["mean_return"]
-    assert learned["median_interactions"] >= 2
-    scored = json.loads((tmp_path / "runs/readme_score/score.json").read_text(encoding="utf-8"))
-    assert scored["complete"] and scored["whole"]["score"] > 0.8
+        name = command.split()[1]
+        printed[name] = physexp(command + " --json" * (name in ("evaluate", "score")), capsys)
+    evaluated, scored = (json.loads(printed[name]) for name in ("evaluate", "score"))
+    # Chance is 0.125. All of ten seeds have had a mean return above 0.83 after so many frames; the ideal's is 0.857.
+    assert evaluated["success_rate"] >= 0.9 and evaluated["median_interactions"] >= 2
+    assert scored["tasks"]["threshold/features"]["score"] > 0.9
+    path = tmp_path / "replay.rrd"
+    subprocess.run([writing.PROGRAM, "rrd", "verify", path], check=True, capture_output=True)
+    assert [entry.kind for entry in RrdReader(str(path)).recordings()] == ["recording"] * 2
