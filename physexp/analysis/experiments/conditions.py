@@ -76,7 +76,6 @@ class _Budget:
       belief: of the belief learner.
       varied: of the belief learner, with variation.
       a3c, patient: of A3C where they differ from the preset's: at the task's gamma, and at `PATIENT_DISCOUNT`.
-      num_workers: of A3C at the task's gamma.
     """
 
     words: str
@@ -84,13 +83,12 @@ class _Budget:
     varied: int = 0
     a3c: int = 0
     patient: int = 0
-    num_workers: int = 1
 
 
 _BUDGETS = {  # The easier the task, the sooner its curve is flat.
     "3-F": _Budget("difficulty 3, features", belief=250_000, a3c=6_000_000, patient=4_000_000),
-    "5-F": _Budget("difficulty 5, features", belief=60_000, a3c=4_000_000, patient=3_000_000, num_workers=2),
-    "10-F": _Budget("difficulty 10, features", belief=30_000, a3c=2_000_000, patient=2_000_000, num_workers=2),
+    "5-F": _Budget("difficulty 5, features", belief=60_000, a3c=4_000_000, patient=3_000_000),
+    "10-F": _Budget("difficulty 10, features", belief=30_000, a3c=2_000_000, patient=2_000_000),
     "3-P": _Budget("difficulty 3, pixels", belief=200_000, a3c=700_000),
     "5-P": _Budget("difficulty 5, pixels", belief=100_000, a3c=500_000),
     "10-P": _Budget("difficulty 10, pixels", belief=40_000, a3c=250_000),
@@ -114,15 +112,11 @@ _VARIED_FRAMES_PER_UPDATE = 16
 
 
 def heavier(
-    difficulty: float,
-    observations: str,
-    frames: int,
-    discount: float = which_is_heavier.DOMAIN.discount,
-    num_workers: int = 1,
+    difficulty: float, observations: str, frames: int, discount: float = which_is_heavier.DOMAIN.discount
 ) -> Condition:
-    """Returns A3C on Which is Heavier with a difficulty, a number of environment steps, a gamma, and workers."""
+    """Returns A3C on Which is Heavier with a difficulty, a number of environment steps, and a gamma."""
     agent = config_lib.preset("which_is_heavier", observations, algorithm="a3c")
-    agent = agent.replace(discount=discount, frames=frames, num_workers=num_workers)
+    agent = agent.replace(discount=discount, frames=frames, num_workers=1)
     task_kwargs = {"difficulty": difficulty}
     return Condition(domain="which_is_heavier", task=observations, task_kwargs=task_kwargs, agent=agent)
 
@@ -141,10 +135,7 @@ def _with_preset(domain: str, task: str) -> Condition:
 
 
 HEAVIER = tuple(
-    heavier(beta, kind, budget.a3c, num_workers=budget.num_workers)
-    for kind in OBSERVATIONS
-    for beta in DIFFICULTIES
-    for budget in [_BUDGETS[f"{beta:g}-{kind[0].upper()}"]]
+    heavier(beta, kind, _BUDGETS[f"{beta:g}-{kind[0].upper()}"].a3c) for kind in OBSERVATIONS for beta in DIFFICULTIES
 )
 """A3C at the paper's gamma of 0.95."""
 
