@@ -29,7 +29,7 @@ class Export(Playing):
         if self.minari:
             extras.require("minari")
         target = targets.find(self.target, self.greedy)
-        chosen = target.choose(self.tasks, self.observations)
+        chosen = target.choose(self.tasks, self.track)
         folder = self.output or playing.unfinished(Path("exports") / targets.file_name(self.target))
         with playing_in(folder), progress.bar("episodes", self.episodes * len(chosen)) as show:
             found = exporting.export(

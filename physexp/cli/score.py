@@ -5,9 +5,9 @@ import contextlib
 import dataclasses
 from pathlib import Path
 import shlex
-from typing import Literal
 
 from physexp import checks, extras
+from physexp.analysis.domains import base
 from physexp.cli import printing
 from physexp.cli.arguments import RESULTS_DIR, option, word
 
@@ -24,11 +24,15 @@ class Playing:
     )
     tasks: tuple[str, ...] = option(
         (),
-        "the tasks, each also with options, as DOMAIN/TASK,OPTION=VALUE,OPTION=VALUE; by default all tasks of "
-        "--observations that the target can play",
+        "the tasks, each also with options, as DOMAIN/TASK,OPTION=VALUE,OPTION=VALUE; by default its own of a trained "
+        "agent, and else those of the track exact that the target can play",
         "DOMAIN/TASK",
     )
-    observations: Literal["features", "pixels", "all"] = option("features", "the kind of tasks without --tasks")
+    track: tuple[str, ...] = option(
+        (),
+        f"tracks of tasks: {', '.join(f'{name} ({what})' for name, what in base.TRACKS.items())}; or all",
+        "TRACK",
+    )
     greedy: bool = option(False, "a trained agent takes its likeliest actions instead of drawing them")
     timeout: float = option(60.0, "limit on the time of each call of an agent of your own, s")
     json: bool = option(False, "print JSON")
@@ -36,7 +40,7 @@ class Playing:
 
 @dataclasses.dataclass
 class Score(Playing):
-    """Play a fixed protocol with anything that experiments: its share of the ideal's return, its losses by mistake.
+    """Play a fixed protocol with anything that experiments: how far it gets to the ideal, and by what it falls short.
 
     An interrupted score goes on in its folder.
     """
@@ -55,7 +59,7 @@ class Score(Playing):
         from physexp.analysis.training import progress
 
         target = targets.find(self.target, self.greedy)
-        chosen = target.choose(self.tasks, self.observations)
+        chosen = target.choose(self.tasks, self.track)
         usual = protocol.QUICK_EPISODES if self.quick else protocol.EPISODES
         count = usual if self.episodes is None else self.episodes
         folder = self.output or playing.unfinished(Path("scores") / targets.file_name(self.target))
@@ -64,9 +68,12 @@ class Score(Playing):
             found = scoring.score(
                 target, chosen, count, folder, timeout=self.timeout, made=made, show=show, finish=_write_report
             )
-        printing.show(found if self.json else _rows(found), self.json)
-        if not self.json:
-            printing.tell(str(folder))
+        if self.json:
+            printing.show(found, as_json=True)
+            return
+        for rows in filter(None, (_of_tasks(found), _of_tracks(found))):
+            printing.show(rows)
+        printing.tell(str(folder))
 
     def _made(self) -> dict:
         """Returns the given facts of how the agent was made; raises ValueError for numbers that make no sense."""
@@ -102,10 +109,9 @@ def _write_report(folder: Path) -> None:
         ) from None
 
 
-def _rows(found: dict) -> list[dict]:
-    """Returns a line for each task, for each domain of several tasks, and for the whole."""
-    tasks = found["tasks"]
-    rows = [
+def _of_tasks(found: dict) -> list[dict]:
+    """Returns a line for each task."""
+    return [
         {
             "task": name,
             **_score(figures),
@@ -113,14 +119,21 @@ def _rows(found: dict) -> list[dict]:
             "interactions": figures["mean_interactions"],
             "lost most by": _worst(figures["mistakes"]),
         }
-        for name, figures in tasks.items()
+        for name, figures in found["tasks"].items()
     ]
-    several = [name for name in found["domains"] if sum(task.startswith(f"{name}/") for task in tasks) > 1]
-    totals = {name: found["domains"][name] for name in several}
-    if len(found["domains"]) > 1:
-        totals["all domains"] = found["whole"]
-    rest = {"right": "", "interactions": "", "lost most by": ""}
-    return rows + [{"task": name, **_score(figures), **rest} for name, figures in totals.items()]
+
+
+def _of_tracks(found: dict) -> list[dict]:
+    """Returns a line for each track."""
+    return [
+        {
+            "track": name,
+            **_score(figures),
+            "worst domain": " ".join(f"{domain} {score:.4f}" for domain, score in figures["worst"].items()),
+            "domains played": f"{figures['played']} of {figures['of']}",
+        }
+        for name, figures in found["tracks"].items()
+    ]
 
 
 def _score(figures: dict) -> dict:
@@ -157,9 +170,8 @@ class Verify:
             printing.show({**found, "complete": stored["complete"]}, as_json=True)
             return
         part = "" if stored["complete"] else f"; it is a part, of {count:,} episodes"
-        printing.tell(
-            f"OK: {found['episodes']:,} episodes were played so, by {found['target']}; score {found['score']:.4f}{part}"
-        )
+        earned = ", ".join(f"{name} {score:.4f}" for name, score in found["scores"].items())
+        printing.tell(f"OK: {found['episodes']:,} episodes were played so, by {found['target']}; score {earned}{part}")
 
 
 @dataclasses.dataclass

@@ -1,6 +1,6 @@
 """Facts about a domain that the analysis uses, as data. Imports nothing heavy: the command line is made from it."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 import dataclasses
 import functools
 from typing import TYPE_CHECKING, Any
@@ -16,6 +16,13 @@ if TYPE_CHECKING:
     from physexp.agents import core
     from physexp.analysis.ideal import base as ideal
     from physexp.analysis.ideal import resting, search
+
+
+TRACKS = {
+    "exact": "the tasks of the first version, from features",
+    "pixels": "the same, from images",
+}
+"""The tracks of the score, and what they ask for; the facts of each domain have their settings."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -83,9 +90,8 @@ class Domain:
       targets: by the names of the agents that come with the package, the least value of a statistic of their
         evaluation: the statistic's name, and the value.
       ideal: finds the ideal experimenter; None if none is known.
-      protocol_options: the options that the score's protocol sets for the domain's tasks; None if the protocol does not
-        have the domain. Scores stay comparable with those of earlier days only if the protocol's tasks stay the same,
-        and scores over all domains only if no domain joins them.
+      tracks: the options of the domain's tasks in each track of the score that has the domain, by the name in `TRACKS`,
+        once for each setting. Scores stay comparable with those of earlier days only if all tracks stay as they are.
       baselines: by task and name, functions that make the actors of hand-written baselines.
       hidden_columns: returns columns for tables of episodes, by name, [N, ...], from hidden properties, [N, ...].
     """
@@ -95,7 +101,7 @@ class Domain:
     labels: Mapping[str, str] = dataclasses.field(default_factory=dict)
     targets: Mapping[str, tuple[str, float]] = dataclasses.field(default_factory=dict)
     ideal: Ideal | None = None
-    protocol_options: Mapping[str, Any] | None = dataclasses.field(default_factory=dict)
+    tracks: Mapping[str, Sequence[Mapping[str, Any]]] = dataclasses.field(default_factory=dict)
     baselines: "Mapping[str, Mapping[str, Callable[[], core.Actor]]]" = dataclasses.field(default_factory=dict)
     hidden_columns: "Callable[[np.ndarray], Mapping[str, np.ndarray]]" = lambda hidden: {}
 
@@ -105,6 +111,11 @@ class Domain:
         from physexp import suite
 
         return suite.load_task(self.name, suite.TASKS_BY_DOMAIN[self.name][0]).discount
+
+    @property
+    def usual_options(self) -> Mapping[str, Any]:
+        """The options of the domain's tasks in the track `exact`; none if it is not there."""
+        return next(iter(self.tracks.get("exact", ())), {})
 
     def ideal_with(self, task_kwargs: Mapping[str, Any]) -> Ideal | None:
         """Returns `ideal` if it is exact with these options, otherwise None.

@@ -3,6 +3,7 @@
 from physexp.analysis.domains import base
 
 _FRAMES = 4_000_000  # Of A3C and PPO.
+_FIRST_VERSION = {"physics_timestep": 0.02}  # Of the tasks.
 
 
 def _hypotheses():
@@ -32,6 +33,6 @@ DOMAIN = base.search_domain(
         "sealed_box-features-physics_timestep0.02": ("mean_return", 0.82),
         "sealed_box-pixels-physics_timestep0.02": ("mean_return", 0.76),
     },
-    protocol_options={"physics_timestep": 0.02},  # Of the tasks' first version.
+    tracks={"exact": (_FIRST_VERSION,), "pixels": (_FIRST_VERSION,)},
     hidden_columns=lambda hidden: {"content": hidden},  # An index in `sealed_box.ALL_CONTENTS`.
 )

@@ -22,5 +22,6 @@ DOMAIN = base.resting_domain(
     read=_moved,
     presets=base.PRESETS_OF_BITS,
     targets={"strings-features": ("mean_return", 0.82), "strings-pixels": ("mean_return", 0.82)},
+    tracks={"exact": ({},), "pixels": ({},)},
     hidden_columns=lambda hidden: {"slacks": hidden},  # m; 0 where there is no band; and the numbers of questions.
 )

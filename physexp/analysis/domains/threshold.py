@@ -33,6 +33,7 @@ _OF_RIGHT_FLAGS = base.resting_domain(
     read=_read,
     presets=base.PRESETS_OF_BITS,
     targets={"threshold-features": ("mean_return", 0.84), "threshold-pixels": ("mean_return", 0.76)},
+    tracks={"exact": ({},), "pixels": ({},)},
     hidden_columns=_hidden_columns,
 )
 

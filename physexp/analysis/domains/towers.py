@@ -174,5 +174,6 @@ DOMAIN = base.Domain(
     baselines={
         task: {"rule": functools.partial(rule, task), "lookup": functools.partial(_lookup, task)} for task in _RULES
     },
+    tracks={"exact": ({},), "pixels": ({},)},
     hidden_columns=lambda hidden: {"pattern": hidden},  # An index in `tower.PATTERNS`.
 )

@@ -63,5 +63,6 @@ DOMAIN = base.Domain(
         "which_is_heavier-pixels-difficulty10": ("mean_return", 0.88),
     },
     ideal=base.Ideal(_NAME, _solve),
+    tracks={"exact": ({},), "pixels": ({},)},
     hidden_columns=_hidden_columns,
 )

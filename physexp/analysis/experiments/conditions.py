@@ -129,7 +129,7 @@ def towers(actuator: str, observations: str = "features") -> Condition:
 def _with_preset(domain: str, task: str) -> Condition:
     """Returns A3C on a task as it is in the score's protocol."""
     agent = config_lib.preset(domain, task, algorithm="a3c").replace(num_workers=1)
-    task_kwargs = domains.find(domain).protocol_options or {}
+    task_kwargs = domains.find(domain).usual_options
     condition = Condition(domain=domain, task=task, task_kwargs=task_kwargs, agent=agent)
     return condition.changed(agent.replace(frames=_BUDGETS[condition.label].a3c or agent.frames))
 

@@ -1,6 +1,5 @@
-"""The leaderboard: a row for each folder with a verified score of the whole protocol, in words and as a figure."""
+"""The leaderboard: a row for each folder with a verified score of tracks, in words and as a figure."""
 
-import collections
 from collections.abc import Callable, Mapping, Sequence
 import dataclasses
 import os
@@ -22,13 +21,15 @@ _COLORS = (*plots.COLORS[1:], "#CC79A7", "#7F4F24")
 
 @dataclasses.dataclass(frozen=True)
 class Row:
-    """A folder's name, its scores over all domains and of each, the numbers of tasks it plays, and its `score.json`."""
+    """A folder's name, its scores in the tracks that it plays (see `scores.over`), and its `score.json`."""
 
     name: str
-    whole: Mapping[str, Any]
-    domains: Mapping[str, Mapping[str, Any]]
-    played: Mapping[str, tuple[int, int]]  # Of each domain's tasks those that were played, and all.
+    tracks: Mapping[str, Mapping[str, Any]]
     found: Mapping[str, Any]
+
+    def earned(self, track: str) -> float:
+        """Returns the score of a track; 0 if it is not played."""
+        return self.tracks[track]["score"] if track in self.tracks else 0.0
 
 
 def folders(results: Path) -> list[Path]:
@@ -49,20 +50,20 @@ def read(
     `verify` raises ValueError for a folder whose score does not follow from its actions; `show` is called with the
     number of folders that are done. Raises OSError if there are none.
     """
-    questions, rows, refused = protocol.observing("features"), [], []
+    rows, refused = [], []
     for done, folder in enumerate(folders(results), 1):
         try:
-            rows.append(_row(folder, questions, verify))
+            rows.append(_row(folder, verify))
         except (OSError, ValueError) as error:
             refused.append(f"{folder} is no row: {error}")
         show(done)
-    return sorted(rows, key=lambda row: (-row.whole["score"], row.name)), refused
+    return sorted(rows, key=lambda row: ([-row.earned(track) for track in protocol.TRACKS], row.name)), refused
 
 
-def _row(folder: Path, questions: Sequence[protocol.Question], verify: Callable[[Path], None]) -> Row:
-    """Returns the row of a folder; refuses less than the whole protocol, and tasks that no row has."""
-    found, names = scoring.read(folder), [question.name for question in questions]
-    extent = found["protocol"]
+def _row(folder: Path, verify: Callable[[Path], None]) -> Row:
+    """Returns the row of a folder, in numbers of this version; refuses fewer episodes, and tasks of no track."""
+    found, questions = scoring.read(folder), protocol.in_tracks(["all"])
+    extent, names = found["protocol"], [question.name for question in questions]
     if not found["complete"]:
         raise ValueError(f"{folder} is not complete: {found.get('problem')}; score again, elsewhere")
     if extent["episodes"] != protocol.EPISODES:
@@ -71,11 +72,7 @@ def _row(folder: Path, questions: Sequence[protocol.Question], verify: Callable[
         raise ValueError(f"{folder} is of {others[0]}; a row is of {', '.join(names)}")
     verify(folder)
     played = scores.of_log(log.read(folder), dict.fromkeys(questions))
-    earned = scores.over(played, questions)
-    of_all = collections.Counter(question.domain for question in questions)
-    done = collections.Counter(one.question.domain for one in played)
-    counts = {domain: (done[domain], of_all[domain]) for domain in earned["domains"]}
-    return Row(folder.name, earned["whole"], earned["domains"], counts, found)
+    return Row(folder.name, scores.summary(played)["tracks"], found)
 
 
 def write(results: Path, show: Callable[[int], None] = lambda done: None) -> tuple[list[Path], list[str]]:
@@ -99,6 +96,8 @@ def markdown(rows: Sequence[Row]) -> str:
     return text.page(
         Path(__file__).with_name(f"{NAME}.md"),
         rows=rows,
+        tracks={name: _in_track(rows, name) for name in _played(rows)},
+        meanings=protocol.TRACKS,
         words=report.words,
         number=lambda score: f"{score:.3f}".replace("-0.000", "0.000"),
         quote=lambda name: parse.quote(os.fsencode(name)),
@@ -106,28 +105,50 @@ def markdown(rows: Sequence[Row]) -> str:
     )
 
 
+def _played(rows: Sequence[Row]) -> list[str]:
+    """Returns the tracks that a row has."""
+    return [name for name in protocol.TRACKS if any(name in row.tracks for row in rows)]
+
+
+def _in_track(rows: Sequence[Row], track: str) -> list[Row]:
+    """Returns the rows that play a track, best first."""
+    return sorted((row for row in rows if track in row.tracks), key=lambda row: -row.earned(track))
+
+
 def draw(rows: Sequence[Row]):
-    """Draws the score of each row, with its interval, and those of the domains that it plays."""
-    figure, axes = plots.new(width=7.2, height=max(2.2, 0.75 + 0.3 * len(rows)))
+    """Draws the score of each row in each track, with its interval, and those of the domains that it plays."""
+    tracks = _played(rows)
+    domains = list(dict.fromkeys(domain for row in rows for one in row.tracks.values() for domain in one["domains"]))
     looks = {
         domain: dict(marker=_MARKERS[number % len(_MARKERS)], color=_COLORS[number % len(_COLORS)], markersize=3.5)
-        for number, domain in enumerate(rows[0].domains)
+        for number, domain in enumerate(domains)
     }
-    heights = np.linspace(0.3, -0.3, len(looks))  # One below the other, so that equal scores are all seen.
-    places = np.arange(len(rows))[::-1]
-    for place, row in zip(places, rows, strict=True):
-        axes.axhline(place, color="0.93", linewidth=0.7, zorder=0)
-        ends = np.clip(row.whole["interval"], report.LOWEST, None)
-        axes.plot(ends, [place] * 2, color="black", linewidth=9, alpha=0.3, solid_capstyle="butt")
-        score = max(report.LOWEST, row.whole["score"])
-        axes.plot(score, place, "|", color="black", markersize=15, markeredgewidth=2)
-        for (domain, look), height in zip(looks.items(), heights, strict=True):
-            if row.played[domain][0]:
-                axes.plot(max(report.LOWEST, row.domains[domain]["score"]), place + height, zorder=3, **look)
+    figure, panels = plots.new(
+        columns=len(tracks), width=6.2 / len(tracks) + 1.0, height=max(2.2, 0.95 + 0.3 * len(rows)), squeeze=False
+    )
+    for axes, track in zip(panels[0], tracks, strict=True):
+        _draw_track(axes, [row.tracks.get(track) for row in rows], looks)
+        axes.set(title=track, xlim=(report.LOWEST - 0.03, 1.04), xlabel="score")
+        names = [plots.literal(text.plain(row.name)) for row in rows]
+        report.name_rows(axes, names if axes is panels[0, 0] else [""] * len(rows))
     for domain, look in looks.items():
-        axes.plot([], [], linestyle="none", label=report.words(domain), **look)
-    label = "score: black, over all domains, with its 95 % interval; others, of each domain"
-    axes.set(xlim=(report.LOWEST - 0.03, 1.04), xlabel=label)
-    report.name_rows(axes, [plots.literal(text.plain(row.name)) for row in rows])
-    axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
+        panels[0, -1].plot([], [], linestyle="none", label=report.words(domain), **look)
+    panels[0, -1].plot([], [], "|", color="black", markersize=10, markeredgewidth=2, label="mean, 95 % interval")
+    panels[0, -1].legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
     return figure
+
+
+def _draw_track(axes, found: Sequence[Mapping[str, Any] | None], looks: Mapping[str, Mapping[str, Any]]) -> None:
+    """Draws the scores of the rows in a track, from top to bottom; None for a row that does not play it."""
+    heights = dict(zip(looks, np.linspace(0.3, -0.3, len(looks)), strict=True))  # So that equal scores are all seen.
+    for place, one in zip(np.arange(len(found))[::-1], found, strict=True):
+        axes.axhline(place, color="0.93", linewidth=0.7, zorder=0)
+        if one is None:
+            continue
+        ends = np.clip(one["interval"], report.LOWEST, None)
+        axes.plot(ends, [place] * 2, color="black", linewidth=9, alpha=0.3, solid_capstyle="butt")
+        score = max(report.LOWEST, one["score"])
+        axes.plot(score, place, "|", color="black", markersize=15, markeredgewidth=2)
+        for domain, its in one["domains"].items():
+            if its["played"]:
+                axes.plot(max(report.LOWEST, its["score"]), place + heights[domain], zorder=3, **looks[domain])

@@ -3,7 +3,7 @@
 All targets play the same instances: episode e of a task is the one with index e in the environment of one seed.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 import dataclasses
 import functools
 import re
@@ -16,11 +16,14 @@ from physexp import suite
 from physexp.agents import config as agent_config
 from physexp.analysis import domains
 from physexp.analysis.domains import base as domains_base
+from physexp.analysis.domains.base import TRACKS
 from physexp.analysis.ideal import base as ideal_base
 from physexp.suite.engine import options as options_lib
 from physexp.suite.engine import rules
 
-VERSION = "v1"
+VERSION = "v2"
+FIRST_VERSION = "v1"
+"""Its scores are read and verified, too: they count from another floor, and leave out domains."""
 SEED = 2_000_003  # Of the environments, apart from those of training and of evaluation.
 ENVIRONMENT_SEED = suite.environment_seed(SEED, 0)  # With it and an episode's index `suite.load` makes the instance.
 EPISODES, QUICK_EPISODES = 1_000, 100  # Of each task.
@@ -116,8 +119,8 @@ def _differences(chosen: suite.Options, usual: suite.Options) -> dict[str, Any]:
 
 
 def _of_protocol(domain: str) -> Mapping[str, Any]:
-    """Returns the options that the protocol sets for the tasks of a domain."""
-    return domains.find(domain).protocol_options or {}
+    """Returns the options that names of tasks leave out."""
+    return domains.find(domain).usual_options
 
 
 def ideal(question: Question) -> ideal_base.Solution:
@@ -126,18 +129,19 @@ def ideal(question: Question) -> ideal_base.Solution:
     if known is None:
         raise ValueError(
             f"{question.name} has no score: no ideal experimenter is known that is exact there; choose from "
-            f"{', '.join(one.name for one in observing('all'))}, without noise, variation and step_variation"
+            f"{', '.join(one.name for one in in_tracks(TRACKS))}, without noise, variation and step_variation"
         )
     return known(question.task, question.options, question.discount)
 
 
-def floor(question: Question, at_once: float) -> float:
-    """Returns the return that scores 0: the better of silence and the likeliest answer at once, whose return is given.
+def floor(question: Question, at_once: float, version: str = VERSION) -> float:
+    """Returns the return that scores 0: the best one without looking, given that of the likeliest answers at once.
 
-    The best return without looking, `ideal_base.floor`, is larger where that answer loses; v1 does not count from it.
+    In the first version it was the better of these answers and silence.
     """
-    silence = rules.WRONG * question.num_questions * question.discount ** (question.step_limit - 1)
-    return max(at_once, silence)
+    if version == FIRST_VERSION:
+        return max(at_once, rules.WRONG * question.num_questions * question.discount ** (question.step_limit - 1))
+    return ideal_base.floor(at_once, question.discount, question.step_limit - question.num_questions + 1)
 
 
 def load(question: Question, seed: int = SEED) -> suite.Environment:
@@ -167,14 +171,15 @@ def named(names: Sequence[str]) -> tuple[Question, ...]:
     return tuple(dict.fromkeys(found))
 
 
-def observing(kind: str) -> tuple[Question, ...]:
-    """Returns the questions of the protocol's tasks that observe `features`, `pixels`, or, for `all`, either."""
-    names = suite.ALL_TASKS if kind == "all" else suite.tagged(kind)
-    return tuple(
-        question(domain, task, _of_protocol(domain))
-        for domain, task in names
-        if (known := domains.find(domain)).ideal is not None and known.protocol_options is not None
-    )
+def in_tracks(names: Collection[str]) -> tuple[Question, ...]:
+    """Returns the questions of some tracks, or of `all`, each once; raises ValueError for an unknown name."""
+    found: list[Question] = []
+    for name in TRACKS if "all" in names else names:
+        if name not in TRACKS:
+            raise ValueError(f"track is {name!r}; choose from {', '.join(TRACKS)}, all")
+        for domain, task in suite.tagged("pixels" if name == "pixels" else "features"):
+            found += [question(domain, task, options) for options in domains.find(domain).tracks.get(name, ())]
+    return tuple(dict.fromkeys(found))
 
 
 def is_judged(question: Question) -> bool:

@@ -1,10 +1,9 @@
 """Writes the report of a score: a figure, and a page with the figure, a table and the facts, in one file.
 
-The figure has the domains, the mistakes in each task, and the information from each interaction.
+The figure has the tasks and the tracks, the mistakes in each task, and the information from each interaction.
 """
 
 import base64
-import collections
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,7 +13,7 @@ import numpy as np
 from physexp.agents import files
 from physexp.analysis.data import plots, provenance, text
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import scoring
+from physexp.analysis.score import log, protocol, scores, scoring
 
 NAME = "report"
 
@@ -40,12 +39,16 @@ def write(folder: Path) -> list[Path]:
     Raises OSError if the folder cannot be read or written, and ValueError if its `score.json` is faulty.
     """
     found = scoring.read(folder)
+    if found["version"] == protocol.FIRST_VERSION:  # It is shown in numbers of this version.
+        ideals = {one: scores.reference(one, found["protocol"]["episodes"]) for one in protocol.named(found["tasks"])}
+        found |= scores.summary(scores.of_log(log.read(folder), ideals))
     with plots.style():
         figure = plots.png(draw(found))
     page = text.page(
         Path(__file__).with_name(f"{NAME}.html"),
         name=folder.resolve().name,
         found=found,
+        headlines=scores.headlines(found),
         image=base64.b64encode(figure).decode(),
         commit=provenance.shortened,
     )
@@ -58,13 +61,13 @@ def write(folder: Path) -> list[Path]:
 def draw(found: Mapping[str, Any]):
     """Returns the figure of a score, from the content of `score.json`."""
     num_tasks = len(found["tasks"])
-    of_rows = 0.95 + 0.24 * max(len(found["domains"]) + 1, num_tasks)
+    of_rows = 0.95 + 0.24 * (num_tasks + len(found["tracks"]))
     heights = [of_rows, 0.1 + 0.14 * -(-len(_costly_kinds(found)) // 2), 0.35 + 1.7 * -(-num_tasks // _PANELS)]
     figure = plots.empty(_WIDTH, sum(heights))
     above, legend, below = figure.subfigures(3, 1, height_ratios=heights)
-    of_domains, of_tasks = above.subplots(1, 2)
-    draw_domains(of_domains, found)
-    draw_mistakes(of_tasks, found)
+    left, right = above.subplots(1, 2)
+    draw_scores(left, found)
+    draw_mistakes(right, found)
     _add_legend(legend, found)
     columns = min(_PANELS, max(4, num_tasks))
     panels = below.subplots(-(-num_tasks // columns), columns, squeeze=False).flat
@@ -83,28 +86,26 @@ def words(name: str) -> str:
     return ", ".join(part.replace("_", " ").replace("=", " ") for part in parts if part)
 
 
-def draw_domains(axes, found: Mapping[str, Any]) -> None:
-    """Draws the score of each domain and of all, with its interval, beside that of random actions."""
-    of_random = _random_scores(found)
-    rows = list(found["domains"].items())
-    if len(rows) > 1:
-        rows.append(("all domains", found["whole"]))
+def draw_scores(axes, found: Mapping[str, Any]) -> None:
+    """Draws the score of each task and of each track, with its interval, beside that of random actions in the task."""
+    rows = [*found["tasks"].items(), *found["tracks"].items()]
     places = np.arange(len(rows))[::-1]
     for place, (name, row) in zip(places, rows, strict=True):
         low, high = np.clip(row["interval"], LOWEST, 1.0)
         center = max(LOWEST, row["score"])
-        is_whole = name not in found["domains"]
-        color = "black" if is_whole else _AGENT
+        is_track = name in found["tracks"]
+        color = "black" if is_track else _AGENT
         axes.plot([low, high], [place] * 2, color=color, linewidth=2.2, solid_capstyle="butt")
-        axes.plot(center, place, "D" if is_whole else "o", color=color, markersize=5, zorder=3)
+        axes.plot(center, place, "D" if is_track else "o", color=color, markersize=5, zorder=3)
         at_left = center > 0.5 or -0.5 < center < 0  # Not over a mark of `name_rows`.
         look = dict(ha="right" if at_left else "left", va="center", fontsize=7.5, bbox=_BACKGROUND)
         start = dict(xytext=(-5 if at_left else 5, 0), textcoords="offset points")
         axes.annotate(f"{row['score']:.3f}", (low if at_left else high, place), **start, **look)
-        if not is_whole:
-            axes.plot(max(LOWEST, of_random[name]), place, "|", color=plots.GREY, markersize=8, markeredgewidth=1.4)
+        if not is_track:
+            at_random = (row["random"] - row["floor"]) / (row["ideal"] - row["floor"])
+            axes.plot(max(LOWEST, at_random), place, "|", color=plots.GREY, markersize=8, markeredgewidth=1.4)
     axes.set(xlim=(LOWEST - 0.04, 1.06), xlabel="score (grey: random actions)")
-    name_rows(axes, [words(name) for name, _ in rows])
+    name_rows(axes, [f"all of {name}" if name in found["tracks"] else words(name) for name, _ in rows])
 
 
 def draw_mistakes(axes, found: Mapping[str, Any]) -> None:
@@ -146,15 +147,6 @@ def name_rows(axes, names: Sequence[str]) -> None:
     for level, name in ((0.0, "no experiment"), (1.0, "ideal")):
         plots.reference(axes, level, "", vertical=True)
         axes.text(level, len(names) - 0.35, name, ha="center", va="bottom", fontsize=6.5, color="0.3")
-
-
-def _random_scores(found: Mapping[str, Any]) -> dict[str, float]:
-    """Returns the expected scores of random actions, by domain."""
-    of_domains = collections.defaultdict(list)
-    for name, task in found["tasks"].items():
-        share = (task["random"] - task["floor"]) / (task["ideal"] - task["floor"])
-        of_domains[name.partition("/")[0]].append(share)
-    return {domain: float(np.mean(shares)) for domain, shares in of_domains.items()}
 
 
 def _costly_kinds(found: Mapping[str, Any]) -> list[str]:

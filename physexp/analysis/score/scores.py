@@ -1,9 +1,7 @@
 """Computes scores from the log: of each task, where the rest was lost, and over all domains.
 
-A task's score is 0 for the better of answering at once and never answering, and 1 for the optimum. Over domains it is
-the interquartile mean with a stratified bootstrap (Agarwal et al., 2021). Their `rliable` resamples the runs of an
-algorithm and trims single ones; here a single agent plays, the episodes of each task are resampled, and domains are
-trimmed.
+A task's score is 0 for the best policy that does not look, and 1 for the optimum. Over the domains of a track it is
+the mean, with a stratified bootstrap in which the episodes of each task are resampled.
 """
 
 import collections
@@ -23,7 +21,7 @@ from physexp.analysis.score import log, protocol
 from physexp.suite.engine import rules
 
 _RESAMPLES = 2_000
-_TRIMMED = 0.25  # Share of the domains on either side of the interquartile mean.
+_TRIMMED = 0.25  # Share of the domains on either side of the first version's interquartile mean.
 
 
 @dataclasses.dataclass(frozen=True)
@@ -83,15 +81,22 @@ class TaskScore:
     metrics: Mapping[str, Any]
 
 
-def of_log(found: pyarrow.Table, ideals: Mapping[protocol.Question, Reference | None]) -> list[TaskScore]:
-    """Returns the scores of the tasks in a log; `ideals` has the ideal's play of as many episodes where it is known."""
+def of_log(
+    found: pyarrow.Table,
+    ideals: Mapping[protocol.Question, Reference | None],
+    version: str = protocol.VERSION,
+) -> list[TaskScore]:
+    """Returns the scores of the tasks in a log, by a version of the protocol.
+
+    `ideals` has the ideal's play of as many episodes where it is known.
+    """
     parts = [(question, known, log.of_task(found, question)) for question, known in ideals.items()]
     played = [part for part in parts if len(part[2]["step"])]
-    return [_of_task(*part, seed) for seed, part in enumerate(played)]
+    return [_of_task(*part, version, seed) for seed, part in enumerate(played)]
 
 
 def _of_task(
-    question: protocol.Question, known: Reference | None, columns: Mapping[str, np.ndarray], seed: int
+    question: protocol.Question, known: Reference | None, columns: Mapping[str, np.ndarray], version: str, seed: int
 ) -> TaskScore:
     """Returns the score of a task; `seed` draws its bootstrap."""
     first = columns["step"] == 0
@@ -102,7 +107,7 @@ def _of_task(
     ideal, at_once = (_mean(columns[name][first]) for name in ("value", "answering"))
     if question.num_questions > 1:  # The value of an answer has that of the questions after it.
         at_once = protocol.ideal(question).compared()["at_once"]
-    floor = protocol.floor(question, at_once)
+    floor = protocol.floor(question, at_once, version)
 
     def discounted(values: np.ndarray) -> np.ndarray:
         """Returns the sum of each episode, float64 [N]."""
@@ -154,30 +159,79 @@ def random_return(question: protocol.Question) -> float:
     return float(given + question.discount ** steps[-1] * goes_on**question.step_limit * unanswered * rules.WRONG)
 
 
-def summary(found: Sequence[TaskScore]) -> dict[str, Any]:
-    """Returns the metrics of all tasks, at least one, of their domains, and over the domains."""
+def summary(found: Sequence[TaskScore], version: str = protocol.VERSION) -> dict[str, Any]:
+    """Returns the metrics of all tasks, at least one, and over the tasks, by a version of the protocol.
+
+    They are the `tracks` of which two tasks were played, or all; in the first version, `domains` and the `whole`.
+    """
     tasks = {one.question.name: one.metrics for one in found}
-    return {"tasks": tasks, **over(found, [one.question for one in found])}
+    if version == protocol.FIRST_VERSION:
+        return {"tasks": tasks, **_interquartile(found)}
+    tracks = {}
+    for name in protocol.TRACKS:
+        of_track = protocol.in_tracks([name])
+        played = [one for one in found if one.question in of_track]
+        if played and len(played) >= min(2, len(of_track)):
+            tracks[name] = over(played, of_track)
+    return {"tasks": tasks, "tracks": tracks}
+
+
+def headlines(found: Mapping[str, Any]) -> Mapping[str, Mapping[str, Any]]:
+    """Returns the figures that sum up a `score.json`, by name: those of its tracks; without any, those of its tasks."""
+    return {"all domains": found["whole"]} if "whole" in found else found["tracks"] or found["tasks"]
 
 
 def over(found: Sequence[TaskScore], questions: Sequence[protocol.Question]) -> dict[str, Any]:
-    """Returns scores and intervals of the `domains` of some tasks, and of the `whole`.
+    """Returns the score over the domains of a track.
+
+    It has the mean over the domains, `score`, with its `interval`; the domain with the smallest score and that score,
+    `worst`; the numbers of domains that were `played` in all tasks, and `of` the track; and the `domains`, each with
+    its score, its interval, and numbers of tasks.
 
     Args:
       found: the scores of the tasks that were played.
-      questions: all tasks, at least one; the score of a task that was not played is 0.
+      questions: all tasks of the track, at least one; the score of a task that was not played is 0.
     """
+    played, parts = {one.question: one for one in found}, _by_domain(found, questions)
+    domains = {}
+    for name, (mean, resampled) in parts.items():
+        own = [question for question in questions if question.domain == name]
+        count = sum(question in played for question in own)
+        domains[name] = {"score": mean, "interval": _interval(resampled), "played": count, "of": len(own)}
+    worst = min(parts, key=lambda name: parts[name][0])
+    return {
+        "score": float(np.mean([mean for mean, _ in parts.values()])),
+        "interval": _interval(np.mean([resampled for _, resampled in parts.values()], axis=0)),
+        "worst": {worst: parts[worst][0]},
+        "played": sum(one["played"] == one["of"] for one in domains.values()),
+        "of": len(domains),
+        "domains": domains,
+    }
+
+
+def _by_domain(
+    found: Sequence[TaskScore], questions: Sequence[protocol.Question]
+) -> dict[str, tuple[float, np.ndarray]]:
+    """Returns the mean score of the tasks of each domain, 0 for each that is not found; and its bootstrap means."""
     played = {one.question: (one.scores.mean(), one.resampled) for one in found}
     of_tasks = collections.defaultdict(list)
     for question in questions:
         of_tasks[question.domain].append(played.get(question, (0.0, np.zeros(_RESAMPLES))))
-    means = {name: np.mean([mean for mean, _ in parts]) for name, parts in of_tasks.items()}
-    resampled = {name: np.mean([drawn for _, drawn in parts], axis=0) for name, parts in of_tasks.items()}
     return {
-        "domains": {name: {"score": float(means[name]), "interval": _interval(resampled[name])} for name in of_tasks},
+        name: (float(np.mean([mean for mean, _ in parts])), np.mean([drawn for _, drawn in parts], axis=0))
+        for name, parts in of_tasks.items()
+    }
+
+
+def _interquartile(found: Sequence[TaskScore]) -> dict[str, Any]:
+    """Returns the first version's scores of the domains and over them: the interquartile mean."""
+    parts = _by_domain(found, [one.question for one in found])
+    means, resampled = zip(*parts.values(), strict=True)
+    return {
+        "domains": {name: {"score": mean, "interval": _interval(drawn)} for name, (mean, drawn) in parts.items()},
         "whole": {
-            "score": float(stats.trim_mean(list(means.values()), _TRIMMED)),
-            "interval": _interval(stats.trim_mean(list(resampled.values()), _TRIMMED, axis=0)),
+            "score": float(stats.trim_mean(means, _TRIMMED)),
+            "interval": _interval(stats.trim_mean(resampled, _TRIMMED, axis=0)),
         },
     }
 

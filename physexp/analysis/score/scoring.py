@@ -21,9 +21,14 @@ _KINDS = {
     **dict.fromkeys(("target", "problem", "commit"), str),
     **dict.fromkeys(("greedy", "complete"), bool),
     "seconds": int | float,
-    **dict.fromkeys(("protocol", "agent", "versions", "tasks", "domains", "whole"), dict),
+    **dict.fromkeys(("protocol", "agent", "versions", "tasks"), dict),
 }
 """The types of the fields of `score.json`, which may come from strangers."""
+_OVER_TASKS = {
+    protocol.FIRST_VERSION: dict.fromkeys(("domains", "whole"), dict),
+    protocol.VERSION: {"tracks": dict},
+}
+"""The same of the fields that a version has for several tasks."""
 
 _MAX_SECONDS = 1e6  # Of a call; the system's own limit is little larger.
 
@@ -90,7 +95,7 @@ def score(
 
 
 def read(folder: Path) -> dict[str, Any]:
-    """Returns the content of `score.json`, of this version of the protocol.
+    """Returns the content of `score.json`, of this version of the protocol or the first one.
 
     Raises:
       OSError: if it cannot be read.
@@ -102,9 +107,10 @@ def read(folder: Path) -> dict[str, Any]:
     tables.check(path, tables.MAX_TEXT)
     found = files.read_json(path)
     version = found.get("version") if isinstance(found, dict) else None
-    if version != protocol.VERSION:
-        raise ValueError(f"{path} is of protocol {version!r}; this version of physexp plays {protocol.VERSION}")
-    _check_kinds(path, found, _KINDS)
+    if version not in _OVER_TASKS:
+        known = " and ".join(_OVER_TASKS)
+        raise ValueError(f"{path} is of protocol {version!r}; this version of physexp reads {known}")
+    _check_kinds(path, found, {**_KINDS, **_OVER_TASKS[version]})
     _check_kinds(path, found["protocol"], {"seed": int, "episodes": int, "tasks": list})
     _check_kinds(path, found["agent"], _TRAINED)
     members = found["agent"].get("agents") or {}

@@ -39,25 +39,24 @@ class Target:
     make: actors.Make | None
     agents: "Mapping[protocol.Question, finding.Agent]" = dataclasses.field(default_factory=dict)
 
-    def choose(self, tasks: Sequence[str], observations: str) -> tuple[protocol.Question, ...]:
-        """Returns the tasks of some names.
+    def choose(self, tasks: Sequence[str], tracks: Sequence[str]) -> tuple[protocol.Question, ...]:
+        """Returns the tasks of some names, and those of some tracks that it can play.
 
-        By default they are those of the protocol that it can play and that have some kind of observations; of one
-        trained agent, its own.
+        Without either they are its own, of one trained agent; of others, those of the track `exact`.
 
         Raises:
-          ValueError: if there is no such task or kind, or the target does not play it.
+          ValueError: if there is no such task or track, or the target does not play it.
         """
         own = self.questions or ()
-        if not tasks and len(self.agents) == 1:
+        if not tasks and not tracks and len(self.agents) == 1:
             return own
-        found = protocol.named(tasks) if tasks else protocol.observing(observations)
-        can = tuple(question for question in found if self._can_play(question))
-        if not tasks:
-            return can or own
-        if others := [question.name for question in found if question not in can]:
-            raise ValueError(f"{self.name} does not play {others[0]}; it plays {', '.join(one.name for one in own)}")
-        return found
+        found = protocol.in_tracks(tracks if tasks or tracks else [next(iter(protocol.TRACKS))])
+        can, wanted = tuple(filter(self._can_play, found)), protocol.named(tasks)
+        others = [question.name for question in wanted if not self._can_play(question)]
+        if others or (tracks and not can):
+            what = "".join(others[:1]) or f"any task of {', '.join(tracks)}"
+            raise ValueError(f"{self.name} does not play {what}; it plays {', '.join(one.name for one in own)}")
+        return tuple(dict.fromkeys(wanted + can)) or own
 
     def _can_play(self, question: protocol.Question) -> bool:
         return self.questions is None or question in self.questions or _trained_for(question, self.agents) is not None
@@ -159,7 +158,7 @@ def _is_team(name: str) -> bool:
 
 @functools.cache  # The cards of all agents are read.
 def _shipped(learner: str) -> list[str]:
-    """Returns the agents that come with the package, of tasks without options and of the protocol's, one for each.
+    """Returns the agents that come with the package, of tasks without options and of the tracks', one for each.
 
     They are the best ones, or those of a learner.
     """
@@ -171,7 +170,7 @@ def _shipped(learner: str) -> list[str]:
         config = finding.config_of(pretrained.card_named(name))
         is_wanted = "/" not in name if learner == SHIPPED else config.agent.algorithm == learner
         question = protocol.question(config.domain, config.task, config.task_kwargs)
-        if is_wanted and (publishing.is_default(config) or question in protocol.observing("all")):
+        if is_wanted and (publishing.is_default(config) or question in protocol.in_tracks(["all"])):
             team.setdefault(question, name)
     return list(team.values())
 

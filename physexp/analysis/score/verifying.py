@@ -21,7 +21,7 @@ _TOLERANCE = 1e-9  # Of floating-point numbers, on any machine.
 
 
 def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dict[str, Any]:
-    """Plays the log of a folder again; returns the numbers of episodes and actions, the target and the score.
+    """Plays the log of a folder again; returns the numbers of episodes and actions, the target and its scores.
 
     `show` is called with the number of episodes that have been played. Raises OSError if a file is missing, and
     ValueError if anything differs; the line names it.
@@ -49,7 +49,8 @@ def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dic
                 _compare(place, columns, again)
                 show(first + index + 1)
         ideals[question] = scores.reference(question, len(its))
-    metrics = scores.summary(scores.of_log(found, ideals))
+    version = written["version"]
+    metrics = scores.summary(scores.of_log(found, ideals, version), version)
     for names, theirs, ours in playing.differences({name: written[name] for name in metrics}, metrics, _are_close):
         raise ValueError(
             f"{folder / scoring.FILE}: {', '.join(names)} is {theirs}, and {ours} by the log; score again, elsewhere"
@@ -58,7 +59,7 @@ def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dic
         "episodes": len(logged),
         "actions": len(found),
         "target": written["target"],
-        "score": written["whole"]["score"],
+        "scores": {name: figures["score"] for name, figures in scores.headlines(written).items()},
     }
 
 

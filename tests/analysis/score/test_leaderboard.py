@@ -8,7 +8,6 @@ import shutil
 from urllib import parse
 
 import commands
-import numpy as np
 import pyarrow
 import pytest
 
@@ -61,15 +60,16 @@ def test_rows_are_sorted_by_score_and_unplayed_tasks_count_as_0(results):
     (best, worst), refused = leaderboard.read(results)
     assert not refused
     assert (best.name, worst.name) == ("ideal", "random")
-    of_domains = sorted(best.domains[name]["score"] for name in best.domains)
-    assert of_domains[-2:] == pytest.approx([1, 1]) and not any(of_domains[:-2])
-    # An interquartile mean leaves out a quarter at either end, rounded down.
-    cut = len(of_domains) // 4
-    assert best.whole["score"] == pytest.approx(np.mean(of_domains[cut : len(of_domains) - cut]))
-    assert best.played["threshold"] == (1, 1) and best.played["balance"] == (0, 1)
-    header, _, row = leaderboard.markdown([best, worst]).splitlines()[6:9]
+    exact = best.tracks["exact"]
+    of_domains = {name: one["score"] for name, one in exact["domains"].items()}
+    assert of_domains == pytest.approx({name: float(name in ("threshold", "strings")) for name in of_domains})
+    assert exact["score"] == pytest.approx(2 / len(of_domains)) and exact["worst"] == {next(iter(of_domains)): 0}
+    page = leaderboard.markdown([best, worst])
+    assert f"[ideal](scores/ideal) | {2 / len(of_domains):.3f}<br><sub>0.000 which is heavier</sub> |" in page
+    header, _, row = page.partition("## Track `exact`")[2].splitlines()[4:7]
     cells = dict(zip(header.split(" | "), row.split(" | "), strict=True))
-    assert cells["agent"] == "[ideal](scores/ideal)" and (cells["threshold"], cells["balance"]) == ("1.000", "–")
+    assert (cells["agent"], cells["threshold"], cells["balance"]) == ("ideal", "1.000", "–")
+    assert cells["domains played |"] == f"2 of {len(of_domains)} |"
 
 
 def test_a_forged_row_is_named_and_the_others_are_shown(copied):
@@ -118,10 +118,10 @@ def test_names_and_facts_of_a_row_are_text_in_pages_and_figures(copied):
     paths, refused = leaderboard.write(results)
     assert not refused and [path.name for path in paths] == ["leaderboard.md", "leaderboard.png"]
     header, _, *rows = paths[0].read_text().splitlines()[6:]
-    (row,) = [row for row in rows if "frac" in row]
+    row, shorter = [row for row in rows if "frac" in row]
     cells = row.removeprefix("| ").removesuffix(" |").split(" | ")
-    assert len(cells) == len(header.split(" | ")) and not set("".join(cells[3:])) & set("<>`$[]")
-    linked = re.fullmatch(r"\[([^]]*)\]\(scores/([^)]*)\)", cells[1])
+    assert len(cells) == len(header.split(" | ")) and not set("".join([*cells[2:], shorter])) & set("<>`$[]")
+    linked = re.fullmatch(r"\[([^]]*)\]\(scores/([^)]*)\)", cells[0])
     assert html.unescape(linked[1]) == name and parse.unquote(linked[2]) == name
 
 

@@ -1,4 +1,7 @@
-"""Scores are shares: 1 for the ideal, 0 for the best answer without an experiment."""
+"""Scores are shares: 1 for the ideal, 0 for the best policy that does not look."""
+
+import json
+from pathlib import Path
 
 import ideals
 import numpy as np
@@ -6,8 +9,9 @@ import pytest
 
 from physexp import suite
 from physexp.analysis.data import episodes
-from physexp.analysis.score import judging, log, protocol, scores, targets
+from physexp.analysis.score import judging, log, protocol, scores, scoring, targets
 
+ROOT = Path(__file__).parents[3]
 FEATURES = [protocol.question(*names, ideals.QUICK.get(names[0])) for names in suite.tagged("features")]
 COUNT = 6
 
@@ -39,11 +43,12 @@ def test_the_ideal_scores_1_in_every_episode(asked):
 
 
 @pytest.mark.parametrize("asked", FEATURES, ids=lambda asked: asked.name)
-def test_the_floor_is_the_better_of_the_likeliest_answer_and_of_no_answer(asked):
+def test_the_floor_is_the_best_return_without_looking(asked):
     at_once, silent = play("at_once", asked, 2), play("silent", asked, 2)
     floor, answer, ideal = (at_once.metrics[name] for name in ("floor", "at_once", "ideal"))
     never = -(asked.discount ** (asked.step_limit - 1))
-    assert floor == silent.metrics["floor"] == max(answer, never)
+    blind = [never, *(answer * asked.discount**step for step in range(asked.step_limit))]
+    assert floor == silent.metrics["floor"] == pytest.approx(max(blind))
     assert silent.metrics["raw_score"] == pytest.approx((never - floor) / (ideal - floor))
     # An answer at once is worth what the likeliest label is, whatever turns out to be right.
     np.testing.assert_allclose(at_once.scores, (answer - floor) / (ideal - floor))
@@ -58,8 +63,8 @@ def test_a_rule_that_reads_every_bit_of_a_tower_scores_1(task):
 def test_the_scores_of_guesses_are_those_of_their_chances():
     (threshold,) = protocol.named(["threshold/features"])
     found = play("at_once", threshold)
-    # One of eight levels is right: an answer is worth 2/8 - 1; none in 15 steps, -0.95^14; and the ideal pushes thrice.
-    ideal, floor = 0.95**3, -(0.95**14)
+    # One of eight levels is right: an answer is worth 2/8 - 1, also in the last of 15 steps; the ideal pushes thrice.
+    ideal, floor = 0.95**3, -0.75 * 0.95**14
     np.testing.assert_allclose(found.scores, (-0.75 - floor) / (ideal - floor))
     assert found.metrics["mistakes"]["early"] == pytest.approx((ideal + 0.75) / (ideal - floor))
 
@@ -82,8 +87,8 @@ def test_the_score_without_luck_has_the_narrower_interval(domain):
 
 def test_every_task_has_an_ideal_and_the_protocol_its_own_instances():
     everything = [protocol.question(*names) for names in suite.ALL_TASKS]
-    newer = {asked.domain for asked in everything} - {asked.domain for asked in protocol.observing("all")}
-    assert newer == {"crush", "lump"}, "a domain that joins the protocol changes all scores over domains"
+    newer = {asked.domain for asked in everything} - {asked.domain for asked in protocol.in_tracks(["exact", "pixels"])}
+    assert newer == {"crush", "lump"}, "a domain that joins a track changes all scores over its domains"
     assert all(protocol.ideal(asked) is protocol.ideal(asked) for asked in everything)
     for asked in FEATURES:
         environment = protocol.load(asked)
@@ -91,3 +96,27 @@ def test_every_task_has_an_ideal_and_the_protocol_its_own_instances():
         environment.reset()
         np.testing.assert_array_equal(environment.task.hidden, protocol.drawn(asked, 4)[3])
         environment.close()
+
+
+def test_scores_of_the_first_version_follow_from_its_logs():
+    rows = [path.parent for path in sorted((ROOT / "results" / "scores").glob("*/score.json"))]
+    row, written = next((row, its) for row in rows if (its := scoring.read(row))["version"] == "v1")
+    asked = protocol.named(written["tasks"])
+    metrics = scores.summary(scores.of_log(log.read(row), dict.fromkeys(asked), "v1"), "v1")
+    for name in ("domains", "whole"):
+        assert json.dumps(written[name]) == json.dumps(metrics[name]), row
+    of_task = metrics["tasks"][asked[-1].name]
+    never = -(asked[-1].discount ** (asked[-1].step_limit - 1))
+    assert of_task["floor"] == max(of_task["at_once"], never) == written["tasks"][asked[-1].name]["floor"]
+
+
+def test_a_track_counts_all_its_domains_alike_and_an_unplayed_one_as_0():
+    exact = protocol.in_tracks(["exact"])
+    played = [play("at_once", one, 2) for one in exact if one.domain in ("threshold", "balance")]
+    (track,) = (found := scores.summary(played)["tracks"])
+    its = found[track]
+    each = {one.question.domain: one.metrics["score"] for one in played}
+    assert track == "exact" and (its["played"], its["of"]) == (2, len({one.domain for one in exact}))
+    assert its["score"] == pytest.approx(sum(each.values()) / its["of"])
+    assert its["worst"] == {"balance": pytest.approx(min(each.values()))} and min(each.values()) < 0
+    assert not scores.summary(played[:1])["tracks"], "one task of several is no track"

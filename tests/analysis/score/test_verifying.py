@@ -58,7 +58,8 @@ def test_a_score_is_verified(folder):
     calls = []
     found = verifying.verify(folder, calls.append)
     assert found["episodes"] == 2 * COUNT and calls == [*range(1, 2 * COUNT + 1)]
-    assert found["actions"] == len(log.read(folder)) and found["score"] == scoring.read(folder)["whole"]["score"]
+    assert found["actions"] == len(log.read(folder))
+    assert found["scores"] == {"exact": scoring.read(folder)["tracks"]["exact"]["score"]}
 
 
 # The last row is the answer in the last episode of Strings.
@@ -118,15 +119,16 @@ def test_missing_doubled_or_disordered_rows_are_refused(folder, change, said):
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (lambda found: found["whole"].update(score=1.0), "whole, score is 1.0, and -?0"),
-        (lambda found: found["domains"]["strings"].update(interval=[0.9, 1]), "domains, strings, interval is"),
+        (lambda found: found["tracks"]["exact"].update(score=1.0), "tracks, exact, score is 1.0, and -?0"),
+        (lambda found: found["tracks"]["exact"].update(worst={"towers": 0}), "exact, worst, strings is None, and -?0"),
         (lambda found: found["tasks"]["strings/features"].pop("luck"), "tasks, strings/features, luck is None"),
         (lambda found: found["tasks"].update(more={}), "tasks, more is {}, and None by the log"),
         (lambda found: found["protocol"].update(seed=1), "seed is 1 instead of 2000003"),
         (lambda found: found["protocol"].update(tasks=["threshold/features"]), "has 8 episodes instead of 4"),
         (lambda found: found["protocol"].update(tasks=[["x"]]), "is faulty: tasks is"),
-        (lambda found: found.update(version="v0"), "is of protocol 'v0'; this version of physexp plays v1"),
-        (lambda found: found.update(whole=None), "is faulty: whole is None; score again"),
+        (lambda found: found.update(version="v0"), "is of protocol 'v0'; this version of physexp reads v1 and v2"),
+        (lambda found: found.update(version="v1"), "is faulty: domains is None; score again"),
+        (lambda found: found.update(tracks=None), "is faulty: tracks is None; score again"),
         (lambda found: found.pop("commit"), "is faulty: commit is None; score again"),
     ],
 )
