@@ -19,7 +19,8 @@ class Playing:
     target: str = word(
         "TARGET",
         "the folder of a run; the file of a published agent (NAME.safetensors); DOMAIN/TASK for the agent of the "
-        "package; several of these with commas between, shipped, or a3c, belief or ppo, for a team; MODULE:FUNCTION "
+        "package; several of these with commas between, a folder of runs, shipped, or a3c, belief or ppo, for a team, "
+        "in which agents of a task that differ in their seeds play in turns; MODULE:FUNCTION "
         "for an agent of your own (docs/score.md); or random, at_once, silent, ideal",
     )
     tasks: tuple[str, ...] = option(
@@ -50,6 +51,8 @@ class Score(Playing):
     algorithm: str | None = option(None, "how your agent was trained, for the report and the leaderboard")
     frames: int | None = option(None, "environment steps of its training")
     minutes: float | None = option(None, "duration of its training, min")
+    gamma: float | None = option(None, "discount of its training")
+    answers_revealed: bool = option(False, "it was told right answers in its training")
     output: Path | None = option(None, "the folder for the log, the figures and the report; by default under scores/")
 
     def run(self) -> None:
@@ -80,8 +83,10 @@ class Score(Playing):
         if self.frames is not None:
             checks.integer("frames", self.frames, 0)
         seconds = None if self.minutes is None else 60 * checks.within(0, 1e9, "min")("minutes", self.minutes)
-        said = {"algorithm": self.algorithm, "frames": self.frames, "seconds": seconds}
-        return {name: value for name, value in said.items() if value is not None}
+        gamma = None if self.gamma is None else checks.discount("gamma", self.gamma)
+        said = {"algorithm": self.algorithm, "frames": self.frames, "seconds": seconds, "gamma": gamma}
+        told = {"answers_revealed": self.answers_revealed} if self.algorithm or self.answers_revealed else {}
+        return told | {name: value for name, value in said.items() if value is not None}
 
 
 @contextlib.contextmanager

@@ -27,6 +27,13 @@ class Row:
     tracks: Mapping[str, Mapping[str, Any]]
     found: Mapping[str, Any]
 
+    def told(self, fact: str) -> str:
+        """Returns the values of a fact of its agents, in words; empty if they do not tell."""
+        agent = self.found["agent"]
+        agents = (agent.get("agents") or {"": agent}).values()
+        values = dict.fromkeys(one[fact] for one in agents if one.get(fact) is not None)
+        return ", ".join({True: "yes", False: "no"}.get(value, f"{value:g}") for value in values)
+
     def earned(self, track: str) -> float:
         """Returns the score of a track; 0 if it is not played."""
         return self.tracks[track]["score"] if track in self.tracks else 0.0
@@ -71,8 +78,8 @@ def _row(folder: Path, verify: Callable[[Path], None]) -> Row:
     if others := [name for name in extent["tasks"] or ["no task"] if name not in names]:
         raise ValueError(f"{folder} is of {others[0]}; a row is of {', '.join(names)}")
     verify(folder)
-    played = scores.of_log(log.read(folder), dict.fromkeys(questions))
-    return Row(folder.name, scores.summary(played)["tracks"], found)
+    played = scores.of_log(log.read(folder), dict.fromkeys(questions), num_agents=extent["agents"])
+    return Row(folder.name, scores.over_tracks(played), found)
 
 
 def write(results: Path, show: Callable[[int], None] = lambda done: None) -> tuple[list[Path], list[str]]:

@@ -1,7 +1,8 @@
 """Computes scores from the log: of each task, where the rest was lost, and over all domains.
 
 A task's score is 0 for the best policy that does not look, and 1 for the optimum. Over the domains of a track it is
-the mean, with a stratified bootstrap in which the episodes of each task are resampled.
+the mean, with a stratified bootstrap in which the episodes of each task are resampled; of several agents of one
+configuration, with Student's interval.
 """
 
 import collections
@@ -15,7 +16,7 @@ import numpy as np
 import pyarrow
 from scipy import special, stats
 
-from physexp.analysis.data import episodes
+from physexp.analysis.data import episodes, estimates
 from physexp.analysis.ideal import mistakes
 from physexp.analysis.score import log, protocol
 from physexp.suite.engine import rules
@@ -71,13 +72,15 @@ class TaskScore:
     Attributes:
       question: the task.
       scores: the score of each episode, without luck, float64 [N].
-      resampled: bootstrap means of the scores, float64 [_RESAMPLES].
+      means: means of the scores, of each of several agents, or else those of the bootstrap, float64 [M].
+      num_agents: the number of agents, which play in turns.
       metrics: by name; the score and the mistakes sum to 1, the score and the luck to the raw score.
     """
 
     question: protocol.Question
     scores: np.ndarray
-    resampled: np.ndarray
+    means: np.ndarray
+    num_agents: int
     metrics: Mapping[str, Any]
 
 
@@ -85,18 +88,24 @@ def of_log(
     found: pyarrow.Table,
     ideals: Mapping[protocol.Question, Reference | None],
     version: str = protocol.VERSION,
+    num_agents: int = 1,
 ) -> list[TaskScore]:
     """Returns the scores of the tasks in a log, by a version of the protocol.
 
-    `ideals` has the ideal's play of as many episodes where it is known.
+    `ideals` has the ideal's play of as many episodes where it is known. Several agents have played in turns.
     """
     parts = [(question, known, log.of_task(found, question)) for question, known in ideals.items()]
     played = [part for part in parts if len(part[2]["step"])]
-    return [_of_task(*part, version, seed) for seed, part in enumerate(played)]
+    return [_of_task(*part, version, num_agents, seed) for seed, part in enumerate(played)]
 
 
 def _of_task(
-    question: protocol.Question, known: Reference | None, columns: Mapping[str, np.ndarray], version: str, seed: int
+    question: protocol.Question,
+    known: Reference | None,
+    columns: Mapping[str, np.ndarray],
+    version: str,
+    num_agents: int,
+    seed: int,
 ) -> TaskScore:
     """Returns the score of a task; `seed` draws its bootstrap."""
     first = columns["step"] == 0
@@ -121,7 +130,7 @@ def _of_task(
     # A question that is not answered costs as much as a wrong answer.
     right = (np.bincount(index, columns["reward"]) + question.num_questions) // 2
     gains = np.bincount(columns["step"][~are_answers], columns["bits"][~are_answers]) / num_episodes
-    resampled = _resampled(scores, seed)
+    means, raw_means = (_means(values, num_agents, seed) for values in (scores, raw))
     metrics = {
         "episodes": num_episodes,
         "ideal": ideal,
@@ -129,9 +138,9 @@ def _of_task(
         "at_once": at_once,
         "random": random_return(question),
         "score": float(scores.mean()),
-        "interval": _interval(resampled),
+        "interval": _interval(means, num_agents),
         "raw_score": float(raw.mean()),
-        "raw_interval": _interval(_resampled(raw, seed)),
+        "raw_interval": _interval(raw_means, num_agents),
         "luck": float((raw - scores).mean()),
         "mistakes": {kind: float(cost.mean()) for kind, cost in costs.items()},
         "success_rate": float(right.mean() / question.num_questions),
@@ -143,7 +152,7 @@ def _of_task(
         "gains": gains.tolist(),
         "ideal_gains": known and known.gains.tolist(),
     }
-    return TaskScore(question, scores, resampled, metrics)
+    return TaskScore(question, scores, means, num_agents, metrics)
 
 
 def random_return(question: protocol.Question) -> float:
@@ -167,13 +176,18 @@ def summary(found: Sequence[TaskScore], version: str = protocol.VERSION) -> dict
     tasks = {one.question.name: one.metrics for one in found}
     if version == protocol.FIRST_VERSION:
         return {"tasks": tasks, **_interquartile(found)}
+    return {"tasks": tasks, "tracks": over_tracks(found, 2)}
+
+
+def over_tracks(found: Sequence[TaskScore], least: int = 1) -> dict[str, dict[str, Any]]:
+    """Returns the scores over the domains of all tracks of which a number of tasks was played, or all; see `over`."""
     tracks = {}
     for name in protocol.TRACKS:
         of_track = protocol.in_tracks([name])
         played = [one for one in found if one.question in of_track]
-        if played and len(played) >= min(2, len(of_track)):
+        if len(played) >= min(least, len(of_track)):
             tracks[name] = over(played, of_track)
-    return {"tasks": tasks, "tracks": tracks}
+    return tracks
 
 
 def headlines(found: Mapping[str, Any]) -> Mapping[str, Mapping[str, Any]]:
@@ -192,16 +206,16 @@ def over(found: Sequence[TaskScore], questions: Sequence[protocol.Question]) -> 
       found: the scores of the tasks that were played.
       questions: all tasks of the track, at least one; the score of a task that was not played is 0.
     """
-    played, parts = {one.question: one for one in found}, _by_domain(found, questions)
+    played, parts = {one.question for one in found}, _by_domain(found, questions)
+    interval = functools.partial(_interval, num_agents=found[0].num_agents)
     domains = {}
-    for name, (mean, resampled) in parts.items():
+    for name, (mean, means) in parts.items():
         own = [question for question in questions if question.domain == name]
-        count = sum(question in played for question in own)
-        domains[name] = {"score": mean, "interval": _interval(resampled), "played": count, "of": len(own)}
+        domains[name] = {"score": mean, "interval": interval(means), "played": len(played & {*own}), "of": len(own)}
     worst = min(parts, key=lambda name: parts[name][0])
     return {
         "score": float(np.mean([mean for mean, _ in parts.values()])),
-        "interval": _interval(np.mean([resampled for _, resampled in parts.values()], axis=0)),
+        "interval": interval(np.mean([means for _, means in parts.values()], axis=0)),
         "worst": {worst: parts[worst][0]},
         "played": sum(one["played"] == one["of"] for one in domains.values()),
         "of": len(domains),
@@ -212,13 +226,13 @@ def over(found: Sequence[TaskScore], questions: Sequence[protocol.Question]) -> 
 def _by_domain(
     found: Sequence[TaskScore], questions: Sequence[protocol.Question]
 ) -> dict[str, tuple[float, np.ndarray]]:
-    """Returns the mean score of the tasks of each domain, 0 for each that is not found; and its bootstrap means."""
-    played = {one.question: (one.scores.mean(), one.resampled) for one in found}
+    """Returns the mean score of the tasks of each domain, 0 for each that is not found; and the same of the `means`."""
+    played = {one.question: (one.scores.mean(), one.means) for one in found}
     of_tasks = collections.defaultdict(list)
     for question in questions:
-        of_tasks[question.domain].append(played.get(question, (0.0, np.zeros(_RESAMPLES))))
+        of_tasks[question.domain].append(played.get(question, (0.0, np.zeros_like(found[0].means))))
     return {
-        name: (float(np.mean([mean for mean, _ in parts])), np.mean([drawn for _, drawn in parts], axis=0))
+        name: (float(np.mean([mean for mean, _ in parts])), np.mean([means for _, means in parts], axis=0))
         for name, parts in of_tasks.items()
     }
 
@@ -226,18 +240,20 @@ def _by_domain(
 def _interquartile(found: Sequence[TaskScore]) -> dict[str, Any]:
     """Returns the first version's scores of the domains and over them: the interquartile mean."""
     parts = _by_domain(found, [one.question for one in found])
-    means, resampled = zip(*parts.values(), strict=True)
+    scores, means = zip(*parts.values(), strict=True)
     return {
         "domains": {name: {"score": mean, "interval": _interval(drawn)} for name, (mean, drawn) in parts.items()},
         "whole": {
-            "score": float(stats.trim_mean(means, _TRIMMED)),
-            "interval": _interval(stats.trim_mean(resampled, _TRIMMED, axis=0)),
+            "score": float(stats.trim_mean(scores, _TRIMMED)),
+            "interval": _interval(stats.trim_mean(means, _TRIMMED, axis=0)),
         },
     }
 
 
-def _resampled(values: np.ndarray, seed: int) -> np.ndarray:
-    """Returns bootstrap means of values, [N], float64 [_RESAMPLES]."""
+def _means(values: np.ndarray, num_agents: int, seed: int) -> np.ndarray:
+    """Returns the means of values, [N], of agents in turns, float64 [num_agents]; of one, those of the bootstrap."""
+    if num_agents > 1:
+        return np.array([values[number::num_agents].mean() for number in range(num_agents)])
     generator = np.random.default_rng(seed)
     return np.array([values[generator.integers(len(values), size=len(values))].mean() for _ in range(_RESAMPLES)])
 
@@ -247,6 +263,9 @@ def _mean(values: np.ndarray) -> float:
     return float(values[0] + (values - values[0]).mean())
 
 
-def _interval(means: np.ndarray) -> list[float]:
-    """Returns the ends of the 95 % interval of bootstrap means."""
+def _interval(means: np.ndarray, num_agents: int = 1) -> list[float]:
+    """Returns the ends of the 95 % interval: Student's of the means of several agents, or that of the bootstrap."""
+    if num_agents > 1:
+        found = estimates.mean(means)
+        return [found.low, found.high]
     return [float(end) for end in np.quantile(means, [0.025, 0.975])]

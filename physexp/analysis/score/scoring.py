@@ -13,8 +13,10 @@ from physexp.analysis.score import judging, log, playing, protocol, scores, targ
 FILE = "score.json"
 _TRAINED = {
     **dict.fromkeys(("algorithm", "command", "commit"), str | None),
-    **dict.fromkeys(("frames", "seed"), int | None),
-    "seconds": int | float | None,
+    **dict.fromkeys(("frames", "seed"), int | None),  # The first version has one seed.
+    **dict.fromkeys(("seconds", "gamma"), int | float | None),
+    "seeds": list | None,
+    "answers_revealed": bool | None,
     "agents": dict | None,
 }
 _KINDS = {
@@ -65,10 +67,12 @@ def score(
       ValueError: if the folder holds something else, no ideal experimenter is known, or a number makes no sense.
     """
     check(num_episodes, protocol.MAX_EPISODES, timeout)
+    if num_episodes < target.num_agents:
+        raise ValueError(f"episodes is {num_episodes}; give at least {target.num_agents}, one for each agent of a task")
     for question in questions:
         protocol.ideal(question)  # Refuses a task without one before anything is played.
     names = [question.name for question in questions]
-    extent = {"seed": protocol.SEED, "episodes": num_episodes, "tasks": names}
+    extent = {"seed": protocol.SEED, "episodes": num_episodes, "tasks": names, "agents": target.num_agents}
     facts = {"version": protocol.VERSION, "target": target.name, "greedy": target.greedy, "protocol": extent}
     agent = target.describe(questions)
     defining = {**facts, "agent": agent, "versions": provenance.versions()}
@@ -88,7 +92,8 @@ def score(
             ],
         )
         log.write(folder, found)
-        metrics = scores.summary(scores.of_log(found, {question: one.ideal for question, one in judged.items()}))
+        ideals = {question: one.ideal for question, one in judged.items()}
+        metrics = scores.summary(scores.of_log(found, ideals, num_agents=target.num_agents))
         written = session.write(FILE, {**facts, "agent": {**agent, **(made or {})}}, metrics)
         finish(folder)
     return written
@@ -111,7 +116,8 @@ def read(folder: Path) -> dict[str, Any]:
         known = " and ".join(_OVER_TASKS)
         raise ValueError(f"{path} is of protocol {version!r}; this version of physexp reads {known}")
     _check_kinds(path, found, {**_KINDS, **_OVER_TASKS[version]})
-    _check_kinds(path, found["protocol"], {"seed": int, "episodes": int, "tasks": list})
+    found["protocol"].setdefault("agents", 1)  # The first version has no rows of several.
+    _check_kinds(path, found["protocol"], {"seed": int, "episodes": int, "tasks": list, "agents": int})
     _check_kinds(path, found["agent"], _TRAINED)
     members = found["agent"].get("agents") or {}
     _check_kinds(path, members, dict.fromkeys(members, dict))

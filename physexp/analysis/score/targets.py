@@ -30,14 +30,20 @@ class Target:
       greedy: whether trained agents take their likeliest actions instead of drawing them.
       questions: its own tasks; None for all, as far as is known before an actor is made.
       make: makes its actors; None for a user's function, which has a process of its own.
-      agents: trained agents, by the task that each was trained on.
+      agents: trained agents, by the task that they were trained on: for each task as many, which differ only in their
+        seeds and play its episodes in turns.
     """
 
     name: str
     greedy: bool
     questions: tuple[protocol.Question, ...] | None
     make: actors.Make | None
-    agents: "Mapping[protocol.Question, finding.Agent]" = dataclasses.field(default_factory=dict)
+    agents: "Mapping[protocol.Question, Sequence[finding.Agent]]" = dataclasses.field(default_factory=dict)
+
+    @property
+    def num_agents(self) -> int:
+        """The number of agents of a task."""
+        return len(next(iter(self.agents.values()), [None]))
 
     def choose(self, tasks: Sequence[str], tracks: Sequence[str]) -> tuple[protocol.Question, ...]:
         """Returns the tasks of some names, and those of some tracks that it can play.
@@ -64,11 +70,13 @@ class Target:
     def describe(self, questions: Sequence[protocol.Question]) -> dict[str, Any]:
         """Returns how the agents of some tasks were trained; nothing for other targets.
 
-        This is algorithm, seed, command, commit, frames and seconds; of a team, algorithms and sums, and `agents`.
+        They are algorithm, seeds, gamma, whether answers were revealed, command, commit, frames and seconds; of several
+        agents of a task, command and commit of the first one, and mean frames and seconds. Of a team, they are
+        algorithms, sums, and `agents`.
         """
         own = {question.name: _trained_for(question, self.agents) for question in questions}
-        facts = {one: _facts(agent) for one, agent in self.agents.items() if one in own.values()}
-        if not _is_team(self.name):
+        facts = {one: _facts(agents) for one, agents in self.agents.items() if one in own.values()}
+        if len(self.agents) < 2:
             return next(iter(facts.values()), {})
         sums = {name: sum(one[name] for one in facts.values()) for name in ("frames", "seconds")}
         algorithms = dict.fromkeys(one["algorithm"] for one in facts.values())
@@ -81,8 +89,8 @@ def find(name: str, greedy: bool = False) -> Target:
 
     Args:
       name: a baseline; the folder of a run, the file of a published agent, or an agent that comes with the package;
-        several agents with commas between them, `shipped`, or a learner's name, for a team in which each plays its own
-        task; or `module:function`.
+        several agents with commas between them, a folder of runs, `shipped`, or a learner's name, for a team in which
+        each plays its own task, in turns with others that differ only in their seeds; or `module:function`.
       greedy: a trained agent takes its likeliest action instead of drawing one.
     """
     if _is_function(name):
@@ -106,22 +114,44 @@ def _trained(name: str, greedy: bool) -> Target:
     """Returns an agent, or a team: names of agents and of teams with commas between them."""
     from physexp.agents import acting
 
-    agents: dict[protocol.Question, finding.Agent] = {}
+    agents: dict[protocol.Question, list[finding.Agent]] = {}
     for part in name.split(","):
         if _is_function(part) or part in actors.BASELINES or part in _baselines_of_domains():
             raise ValueError(f"{part} is no trained agent; a team is of trained agents, so give it alone")
-        for agent in map(_agent, _shipped(part) if _is_team(part) else [part]):
+        for agent in map(_agent, _members(part)):
             config = agent.config
-            if (question := protocol.question(config.domain, config.task, config.task_kwargs)) in agents:
-                raise ValueError(f"{name} has two agents for {question.name}; leave out one of them")
-            agents[question] = agent
+            agents.setdefault(protocol.question(config.domain, config.task, config.task_kwargs), []).append(agent)
+    _check_seeds(name, agents)
 
     def make(question: protocol.Question, index: int) -> core.Actor:
         own = _trained_for(question, agents)
         assert own is not None
-        return acting.RecurrentActor(agents[own].network, index, greedy)
+        return acting.RecurrentActor(agents[own][index % len(agents[own])].network, index, greedy)
 
     return Target(name, greedy, tuple(agents), make, agents)
+
+
+def _members(name: str) -> Sequence[str]:
+    """Returns the names of the agents of a team, or of the runs in a folder; of an agent, its own."""
+    if name == SHIPPED or name in config_lib.ALGORITHMS:
+        return _shipped(name)
+    folder = Path(name).expanduser()
+    runs = [] if (folder / "config.json").exists() else sorted(folder.glob("*/config.json"))
+    return [str(run.parent) for run in runs] or [name]
+
+
+def _check_seeds(name: str, agents: "Mapping[protocol.Question, Sequence[finding.Agent]]") -> None:
+    """Raises ValueError unless each task has one agent, or as many as the others that differ in their seeds alone."""
+    counts = {question.name: len(its) for question, its in agents.items()}
+    for question, its in agents.items():
+        configs = [one.config.agent for one in its]
+        if len({config.seed for config in configs}) < len(its) or len({one.replace(seed=0) for one in configs}) > 1:
+            raise ValueError(
+                f"{name} has two agents for {question.name} with equal seeds or of other configurations; leave out one"
+            )
+    if len(set(counts.values())) > 1 or 2 in counts.values():
+        told = ", ".join(f"{count} for {task}" for task, count in counts.items())
+        raise ValueError(f"{name} has agents: {told}; give one for each task, or as many for each, at least 3")
 
 
 def _trained_for(question: protocol.Question, own: Collection[protocol.Question]) -> protocol.Question | None:
@@ -135,11 +165,17 @@ def _spaces(question: protocol.Question) -> tuple[Any, ...]:
     return question.domain, question.task, observations, question.num_interactions, question.num_actions
 
 
-def _facts(agent: "finding.Agent") -> dict[str, Any]:
-    """Returns how an agent was trained."""
-    recorded, config = agent.provenance(), agent.config.agent
-    facts = {fact: recorded.get(fact) for fact in ("command", "commit", "frames", "seconds")}
-    return {"algorithm": config.title, "seed": config.seed, **facts}
+def _facts(agents: "Sequence[finding.Agent]") -> dict[str, Any]:
+    """Returns how the agents of a task were trained."""
+    recorded, config = [agent.provenance() for agent in agents], agents[0].config.agent
+    return {
+        "algorithm": config.title,
+        "seeds": [agent.config.agent.seed for agent in agents],
+        "gamma": config.discount,
+        "answers_revealed": bool(getattr(config, "answers_revealed", False)),
+        **{fact: recorded[0].get(fact) for fact in ("command", "commit")},
+        **{fact: sum(one[fact] for one in recorded) // len(agents) for fact in ("frames", "seconds")},
+    }
 
 
 def _agent(name: str) -> "finding.Agent":
@@ -150,10 +186,6 @@ def _agent(name: str) -> "finding.Agent":
     except ValueError as error:
         others = ", ".join([*actors.BASELINES, *_baselines_of_domains(), SHIPPED, *config_lib.ALGORITHMS])
         raise ValueError(f"{error}; or give {others}, or MODULE:FUNCTION") from None
-
-
-def _is_team(name: str) -> bool:
-    return "," in name or name == SHIPPED or name in config_lib.ALGORITHMS
 
 
 @functools.cache  # The cards of all agents are read.

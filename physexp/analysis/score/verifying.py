@@ -50,7 +50,7 @@ def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dic
                 show(first + index + 1)
         ideals[question] = scores.reference(question, len(its))
     version = written["version"]
-    metrics = scores.summary(scores.of_log(found, ideals, version), version)
+    metrics = scores.summary(scores.of_log(found, ideals, version, written["protocol"]["agents"]), version)
     for names, theirs, ours in playing.differences({name: written[name] for name in metrics}, metrics, _are_close):
         raise ValueError(
             f"{folder / scoring.FILE}: {', '.join(names)} is {theirs}, and {ours} by the log; score again, elsewhere"

@@ -93,7 +93,7 @@ def test_each_agent_of_a_team_in_a_team_counts_once():
 @pytest.mark.parametrize(
     ("target", "said"),
     [
-        ("threshold/features,threshold-features", "has two agents for threshold/features; leave out one"),
+        ("threshold/features,threshold-features", "has two agents for threshold/features with equal seeds"),
         ("threshold/features,random", "random is no trained agent; a team is of trained agents, so give it alone"),
         ("rule,threshold/features", "rule is no trained agent; a team is of trained agents, so give it alone"),
         ("threshold/features,fly", "fly holds no run"),
