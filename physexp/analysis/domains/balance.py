@@ -16,6 +16,11 @@ DOMAIN = base.resting_domain(
     read=lambda observation: int(observation["tilt"][0]),
     presets=base.PRESETS_OF_BITS,
     targets={"balance-features": ("mean_return", 0.72), "balance-pixels": ("mean_return", 0.72)},
-    tracks={"exact": ({},), "pixels": ({},)},
+    tracks={
+        "exact": ({},),
+        "pixels": ({},),
+        "plan": ({"latch": True},),
+        "unseen": ({"difficulty": 2.0},),
+    },
     hidden_columns=lambda hidden: {"weights": hidden},  # kg
 )

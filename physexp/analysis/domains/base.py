@@ -21,8 +21,14 @@ if TYPE_CHECKING:
 TRACKS = {
     "exact": "the tasks of the first version, from features",
     "pixels": "the same, from images",
+    "plan": "those where the most informative interaction is the wrong one, or only prepares another",
+    "noise": "readings that are wrong at times",
+    "questions": "questions that are not asked in training",
+    "unseen": "settings that are not trained on",
 }
 """The tracks of the score, and what they ask for; the facts of each domain have their settings."""
+HELD_OUT = ("questions", "unseen")
+"""Tracks on whose settings no agent may be trained."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

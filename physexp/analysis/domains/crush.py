@@ -16,5 +16,6 @@ DOMAIN = base.resting_domain(
     read=lambda observation: int(observation["crushed"].sum()),
     presets=base.PRESETS_OF_BITS,
     targets={"crush-features": ("mean_return", 0.65)},
+    tracks={"plan": ({},)},
     hidden_columns=lambda hidden: {"can_strength": hidden},  # N
 )

@@ -16,5 +16,6 @@ DOMAIN = base.search_domain(
     _hypotheses,
     presets=base.PRESETS_OF_BITS,
     targets={"lump-features": ("mean_return", 0.77), "lump-pixels": ("mean_return", 0.75)},
+    tracks={"unseen": ({"control_timestep": 0.15},)},
     hidden_columns=lambda hidden: {"lump": hidden},  # An index in `lump.ALL_LUMPS`.
 )

@@ -19,6 +19,11 @@ DOMAIN = base.search_domain(
         "pixels": {**base.PRESETS_OF_BITS["pixels"], "ppo": base.PPO_OF_FEW_IMAGES.replace(frames=3_000_000)},
     },
     targets={"strike-features": ("mean_return", 0.75), "strike-pixels": ("mean_return", 0.70)},
-    tracks={"exact": ({},), "pixels": ({},)},
+    tracks={
+        "exact": ({},),
+        "pixels": ({},),
+        "plan": ({"difficulty": 1.0},),
+        "unseen": ({"control_timestep": 0.15},),
+    },
     hidden_columns=lambda hidden: {"puck": hidden},  # An index in `strike.PUCKS`.
 )

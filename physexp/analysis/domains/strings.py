@@ -22,6 +22,12 @@ DOMAIN = base.resting_domain(
     read=_moved,
     presets=base.PRESETS_OF_BITS,
     targets={"strings-features": ("mean_return", 0.82), "strings-pixels": ("mean_return", 0.82)},
-    tracks={"exact": ({},), "pixels": ({},)},
+    tracks={
+        "exact": ({},),
+        "pixels": ({},),
+        "plan": ({"num_pucks": 4, "num_clamps": 2, "time_limit": 4.0},),
+        "questions": ({"questions": "held_out"}, {"questions": "held_out", "num_questions": 4}),
+        "unseen": ({"difficulty": 2.0},),
+    },
     hidden_columns=lambda hidden: {"slacks": hidden},  # m; 0 where there is no band; and the numbers of questions.
 )

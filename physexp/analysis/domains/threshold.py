@@ -33,7 +33,12 @@ _OF_RIGHT_FLAGS = base.resting_domain(
     read=_read,
     presets=base.PRESETS_OF_BITS,
     targets={"threshold-features": ("mean_return", 0.84), "threshold-pixels": ("mean_return", 0.76)},
-    tracks={"exact": ({},), "pixels": ({},)},
+    tracks={
+        "exact": ({},),
+        "pixels": ({},),
+        "noise": ({"flag_noise": 0.1},),
+        "unseen": ({"difficulty": 2.0},),
+    },
     hidden_columns=_hidden_columns,
 )
 

@@ -174,6 +174,10 @@ DOMAIN = base.Domain(
     baselines={
         task: {"rule": functools.partial(rule, task), "lookup": functools.partial(_lookup, task)} for task in _RULES
     },
-    tracks={"exact": ({},), "pixels": ({},)},
+    tracks={
+        "exact": ({},),
+        "pixels": ({},),
+        "unseen": ({"sliding_friction": 0.48}, {"control_timestep": 0.05}),
+    },
     hidden_columns=lambda hidden: {"pattern": hidden},  # An index in `tower.PATTERNS`.
 )

@@ -63,6 +63,10 @@ DOMAIN = base.Domain(
         "which_is_heavier-pixels-difficulty10": ("mean_return", 0.88),
     },
     ideal=base.Ideal(_NAME, _solve),
-    tracks={"exact": ({},), "pixels": ({},)},
+    tracks={
+        "exact": ({},),
+        "pixels": ({},),
+        "unseen": ({"difficulty": 2.0},),
+    },
     hidden_columns=_hidden_columns,
 )

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from physexp.agents import core
 from physexp.analysis import domains
+from physexp.analysis.domains import base
 from physexp.analysis.score import actors, protocol
 from physexp.analysis.training import config as config_lib
 
@@ -51,7 +52,8 @@ class Target:
         Without either they are its own, of one trained agent; of others, those of the track `exact`.
 
         Raises:
-          ValueError: if there is no such task or track, or the target does not play it.
+          ValueError: if there is no such task or track, the target does not play it, or was trained on a task that is
+            held out.
         """
         own = self.questions or ()
         if not tasks and not tracks and len(self.agents) == 1:
@@ -62,7 +64,15 @@ class Target:
         if others or (tracks and not can):
             what = "".join(others[:1]) or f"any task of {', '.join(tracks)}"
             raise ValueError(f"{self.name} does not play {what}; it plays {', '.join(one.name for one in own)}")
+        held_out = protocol.in_tracks([name for name in tracks if name in base.HELD_OUT])
+        if seen := [question.name for question in held_out if question in self._trained_on()]:
+            raise ValueError(f"{self.name} was trained on {seen[0]}, which its track holds out; score another agent")
         return tuple(dict.fromkeys(wanted + can)) or own
+
+    def _trained_on(self) -> set[protocol.Question]:
+        """Returns all settings that its agents were trained on."""
+        configs = [agent.config for agents in self.agents.values() for agent in agents]
+        return {protocol.question(one.domain, one.task, options) for one in configs for options in one.settings}
 
     def _can_play(self, question: protocol.Question) -> bool:
         return self.questions is None or question in self.questions or _trained_for(question, self.agents) is not None
@@ -144,8 +154,9 @@ def _check_seeds(name: str, agents: "Mapping[protocol.Question, Sequence[finding
     """Raises ValueError unless each task has one agent, or as many as the others that differ in their seeds alone."""
     counts = {question.name: len(its) for question, its in agents.items()}
     for question, its in agents.items():
-        configs = [one.config.agent for one in its]
-        if len({config.seed for config in configs}) < len(its) or len({one.replace(seed=0) for one in configs}) > 1:
+        seeds = {one.config.agent.seed for one in its}
+        alike = [(one.config.agent.replace(seed=0), one.config.settings) for one in its]
+        if len(seeds) < len(its) or any(one != alike[0] for one in alike):
             raise ValueError(
                 f"{name} has two agents for {question.name} with equal seeds or of other configurations; leave out one"
             )

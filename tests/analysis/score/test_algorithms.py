@@ -15,13 +15,13 @@ from physexp.analysis.score import leaderboard, log, protocol, scoring, targets,
 SEEDS, COUNT = 3, 11  # Agents, and episodes: not as many for each.
 
 
-def published(folder, seed, task_kwargs=(), **changes):
+def published(folder, seed, options=(), also=(), **changes):
     """The path of an agent like one of the package, with another seed; its weights are small, so that it errs."""
     agent = pretrained.load_named("threshold-features")
     for values in agent.network.parameters():
         values.data.mul_(0.2)
     card = {**agent.card, "agent": {**agent.card["agent"], "seed": seed, **changes}}
-    card["task_kwargs"] = dict(task_kwargs)
+    card |= {"task_kwargs": dict(options), "also": also}
     return str(pretrained.save(agent.network, card, folder))
 
 
@@ -64,6 +64,15 @@ def test_a_row_says_how_many_agents_it_has_and_how_they_were_trained(agents, her
     page = leaderboard.markdown(rows)
     frames = pretrained.card_named("threshold-features")["frames"]
     assert f" | belief | 3 seeds | no | 0.95 | {frames:,} | " in page and "| 1 of 7 |" in page
+
+
+def test_an_agent_is_not_scored_on_a_held_out_task_that_it_was_trained_on(tmp_path):
+    (unseen,) = protocol.named(["threshold/features,difficulty=2"])
+    assert targets.find(published(tmp_path / "usual", 0)).choose([], ["unseen"]) == (unseen,)
+    for name, options, also in (("seen", {"difficulty": 2.0}, []), ("also", {}, [{"difficulty": 2.0}])):
+        seen = targets.find(published(tmp_path / name, 0, options, also))
+        with pytest.raises(ValueError, match="was trained on threshold/features,difficulty=2, which its track holds"):
+            seen.choose([], ["unseen"])
 
 
 @pytest.mark.parametrize(

@@ -28,6 +28,46 @@ def test_one_question_has_one_name_which_says_its_options(given, name, options):
     assert protocol.question(asked.domain, asked.task, options) is asked
 
 
+_FIRST = ["balance", "sealed_box", "strike", "strings", "threshold", "towers/direct", "towers/fist", "which_is_heavier"]
+TRACKS = {
+    "exact": [f"{task}_features" if "/" in task else f"{task}/features" for task in _FIRST],
+    "pixels": [f"{task}_pixels" if "/" in task else f"{task}/pixels" for task in _FIRST],
+    "plan": [
+        "balance/features,latch=True",
+        "crush/features",
+        "strike/features,difficulty=1",
+        "strings/features,time_limit=4,num_pucks=4,num_clamps=2",
+    ],
+    "noise": ["threshold/features,flag_noise=0.1"],
+    "questions": ["strings/features,questions=held_out", "strings/features,questions=held_out,num_questions=4"],
+    "unseen": [
+        "balance/features,difficulty=2",
+        "lump/features,control_timestep=0.15",
+        "sealed_box/features,physics_timestep=0.004,control_timestep=0.14",
+        "strike/features,control_timestep=0.15",
+        "strings/features,difficulty=2",
+        "threshold/features,difficulty=2",
+        "towers/direct_features,control_timestep=0.05",
+        "towers/direct_features,sliding_friction=0.48",
+        "towers/fist_features,control_timestep=0.05",
+        "towers/fist_features,sliding_friction=0.48",
+        "which_is_heavier/features,difficulty=2",
+    ],
+}
+
+
+def test_the_tasks_of_a_track_stay_as_they_are():
+    assert {track: sorted(asked.name for asked in protocol.in_tracks([track])) for track in protocol.TRACKS} == TRACKS
+    assert all(map(protocol.is_judged, protocol.in_tracks(["all"])))
+
+
+def test_greed_for_information_scores_little_in_the_track_of_plans():
+    crush = next(asked for asked in protocol.in_tracks(["plan"]) if asked.domain == "crush")
+    solution = protocol.ideal(crush)
+    earned = solution.planning()
+    assert (earned["greedy"] - earned["floor"]) / (solution.value - earned["floor"]) < 0.8
+
+
 @pytest.mark.parametrize(
     ("name", "said"),
     [
