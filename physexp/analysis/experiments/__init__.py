@@ -35,6 +35,7 @@ _MODULES = {
     "crushing": "strategies",
     "pressing": "strategies",
     "laboratory": "laboratory",
+    "few": "few",
 }
 """The module whose `EXPERIMENTS` contain an experiment, in the paper's order."""
 

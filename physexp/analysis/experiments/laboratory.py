@@ -30,19 +30,25 @@ def prepare(results: base.Results, report: Callable[[str], None]) -> None:
             results.keep(_STORED, found)
 
 
+def untrained(results: base.Results) -> dict[str, dict[str, float]]:
+    """Returns the stored returns without learning, by task; raises ValueError if some are not there."""
+    found = results.made(_STORED)
+    if missing := [task.label for task in TASKS if task.label not in found]:
+        raise results.lacks(f"ideal of {', '.join(missing)}")
+    return found
+
+
 def load(results: base.Results):
     """Returns a row for each agent that has been trained and evaluated: see `efficiency.evaluated`.
 
     With the `frames` and `minutes` of its training, and the returns in its task of the ideal, `value`, of an answer
     `at_once`, and of random interactions, `random_value`.
     """
-    untrained = results.made(_STORED)
-    if missing := [task.label for task in TASKS if task.label not in untrained]:
-        raise results.lacks(f"ideal of {', '.join(missing)}")
-    frame = efficiency.evaluated(results, CONDITIONS, lambda task: untrained[task.label]["value"])
+    found = untrained(results)
+    frame = efficiency.evaluated(results, CONDITIONS, lambda task: found[task.label]["value"])
     runs = results.curves(CONDITIONS).groupby(["condition", "player", "training_seed"])[["frames", "seconds"]].max()
     frame = frame.merge(runs.assign(minutes=runs.seconds / 60).reset_index())
-    return frame.join(pandas.DataFrame.from_dict(untrained, "index", columns=_UNTRAINED), on="condition")
+    return frame.join(pandas.DataFrame.from_dict(found, "index", columns=_UNTRAINED), on="condition")
 
 
 def _share(player: str) -> claims.Statistic:
@@ -57,7 +63,7 @@ def table(frame) -> list[tuple[str, ...]]:
         value, *others = agents[_UNTRAINED].iloc[0]
         shares = (f"{other / value:.2f}" for other in others)
         cells = (_cell(agents[agents.player == learner]) for learner in LEARNERS)
-        rows.append((_title(label), f"{value:.4f}", *shares, *cells))
+        rows.append((title(label), f"{value:.4f}", *shares, *cells))
     return rows
 
 
@@ -84,7 +90,7 @@ def draw(frame):
         axes.axhline(max(_FLOOR, random_value / value), color="0.85", linewidth=3, zorder=-1)
         for number, learner in enumerate(LEARNERS):
             _draw_shares(axes, number, agents.share[agents.player == learner].clip(lower=_FLOOR))
-        axes.set(title=_title(label), ylim=(_FLOOR - 0.03, 1.08), xlim=(-0.5, len(LEARNERS) - 0.5))
+        axes.set(title=title(label), ylim=(_FLOOR - 0.03, 1.08), xlim=(-0.5, len(LEARNERS) - 0.5))
         axes.set_xticks(range(len(LEARNERS)), list(LEARNERS.values()), rotation=90)
     for axes in panels[:, 0]:
         axes.set_ylabel("share of the ideal's return")
@@ -104,7 +110,7 @@ def _draw_shares(axes, number: int, shares) -> None:
         axes.plot([number - 0.3, number + 0.3], [shares.mean()] * 2, color=color, linewidth=1.6)
 
 
-def _title(label: str) -> str:
+def title(label: str) -> str:
     """Returns a task's name in words, without the observations, as `towers direct`."""
     (name,) = (task.task_name for task in TASKS if task.label == label)
     return name.replace("/", "_").removesuffix("_features").replace("_", " ")

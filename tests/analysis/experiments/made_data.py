@@ -16,6 +16,7 @@ from physexp.analysis.experiments import (
     conditions,
     control_steps,
     efficiency,
+    few,
     generalization,
     ideal_gap,
     interactions,
@@ -393,6 +394,17 @@ def shares(num_agents, generator, **of_learners):
     return of_agents(laboratory.CONDITIONS, num_agents, rows)
 
 
+def steps_to_targets(num_agents, generator, hundreds=1):
+    """Environment steps to shares of the ideal's return, in all domains; `hundreds` are those of the first target."""
+
+    def rows(config, seed):
+        steps = 100 * hundreds * 2.0 ** np.arange(len(few.TARGETS)) * generator.uniform(1, 1.2)
+        steps[-1] = np.inf
+        return {"target": few.TARGETS, "steps": steps}
+
+    return of_agents(few.CONDITIONS, num_agents, rows)
+
+
 def gap_to_ideal(num_agents, generator, share=0.985):
     """Agents with a share of the ideal's return, and the costs of their mistakes."""
 
@@ -562,6 +574,7 @@ _MADE = {
         ("rewards tell too little", {"belief": 0.5}, {"belief"}),
         ("nothing helps", {"belief_revealed": 0.9}, {"belief_revealed"}),
     ),
+    "few": (steps_to_targets, _PAPER, ("slow learners", {"hundreds": 1000}, {"soon"})),
 }
 
 WORLDS = {name: {world: false for world, _, false in worlds} for name, (_, *worlds) in _MADE.items()}

@@ -90,7 +90,7 @@ def test_agents_of_other_configurations_or_numbers_are_refused(agents, others, s
         targets.find(f"{agents},{others}")
 
 
-def test_two_agents_are_too_few_and_another_configuration_is_none_of_the_seeds(tmp_path):
+def test_two_agents_or_two_configurations_are_no_algorithm(tmp_path):
     first, second = published(tmp_path / "0", 0), published(tmp_path / "1", 1)
     with pytest.raises(ValueError, match="has agents: 2 for threshold/features; give .* at least 3"):
         targets.find(f"{first},{second}")
