@@ -13,8 +13,14 @@ from physexp import suite
 from physexp.analysis.score import player, protocol, scoring, targets
 
 EXAMPLES = Path(__file__).parents[1] / "docs" / "examples"
-FRAMES = {"recurrent_ppo": 1024, "recurrent_ppo_in_one_file": 4096, "skrl_ppo": 1024}  # At least a rollout.
-PEERS = list(FRAMES)
+ONE_FILE = {"as_in_one_file": True}
+PEERS = {  # By the folder of a training: the learner, its options, and frames enough for a rollout.
+    "recurrent_ppo": ("recurrent_ppo", {}, 1024),
+    "recurrent_ppo/as_in_one_file": ("recurrent_ppo", ONE_FILE, 4096),
+    "recurrent_ppo_in_one_file": ("recurrent_ppo_in_one_file", {}, 4096),
+    "skrl_ppo": ("skrl_ppo", {}, 1024),
+    "skrl_ppo/as_in_one_file": ("skrl_ppo", ONE_FILE, 4096),
+}
 (STRINGS,) = protocol.named(["strings/features"])
 
 
@@ -24,31 +30,41 @@ def here(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.syspath_prepend(str(EXAMPLES))
         patch.chdir(tmp_path_factory.mktemp("peers"))
-        for peer in PEERS:
-            importlib.import_module(peer).train(STRINGS.name, frames=FRAMES[peer])
+        for learner, options, frames in PEERS.values():
+            importlib.import_module(learner).train(STRINGS.name, frames=frames, **options)
         yield
+
+
+def maker(options):
+    """The name of the function that makes a policy of a training with these options."""
+    return "_".join(["make", *options])
 
 
 @pytest.mark.parametrize("peer", PEERS)
 def test_a_peer_keeps_its_network_and_the_facts_of_its_training(peer):
+    learner, options, frames = PEERS[peer]
     facts = json.loads(Path(f"runs/{peer}/strings-features.json").read_text())
-    assert facts["frames"] == FRAMES[peer] and facts["seconds"] > 0
-    assert facts["command"].startswith(f"python {peer}.py strings/features --frames {FRAMES[peer]} ")
+    assert facts["frames"] == frames and facts["seconds"] > 0
+    assert facts["command"].startswith(f"python {learner}.py strings/features --frames {frames} ")
+    assert facts["command"].endswith(" --as-in-one-file") == bool(options)
     assert facts["curve"][-1].items() <= facts.items()
     assert all(-1 <= row["return"] <= 1 for row in facts["curve"])
 
 
 @pytest.mark.parametrize("peer", PEERS)
-def test_a_trained_peer_is_scored_and_other_tasks_say_how_to_train(peer):
-    found = scoring.score(targets.find(f"{peer}:make"), [STRINGS], 5, Path(f"scored_{peer}"))
+def test_a_trained_peer_is_scored_and_other_tasks_say_how_to_train(peer, tmp_path):
+    learner, options, _ = PEERS[peer]
+    target = targets.find(f"{learner}:{maker(options)}")
+    found = scoring.score(target, [STRINGS], 5, tmp_path / "scored")
     assert found["complete"] and found["tasks"]["strings/features"]["episodes"] == 5
-    with pytest.raises(player.PlayerError, match=rf"balance-features\.\w+ is missing; train it: python {peer}.py b"):
-        scoring.score(targets.find(f"{peer}:make"), protocol.named(["balance/features"]), 1, Path(f"none_{peer}"))
+    with pytest.raises(player.PlayerError, match=rf"balance-features\.\w+ is missing; train it: python {learner}.py b"):
+        scoring.score(target, protocol.named(["balance/features"]), 1, tmp_path / "none")
 
 
 @pytest.mark.parametrize("peer", PEERS)
 def test_a_policy_remembers_within_one_episode_alone(peer):
-    policy = importlib.import_module(peer).make(STRINGS)
+    learner, options, _ = PEERS[peer]
+    policy = getattr(importlib.import_module(learner), maker(options))(STRINGS)
     observation = suite.load("strings", "features", task_kwargs={"random": 0}).reset().observation
     _, first = policy(observation, None)
     _, second = policy(observation, first)
@@ -144,6 +160,6 @@ def test_the_learner_in_one_file_gives_the_same_network_for_the_same_seed(one_fi
     first = torch.load(one_file.path_of(STRINGS))
     monkeypatch.setattr(one_file, "FOLDER", tmp_path)
     for seed, is_same in [(0, True), (1, False)]:
-        one_file.train(STRINGS.name, FRAMES["recurrent_ppo_in_one_file"], seed)
+        one_file.train(STRINGS.name, PEERS["recurrent_ppo_in_one_file"][2], seed)
         again = torch.load(one_file.path_of(STRINGS))
         assert all(torch.equal(first[name], again[name]) for name in first) == is_same

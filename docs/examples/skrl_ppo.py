@@ -1,4 +1,7 @@
-"""PPO of skrl with a GRU and its own defaults: `python skrl_ppo.py strings/features` trains it."""
+"""PPO of skrl with a GRU: `python skrl_ppo.py strings/features` trains it with its own defaults.
+
+With `--as-in-one-file` it has the settings of recurrent_ppo_in_one_file.py.
+"""
 
 import argparse
 import json
@@ -7,10 +10,12 @@ import time
 
 from gymnasium import spaces
 import numpy as np
+import recurrent_ppo_in_one_file as one_file
 import skrl
 from skrl.agents.torch import ppo
 from skrl.memories.torch import RandomMemory
 from skrl.models.torch import CategoricalMixin, DeterministicMixin, Model
+from skrl.resources.preprocessors.torch import RunningStandardScaler
 import torch
 
 from physexp import suite
@@ -19,15 +24,18 @@ from physexp.analysis.score import protocol
 FOLDER = Path("runs/skrl_ppo")
 UNITS = 64  # Of the GRU and of a hidden layer, as in skrl's examples: only networks have no default.
 NUM_ENVIRONMENTS = 64
+SCALING = {"clip_threshold": 10.0, "device": "cpu"}  # Of observations, with the settings of one file.
 
 
-def train(task: str, frames: int = 300_000, minutes: float = 15, seed: int = 0) -> None:
+def train(task: str, frames: int = 300_000, minutes: float = 15, seed: int = 0, as_in_one_file: bool = False) -> None:
     """Trains on a task for a number of frames or minutes, and keeps the network and how it was made."""
     torch.set_num_threads(1)  # The networks are small.
     torch.manual_seed(seed)
     (asked,) = protocol.named([task])
-    batch = suite.load_batch(asked.domain, asked.task, NUM_ENVIRONMENTS, {**asked.options, "random": seed})
-    learner = make_learner(asked)
+    count = one_file.NUM_ENVIRONMENTS if as_in_one_file else NUM_ENVIRONMENTS
+    batch = suite.load_batch(asked.domain, asked.task, count, {**asked.options, "random": seed})
+    learner = make_learner(asked, count, settings_of_one_file(asked) if as_in_one_file else {})
+    command = f"python skrl_ppo.py {task} --frames {frames} --minutes {minutes:g} --seed {seed}"
     curve, start = [], time.process_time()  # What else the machine does takes none of it.
     for seen, mean in learn(learner, batch, frames, asked.discount):
         passed = time.process_time() - start
@@ -36,15 +44,33 @@ def train(task: str, frames: int = 300_000, minutes: float = 15, seed: int = 0) 
         print(f"{seen:,} frames, mean return {mean:.3f}, {left / 60:.1f} minutes left", flush=True)
         if passed > 60 * minutes:
             break
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    learner.save(str(path_of(asked)))
+    path = path_of(asked, as_in_one_file)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    learner.save(str(path))
     facts = {
         "algorithm": f"PPO_RNN of skrl {skrl.__version__}",
-        "command": f"python skrl_ppo.py {task} --frames {frames} --minutes {minutes:g} --seed {seed}",
+        "command": command + " --as-in-one-file" * as_in_one_file,
         **curve[-1],
         "curve": curve,
     }
-    path_of(asked).with_suffix(".json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
+    path.with_suffix(".json").write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
+
+
+def settings_of_one_file(asked):
+    """Returns the settings of the learner in one file; `learn` changes the rate and the entropy cost as that does."""
+    return {
+        "rollouts": one_file.ROLLOUT,
+        "learning_epochs": one_file.EPOCHS,
+        "mini_batches": one_file.MINIBATCHES,
+        "learning_rate": one_file.LEARNING_RATE,
+        "gae_lambda": one_file.GAE_LAMBDA,
+        "ratio_clip": one_file.CLIP,
+        "entropy_loss_scale": one_file.ENTROPY_COST,
+        "value_loss_scale": one_file.VALUE_COST,
+        "grad_norm_clip": one_file.LARGEST_GRADIENT,
+        "observation_preprocessor": RunningStandardScaler,
+        "observation_preprocessor_kwargs": {"size": one_file.num_features(asked), **SCALING},
+    }
 
 
 def learn(learner, batch, frames, discount):
@@ -53,6 +79,11 @@ def learn(learner, batch, frames, discount):
     observations, earned, ages = flat(batch.reset()), [], np.zeros(batch.num_environments)
     for step in range(num_steps):
         when = {"timestep": step, "timesteps": num_steps}
+        if learner.cfg.entropy_loss_scale:  # As in one file.
+            progress = step / num_steps
+            learner.optimizer.param_groups[0]["lr"] = one_file.LEARNING_RATE * (1 - progress)
+            cost = one_file.ENTROPY_COST ** (1 - progress) * one_file.FINAL_ENTROPY_COST**progress
+            learner.cfg.entropy_loss_scale = cost
         with torch.no_grad():
             actions, _ = learner.act(observations, None, **when)
             timestep = batch.step(actions[:, 0].numpy())
@@ -131,13 +162,14 @@ class Value(DeterministicMixin, Recurrent):
         DeterministicMixin.__init__(self)
 
 
-def make_learner(asked):
-    """Returns skrl's learner as it is, but for the discount: it says what a step costs, and belongs to the question."""
-    policy, value = Policy(asked, NUM_ENVIRONMENTS), Value(asked, NUM_ENVIRONMENTS)
-    config = ppo.PPO_CFG(discount_factor=asked.discount, experiment={"write_interval": 0, "checkpoint_interval": 0})
+def make_learner(asked, count, settings):
+    """Returns skrl's learner with some settings; the discount says what a step costs, and belongs to the question."""
+    policy, value = Policy(asked, count), Value(asked, count)
+    unwritten = {"write_interval": 0, "checkpoint_interval": 0}
+    config = ppo.PPO_CFG(discount_factor=asked.discount, experiment=unwritten, **settings)
     learner = ppo.PPO_RNN(
         models={"policy": policy, "value": value},
-        memory=RandomMemory(memory_size=config.rollouts, num_envs=NUM_ENVIRONMENTS, device="cpu"),
+        memory=RandomMemory(memory_size=config.rollouts, num_envs=count, device="cpu"),
         observation_space=policy.observation_space,
         action_space=policy.action_space,
         device="cpu",
@@ -148,34 +180,45 @@ def make_learner(asked):
     return learner
 
 
-def make(asked: protocol.Question):
+def make(asked: protocol.Question, as_in_one_file: bool = False):
     """Returns the policy that was trained on a task, for `physexp score skrl_ppo:make`."""
-    if not path_of(asked).exists():
-        raise ValueError(f"{path_of(asked)} is missing; train it: python skrl_ppo.py {asked.name}")
+    path = path_of(asked, as_in_one_file)
+    if not path.exists():
+        option = " --as-in-one-file" * as_in_one_file
+        raise ValueError(f"{path} is missing; train it: python skrl_ppo.py {asked.name}{option}")
     torch.manual_seed(0)
-    network = Policy(asked, num_environments=1)
-    network.load_state_dict(torch.load(path_of(asked))["policy"])
+    saved, network, scaled = torch.load(path), Policy(asked, num_environments=1), torch.nn.Identity()
+    network.load_state_dict(saved["policy"])
     network.eval()
+    if as_in_one_file:
+        scaled = RunningStandardScaler(one_file.num_features(asked), **SCALING)
+        scaled.load_state_dict(saved["observation_preprocessor"])
 
     @torch.no_grad()
     def policy(observation, state):
         observed = torch.cat([torch.tensor(observation[name]).flatten() for name in sorted(observation)])
         state = torch.zeros(1, 1, UNITS) if state is None else state
-        action, outputs = network.act({"observations": observed[None], "rnn": [state]})
+        action, outputs = network.act({"observations": scaled(observed[None]), "rnn": [state]})
         return int(action), outputs["rnn"][0]
 
     return policy
 
 
-def path_of(asked):
+def make_as_in_one_file(asked: protocol.Question):
+    """Returns the policy that was trained with `--as-in-one-file`."""
+    return make(asked, as_in_one_file=True)
+
+
+def path_of(asked, as_in_one_file=False):
     """Returns the file of what was trained on a task."""
-    return FOLDER / f"{asked.file_name}.pt"
+    return FOLDER / ("as_in_one_file" * as_in_one_file) / f"{asked.file_name}.pt"
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("task", help="a task with features, as DOMAIN/TASK")
     parser.add_argument("--frames", type=int, default=300_000, help="environment steps at most")
     parser.add_argument("--minutes", type=float, default=15.0, help="processor time at most")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--as-in-one-file", action="store_true", help="the settings of recurrent_ppo_in_one_file.py")
     train(**vars(parser.parse_args()))
