@@ -146,6 +146,16 @@ def floor(at_once: float, discount: float, step_limit: float) -> float:
     return max(at_once, at_once * discount ** (step_limit - 1))
 
 
+_Read = TypeVar("_Read")
+
+
+def readable(read: _Read | None) -> _Read:
+    """Returns the function that reads observations; raises ValueError if there is none, as for images."""
+    if read is None:
+        raise ValueError("the ideal experimenter reads features, not images; choose a task with features")
+    return read
+
+
 _Numbers = TypeVar("_Numbers", float, np.ndarray)
 
 

@@ -225,9 +225,7 @@ class Solution(base.Solution):
         return self.discount * self._states.after(step, *states, self._values[step + 1])
 
     def actor(self) -> core.Actor:
-        read = self._read
-        if read is None:
-            raise ValueError("the ideal experimenter reads features, not images; choose a task with features")
+        read = base.readable(self._read)
         return base.Player(
             begin=lambda observation: self._states.start,
             choose=lambda state, step: int(self._actions(step, self._states.find([state]))[0]),

@@ -162,11 +162,7 @@ class Solution(base.Solution):
         return touches, labels == values.argmax(axis=1)
 
     def actor(self) -> core.Actor:
-        if self.find_read is None:
-            raise ValueError(
-                "the ideal experimenter reads values from features, not from images; choose a task with features"
-            )
-        read, unknown = self.find_read(), np.full((1, self.prior.num_things), np.nan)
+        read, unknown = base.readable(self.find_read)(), np.full((1, self.prior.num_things), np.nan)
 
         def follow(known: np.ndarray, touched: int, observation: Mapping[str, np.ndarray]) -> np.ndarray:
             return np.where(np.arange(known.shape[1]) == touched, read(observation, touched), known)

@@ -224,10 +224,7 @@ class Solution(base.Solution):
         return {name: float(np.mean([each[name] for each in found])) for name in found[0]}
 
     def actor(self) -> core.Actor:
-        read = self._read
-        if read is None:
-            raise ValueError("the ideal experimenter reads features, not images; choose a task with features")
-        return _Actor(self, read)
+        return _Actor(self, base.readable(self._read))
 
     def judge(self, hidden, actions):
         hypothesis, questions = self._find(np.asarray(hidden))

@@ -205,9 +205,7 @@ class Solution(base.Solution):
         return found
 
     def actor(self) -> core.Actor:
-        read = self._read
-        if read is None:
-            raise ValueError("the ideal experimenter reads features, not images; choose a task with features")
+        read = base.readable(self._read)
         return base.Player(
             begin=lambda observation: self.apparatus.start,
             choose=self.action,

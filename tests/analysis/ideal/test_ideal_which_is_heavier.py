@@ -235,7 +235,7 @@ def test_each_mistake_is_counted_as_its_kind():
 def test_from_images_it_has_a_value_but_no_actor():
     solution = domains.find("which_is_heavier").ideal("pixels", {}, 0.95)
     assert 0.8 < solution.value == solution.bound
-    with pytest.raises(ValueError, match="reads values from features, not from images"):
+    with pytest.raises(ValueError, match="reads features, not images; choose a task with features"):
         solution.actor()
 
 
