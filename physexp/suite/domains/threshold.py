@@ -2,7 +2,6 @@
 
 import dataclasses
 
-import mujoco
 import numpy as np
 
 from physexp import checks
@@ -87,7 +86,7 @@ def _is_right(positions: np.ndarray) -> np.ndarray:
 
 
 def _are_wrong(places: np.ndarray, flag_noise: float) -> np.ndarray:
-    """Returns whether flags are wrong, bool [N], from their places in the sequences of mistakes, float64 [N]."""
+    """Returns whether flags are wrong, bool [N], from their places: numbers of pushes, and draws in (0, 1), added."""
     integers = (2.0**32 * places).astype(np.int64)
     return seeding.uniforms(integers, np.zeros_like(integers), 1)[:, 0] < flag_noise
 
@@ -111,16 +110,14 @@ class Threshold(contract.Task):
         slid_meaning = "1 if the last push made the block slide, otherwise 0"
         if noise := self.options.flag_noise:
             slid_meaning += f"; wrong with probability {noise:g}"
-            # Readings are made of sensors alone. This actuator moves nothing; its force is the number of the last push
-            # plus the place, in (0, 1), where the mistakes of the episode begin.
-            places = [room.add_actuator("mistakes", rail, "general", gear=[0], biastype="affine")]
+            # Readings are made of sensors alone: this one holds the place of the last flag, see `tell`.
+            places = [room.mjcf_model.sensor.add("user", name="mistakes", dim=1, needstage="pos")]
         levels = [LEVEL_SPACING * (k + 1) for k in range(NUM_LEVELS)]
-        controls = np.outer(levels, np.eye(1 + len(places))[0])
         return contract.Scene(
             arena=room,
             interactions=[
-                declarations.Interaction(f"push with {newtons:g} N", control, "block", (newtons, 0.0, 0.0))
-                for newtons, control in zip(levels, controls, strict=True)
+                declarations.Interaction(f"push with {newtons:g} N", np.array([newtons]), "block", (newtons, 0.0, 0.0))
+                for newtons in levels
             ],
             label_names=[f"{newtons:g} N" for newtons in levels],
             readings={
@@ -171,21 +168,15 @@ class Threshold(contract.Task):
         return (frictions(hidden) // LEVEL_SPACING).astype(np.int64)
 
     def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
-        fields = apparatus_lib.frictions(apparatus, self._rails, frictions(hidden)[:, None])
-        if not self.options.flag_noise:
-            return fields
-        biases = np.zeros((len(hidden), 1, mujoco.mjNBIAS))
-        biases[:, 0, 0] = hidden[:, 1]
-        return {**fields, "actuator_biasprm": (np.array([1]), biases)}  # Of `mistakes`; actuator 0 is `push`.
+        return apparatus_lib.frictions(apparatus, self._rails, frictions(hidden)[:, None])
 
     def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
-        """Returns the force of a push, which goes away from the stop that the block leans on, N [N, 1].
+        """Returns the force of a push, which goes away from the stop that the block leans on, N [N, 1]."""
+        return self.controls[actions] * np.where(_is_right(qpos), -1, 1)
 
-        With `flag_noise` the number of the push is next to it, [N, 2].
-        """
-        controls = self.controls[actions] * np.where(_is_right(qpos), -1, 1)
-        controls[:, 1:] = ctrl[:, 1:] + 1
-        return controls
+    def tell(self, hidden: np.ndarray, asked: np.ndarray, steps: np.ndarray) -> np.ndarray:
+        """Returns the place of the last flag, [N, 1], with `flag_noise`; see `_are_wrong`."""
+        return steps[:, None] + hidden.reshape(len(hidden), -1)[:, 1:]
 
     def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
         return declarations.Revealed(marks={"block": f"friction {np.ravel(hidden)[0]:.1f} N"})

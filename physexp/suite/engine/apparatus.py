@@ -88,7 +88,7 @@ class Apparatus:
       readings: for each feature, the sensor addresses that make it up: int of the feature's shape, or [number of sensor
         values] where the feature is measured from them.
       start: how an episode starts without variation; N is 1.
-      told: the sensor addresses of the values that tell the question, int [T].
+      told: the sensor addresses of the values that the task tells, int [T].
       held: the entities that must look untouched until they are.
       moving_geoms: the geoms that do not stand still in images, int [M].
     """

@@ -100,7 +100,7 @@ class ComposerTask(composer.Task):
         self._diverged = True
 
     def sensed(self, sensordata: np.ndarray) -> np.ndarray:
-        """Returns values of the sensors with those that tell the question, float64 [1, nsensordata]."""
+        """Returns values of the sensors with those that the task tells, float64 [1, nsensordata]."""
         told = sensordata.reshape(1, -1).copy()
         told[:, self.apparatus.told] = self.ledger.told(_ROW)
         return told

@@ -193,10 +193,10 @@ class Task(abc.ABC):
         """The meaning of each observation, in words, with the unit of its values."""
         return self.observer.meanings()
 
-    def tell(self, hidden: np.ndarray, asked: np.ndarray) -> np.ndarray:
-        """Returns the values of the sensors of type `user`, float64 [N, number of values].
+    def tell(self, hidden: np.ndarray, asked: np.ndarray, steps: np.ndarray) -> np.ndarray:
+        """Returns the values of the sensors of type `user`, float64 [N, number of values], after steps, int64 [N].
 
-        They tell the questions of these indices, int64 [N], among the K questions of each episode.
+        By default they tell the questions of these indices, int64 [N], among the K questions of each episode.
         """
         return self.told.tell(self.told.drawn(hidden), asked) if self.told else np.zeros((len(hidden), 0))
 
@@ -236,7 +236,7 @@ class Task(abc.ABC):
         else:
             return fields, apparatus.start.repeated(len(nuisances))
         starts = apparatus.starts(circumstances, len(nuisances))
-        starts.shown["sensordata"][:, apparatus.told] = self.tell(hidden, np.zeros(len(hidden), np.int64))
+        starts.shown["sensordata"][:, apparatus.told] = self.tell(hidden, *np.zeros((2, len(hidden)), np.int64))
         return fields, starts
 
     def close(self) -> None:

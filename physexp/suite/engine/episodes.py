@@ -60,8 +60,8 @@ class Ledger:
         return np.minimum(self.num_answered, self._task.rules.num_questions - 1)
 
     def told(self, rows: np.ndarray) -> np.ndarray:
-        """Returns the values that tell the current questions of some environments, float64 [K, number of values]."""
-        return self._task.tell(self.hidden[rows], self._asked[rows])
+        """Returns the values of the sensors that the task tells in some environments, float64 [K, number of values]."""
+        return self._task.tell(self.hidden[rows], self._asked[rows], self.steps[rows])
 
     def begin(self, rows: np.ndarray, hidden: Any = None, nuisances: Any = None, episode: int | None = None) -> None:
         """Starts an episode of some environments, int [K]: by default the next one of each.
