@@ -143,6 +143,7 @@ def resting_domain(
     name: str,
     apparatus: "Callable[[Any], resting.Apparatus]",
     read: "Callable[[Mapping[str, np.ndarray]], int]",
+    asked: "Callable[[Any, np.ndarray], resting.Apparatus] | None" = None,
     **facts: Any,
 ) -> Domain:
     """Returns a domain whose apparatus rests between interactions, so that its ideal experimenter is exact.
@@ -151,6 +152,8 @@ def resting_domain(
       name: name of the domain.
       apparatus: returns the apparatus for the task's options.
       read: returns the reading in an observation of features.
+      asked: returns the apparatus for the task's options and the table of a question that is told. By default, the
+        question is no part of the apparatus, and all its states without renaming must be few, see `questions`.
       **facts: other attributes of the domain.
     """
 
@@ -159,26 +162,19 @@ def resting_domain(
         from physexp.analysis.ideal import questions, resting
 
         played = suite.load_task(name, task, task_kwargs)
-        known = apparatus(played.options)
+        options, told = played.options, played.told
         can_read = read if "features" in suite.tags(name, task) else None
-        if told := played.told:
-            return questions.Solution(
-                known,
-                told.tables,
-                told.count,
-                discount,
-                played.rules.step_limit,
-                read=can_read,
-                ask=lambda observation: observation[told.reading],
-                find=lambda hidden: (int(played.kinds(hidden[None])[0]), told.drawn(hidden)),
-            )
-        return resting.Solution(
-            known,
-            discount,
-            played.rules.step_limit,
-            read=can_read,
-            label=lambda hidden: int(played.answers(hidden[None])[0]),
-        )
+
+        def find(hidden: "np.ndarray") -> "tuple[int, Sequence[int]]":
+            return int(played.kinds(hidden[None])[0]), told.drawn(hidden) if told else [0]
+
+        common: dict[str, Any] = dict(discount=discount, step_limit=played.rules.step_limit, read=can_read, find=find)
+        if told is None:
+            return resting.Solution(apparatus(options), **common)
+        if asked is None:
+            return questions.Solution(apparatus(options), told.tables, told.count, **common, ask=told.asked)
+        each = [asked(options, table) for table in told.tables]
+        return resting.Solution(each[0], **common, ask=told.asked, told=each)
 
     return Domain(name=name, ideal=Ideal(name, solve), **facts)
 

@@ -96,7 +96,7 @@ class Solution(base.Solution):
         discount: float,
         step_limit: int,
         read: Callable[[Mapping[str, np.ndarray]], int] | None,
-        ask: Callable[[Mapping[str, np.ndarray]], np.ndarray],
+        ask: Callable[[Mapping[str, np.ndarray]], int],
         find: Callable[[np.ndarray], tuple[int, np.ndarray]],
     ):
         """Finds the policy.
@@ -105,11 +105,11 @@ class Solution(base.Solution):
           apparatus, discount, step_limit, read: as for `resting.Solution`.
           tables: whether each hypothesis means yes, in each of Q questions, bool [Q, H].
           num_questions: K; each question is drawn uniformly, whatever the others are.
-          ask: returns the question in an observation, as a row of `tables`.
-          find: returns the hypothesis and the indices of the questions, int [K], for a hidden property.
+          ask: returns the number of the question in an observation.
+          find: returns the hypothesis and the numbers of the questions, int [K], for a hidden property.
         """
         self.apparatus, self.discount, self.step_limit = apparatus, discount, step_limit
-        self._tables, self._num_questions, self._read, self._ask, self._find = tables, num_questions, read, ask, find
+        self._tables, self._num_questions, self._read, self.ask, self._find = tables, num_questions, read, ask, find
         self._states = _States(apparatus, tables)
         self._values, self._policy = self._solve(self._states.told)
 
@@ -246,11 +246,7 @@ class Solution(base.Solution):
 
     def first(self, observation: Mapping[str, np.ndarray]) -> "Asked":
         """Returns the information state at the first observation."""
-        return Asked(0, self.asked(observation), self._num_questions, 0)
-
-    def asked(self, observation: Mapping[str, np.ndarray]) -> int:
-        """Returns the index of the question in an observation."""
-        return int((self._tables == self._ask(observation)).all(axis=1).argmax())
+        return Asked(0, self.ask(observation), self._num_questions, 0)
 
     def after_reading(self, state: "Asked", interaction: int, reading: int) -> "Asked":
         """Returns the information state after an interaction; raises ValueError as `resting.Apparatus.after`."""
@@ -314,7 +310,7 @@ class _Actor(core.EpisodicActor):
             self._state = solution.after_reading(self._state, action, self._read(seen))
         else:
             truth = label if next_timestep.reward > 0 else 1 - label
-            self._state = solution.after_answer(self._state, truth, solution.asked(seen))
+            self._state = solution.after_answer(self._state, truth, solution.ask(seen))
 
 
 class _OneQuestion:

@@ -1,8 +1,10 @@
 """The ideal experimenter of an apparatus that rests between interactions.
 
 The reading after an interaction then depends only on the interaction, on the setting of the apparatus, which is
-visible, and on the right label. The information state is thus the set of possible labels and the setting. There are
-finitely many such states, and the best policy is found exactly by dynamic programming.
+visible, and on the hypothesis that is true. The information state is thus the set of possible hypotheses and the
+setting. There are finitely many such states, and the best policy is found exactly by dynamic programming.
+
+Hypotheses are labels, unless a question about them is told; then it belongs to the setting.
 """
 
 import abc
@@ -17,14 +19,14 @@ from physexp.suite.engine import rules
 _TIE = 1e-12  # Returns that differ by less are equal; then the policy with fewer interactions is taken.
 
 State = tuple[int, Hashable]
-"""An information state: the possible labels, as a bit mask, and the setting."""
+"""An information state: the possible hypotheses, as a bit mask, and the setting."""
 
 
 class Apparatus(abc.ABC):
     """An apparatus that rests between interactions, and its information states.
 
     Attributes:
-      weights: probabilities of the L labels, up to a common factor, float64 [L].
+      weights: probabilities of the H hypotheses, up to a common factor, float64 [H].
       num_interactions: number of interactions, A.
       start: the information state at the start.
     """
@@ -35,7 +37,7 @@ class Apparatus(abc.ABC):
 
     @abc.abstractmethod
     def readings(self, setting: Hashable) -> np.ndarray:
-        """Returns the reading after each interaction, for each right label, int [A, L]."""
+        """Returns the reading after each interaction, for each hypothesis, int [A, H]."""
 
     def set_by(self, setting: Hashable, interaction: int, reading: int) -> Hashable:
         """Returns the setting after an interaction and its reading; by default it never changes."""
@@ -54,7 +56,11 @@ class Apparatus(abc.ABC):
         return self.canonical(state)[0]
 
     def posterior(self, state: State) -> np.ndarray:
-        """Returns the probabilities of the labels, float64 [L]."""
+        """Returns the probabilities of the L labels, float64 [L]; by default those of the hypotheses."""
+        return self.chances(state)
+
+    def chances(self, state: State) -> np.ndarray:
+        """Returns the probabilities of the hypotheses, float64 [H]."""
         weights = self.weights * bits(state[0], len(self.weights))
         return weights / weights.sum()
 
@@ -63,13 +69,13 @@ class Apparatus(abc.ABC):
         return list(self.by_reading(state, interaction, self.readings(state[1])[interaction]).values())
 
     def by_reading(self, state: State, interaction: int, readings: np.ndarray) -> dict[int, tuple[float, State]]:
-        """Returns the information states after an interaction, and their probabilities, by the readings, int [L]."""
-        (possible, setting), chances = state, self.posterior(state).tolist()
+        """Returns the information states after an interaction, and their probabilities, by the readings, int [H]."""
+        (possible, setting), chances = state, self.chances(state).tolist()
         parts, shares = dict[int, int](), dict[int, float]()
-        for label, reading in enumerate(readings.tolist()):
-            if possible >> label & 1:
-                parts[reading] = parts.get(reading, 0) | 1 << label
-                shares[reading] = shares.get(reading, 0) + chances[label]
+        for hypothesis, reading in enumerate(readings.tolist()):
+            if possible >> hypothesis & 1:
+                parts[reading] = parts.get(reading, 0) | 1 << hypothesis
+                shares[reading] = shares.get(reading, 0) + chances[hypothesis]
         return {
             reading: (shares[reading], (part, self.set_by(setting, interaction, reading)))
             for reading, part in parts.items()
@@ -79,7 +85,7 @@ class Apparatus(abc.ABC):
         """Returns the information state after an interaction.
 
         Raises:
-          ValueError: if none of the possible labels causes the reading.
+          ValueError: if none of the possible hypotheses causes the reading.
         """
         found = self.by_reading(state, interaction, self.readings(state[1])[interaction])
         if reading not in found:
@@ -87,13 +93,13 @@ class Apparatus(abc.ABC):
         return found[reading][1]
 
     def allows(self, state: State, hypothesis: int) -> bool:
-        """Returns whether a label is possible."""
+        """Returns whether a hypothesis is possible."""
         return bool(state[0] >> hypothesis & 1)
 
 
 def mask(possible: Sequence[bool] | np.ndarray) -> int:
-    """Returns a bit mask of the possible labels, [L]."""
-    return sum(1 << label for label, is_possible in enumerate(possible) if is_possible)
+    """Returns a bit mask of the possible hypotheses, [H]."""
+    return sum(1 << hypothesis for hypothesis, is_possible in enumerate(possible) if is_possible)
 
 
 def bits(number: int, count: int) -> np.ndarray:
@@ -103,18 +109,21 @@ def bits(number: int, count: int) -> np.ndarray:
 
 
 class _States:
-    """All S information states that can be reached, in canonical form.
+    """All S information states that can be reached from some, in canonical form.
 
     Attributes:
-      index: their numbers, the start's first.
+      index: their numbers.
+      starts: the numbers of those that they are reached from, [Q].
       answer: value of the best answer, [S].
       label: the best answer, int [S].
     """
 
-    def __init__(self, apparatus: Apparatus):
+    def __init__(self, apparatus: Apparatus, starts: Sequence[State]):
         self._num_interactions = apparatus.num_interactions
-        first, _ = apparatus.canonical(apparatus.start)
-        self.index, states = {first: 0}, [first]
+        first = [apparatus.represented(start) for start in starts]
+        states = list(dict.fromkeys(first))
+        self.index = {state: number for number, state in enumerate(states)}
+        self.starts = [self.index[state] for state in first]
         outcomes: list[tuple[int, float, int]] = []  # Interaction and state in one number, probability, next state.
         for number, state in enumerate(states):  # The list grows during the loop.
             for interaction, readings in enumerate(apparatus.readings(state[1])):
@@ -146,18 +155,23 @@ class Solution(base.Solution):
         discount: float,
         step_limit: int,
         read: Callable[[Mapping[str, np.ndarray]], int] | None = None,
-        label: Callable[[np.ndarray], int] | None = None,
+        find: Callable[[np.ndarray], tuple[int, Sequence[int]]] | None = None,
+        ask: Callable[[Mapping[str, np.ndarray]], int] = lambda observation: 0,
+        told: Sequence[Apparatus] | None = None,
     ):
         """Finds the policy.
 
         Args:
           apparatus, discount, step_limit: the apparatus, gamma, and the number of steps in an unanswered episode.
           read: returns the reading in an observation; None if observations do not contain it.
-          label: returns the right label for a hidden property; needed to judge episodes.
+          find: returns the hypothesis and the number of the question, [1], for a hidden property; needed to judge.
+          ask: returns the number of the question in an observation.
+          told: the apparatus for each of Q questions, which are equally likely and told; they differ in their start
+            alone. By default, there is one question, and it is not told.
         """
         self.apparatus, self.discount, self.step_limit = apparatus, discount, step_limit
-        self._read, self._label = read, label
-        self._states = states = _States(apparatus)
+        self._read, self._find, self._ask, self._told = read, find, ask, told or [apparatus]
+        self._states = states = _States(apparatus, [each.start for each in self._told])
         answers = apparatus.num_interactions + states.label
         # By the number of steps left: the best actions in all states, int [S], from 1 step on, in which an answer is
         # best; and the values of all interactions, float64 [S, A], from 2 on.
@@ -176,8 +190,10 @@ class Solution(base.Solution):
             at_random = np.maximum(states.answer, discount * states.after(at_random).mean(axis=1))
             if all(np.array_equal(*pair) for pair in zip(before, (best, at_random, length), strict=True)):
                 break  # More steps change nothing.
-        self._value = float(best[0])
-        self._compared = {"at_once": float(states.answer[0]), "random_value": float(at_random[0])}
+        self._value, at_once, at_random = (
+            float(each[states.starts].mean()) for each in (best, states.answer, at_random)
+        )
+        self._compared = {"at_once": at_once, "random_value": at_random}
 
     @property
     def value(self) -> float:
@@ -187,7 +203,9 @@ class Solution(base.Solution):
         return self._compared
 
     def planning(self):
-        return planning.returns(self.apparatus, self.discount, self.step_limit)
+        _, places, counts = np.unique(self._states.starts, return_index=True, return_counts=True)
+        found = [planning.returns(self._told[place], self.discount, self.step_limit) for place in places]
+        return {name: float(np.average([each[name] for each in found], weights=counts)) for name in found[0]}
 
     def action(self, state: State, step: int) -> int:
         """Returns the best action in a state after `step` interactions, fewer than `step_limit`."""
@@ -207,22 +225,25 @@ class Solution(base.Solution):
     def actor(self) -> core.Actor:
         read = base.readable(self._read)
         return base.Player(
-            begin=lambda observation: self.apparatus.start,
+            begin=lambda observation: self._told[self._ask(observation)].start,
             choose=self.action,
             follow=lambda state, action, observation: self.apparatus.after(state, action, read(observation)),
         )
 
     def judge(self, hidden, actions):
-        assert self._label is not None
-        return finite.judge(self.apparatus, self._label(np.asarray(hidden)), actions, self._interaction_values)
+        assert self._find is not None
+        hypothesis, (question,) = self._find(np.asarray(hidden))
+        return finite.judge(self._told[question], hypothesis, actions, self._interaction_values)
 
     def outcomes(self):
-        prior = self.apparatus.posterior(self.apparatus.start)
-        (labels,), found = prior.nonzero(), []
-        for label in labels.tolist():
-            state, step = self.apparatus.start, 0
-            while (action := self.action(state, step)) < self.apparatus.num_interactions:
-                state, step = finite.after(self.apparatus, state, action, label), step + 1
-            found.append((step, action - self.apparatus.num_interactions == label))
-        interactions, right = np.array(found).T
-        return interactions, right.astype(bool), prior[labels]
+        found = []
+        for told in self._told:
+            prior = told.chances(told.start) / len(self._told)
+            for hypothesis in prior.nonzero()[0].tolist():
+                state, step = told.start, 0
+                while (action := self.action(state, step)) < told.num_interactions:
+                    state, step = finite.after(told, state, action, hypothesis), step + 1
+                truth = told.posterior((1 << hypothesis, state[1])).argmax()
+                found.append((step, action - told.num_interactions == truth, prior[hypothesis]))
+        interactions, right, shares = (np.array(column) for column in zip(*found, strict=True))
+        return interactions, right, shares

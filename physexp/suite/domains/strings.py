@@ -103,8 +103,7 @@ class Options(options_lib.Options):
     questions: str = checked(
         _GRAPH,
         checks.word(_GRAPH, *question_sets()),
-        help="graph: which pucks are joined; or all, train or held_out, sets of questions with the answers no and yes, "
-        "of which one is drawn in each episode and told; or the name of a single one",
+        help=f"graph: which pucks are joined; or {questions_lib.SETS}",
     )
     num_questions: int = checked(
         1,

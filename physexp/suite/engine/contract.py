@@ -108,8 +108,8 @@ class Task(abc.ABC):
         return {}
 
     def kinds(self, hidden: np.ndarray) -> np.ndarray:
-        """Returns the kinds of hidden properties that questions that are told distinguish, int64 [N]."""
-        raise NotImplementedError
+        """Returns the kinds of hidden properties that questions distinguish, int64 [N]; by default the right labels."""
+        return self.answers(hidden)
 
     def structures(self, hidden: np.ndarray) -> np.ndarray:
         """Returns the compiled model that each hidden property needs, int64 [N]."""

@@ -3,7 +3,7 @@
 A question is a table of the kinds that a hidden property may have: 1 for each kind that means yes.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 import itertools
 
 from dm_control import composer
@@ -13,6 +13,11 @@ from physexp.suite.engine import declarations
 from physexp.suite.parts import things
 
 LABELS = ("no", "yes")
+SETS = (
+    "all, train or held_out, sets of questions with the answers no and yes, of which one is drawn in each episode and "
+    "told; or the name of a single one"
+)
+"""The sets of questions that an option chooses from, in words."""
 
 _LAMP_SIZE, _LAMP_RGBA = 0.024, (1.0, 1.0, 0.85, 1.0)  # m
 
@@ -23,14 +28,15 @@ class Questions:
     Attributes:
       tables: whether each of H kinds means yes, in each of Q questions that may be drawn, bool [Q, H].
       count: number of questions in an episode, K.
+      shown: the columns of the tables that are told, where the others follow from them.
       reading: name of the observation that tells the question.
     """
 
     reading = "question"
 
-    def __init__(self, tables: np.ndarray, count: int):
+    def __init__(self, tables: np.ndarray, count: int, shown: slice = slice(None)):
         """Takes the attributes."""
-        self.tables, self.count = tables, count
+        self.tables, self.count, self.shown = tables, count, shown
 
     def draw(self, uniforms: np.ndarray) -> np.ndarray:
         """Returns the numbers of questions, float64 [N, K], from numbers in (0, 1), [N, K]."""
@@ -46,11 +52,15 @@ class Questions:
         return found if self.count > 1 else found[:, 0]
 
     def tell(self, drawn: np.ndarray, asked: np.ndarray) -> np.ndarray:
-        """Returns the values that tell questions, float64 [N, H], of these indices, int [N], among those drawn."""
-        return self.tables[drawn[np.arange(len(drawn)), asked]].astype(float)
+        """Returns the values that tell questions, float64 [N, S], of these indices, int [N], among those drawn."""
+        return self.tables[drawn[np.arange(len(drawn)), asked], self.shown].astype(float)
+
+    def asked(self, observation: Mapping[str, np.ndarray]) -> int:
+        """Returns the number of the question that an observation tells."""
+        return int((self.tables[:, self.shown] == observation[self.reading]).all(axis=1).argmax())
 
     def add_reading(self, room: composer.Arena, kinds: Sequence[str]) -> dict[str, declarations.Reading]:
-        """Adds the sensors that tell the question to a room; returns its reading by name, for kinds in words."""
+        """Adds the sensors that tell the question to a room; returns its reading by name, for S kinds in words."""
         sensors = [room.mjcf_model.sensor.add("user", name=kind, dim=1, needstage="pos") for kind in kinds]
         meaning = f"1 for each of these that means yes: {'; '.join(kinds)}"
         return {self.reading: declarations.Reading(sensors, (len(kinds),), meaning, bounds=(0, 1))}
@@ -58,7 +68,7 @@ class Questions:
     def add_lamps(
         self, room: composer.Arena, places: Sequence[Sequence[float]], travel: float
     ) -> list[declarations.Indicator]:
-        """Adds a lamp for each kind at places, m [H][3], that rises by `travel`, m, where the kind means yes."""
+        """Adds a lamp for each value that is told at places, m [S][3], that rises by `travel`, m, if that is 1."""
         lamps = []
         for kind, place in enumerate(places):
             lamp = things.Thing(

@@ -12,7 +12,7 @@ from seeds import fresh_seed
 from physexp.analysis.ideal import bands, counterfeit, intervals, resting
 
 
-def search(chances, moves, setting, discount, step_limit, choose):
+def search(chances, moves, setting, discount, step_limit, choose, means=lambda label: label):
     """Returns the expected return by a search over sets of labels and settings.
 
     Args:
@@ -22,6 +22,7 @@ def search(chances, moves, setting, discount, step_limit, choose):
       setting: the first one.
       discount, step_limit: as for `resting.Solution`.
       choose: combines the values of all interactions: `max`, or `fmean` for random ones.
+      means: returns the right answer for a label.
     """
     chances = {label: chance for label, chance in chances.items() if chance > 0}
 
@@ -42,12 +43,15 @@ def search(chances, moves, setting, discount, step_limit, choose):
 
     @functools.cache
     def value(labels, setting, steps):
-        answer = 2 * max(chances[label] for label in labels) / share(labels) - 1
+        groups = {}
+        for label in labels:
+            groups.setdefault(means(label), []).append(label)
+        answer = 2 * max(map(share, map(frozenset, groups.values()))) / share(labels) - 1
         if steps == 1:
             return answer
         expected = [
-            sum(share(part) / share(labels) * value(part, following, steps - 1) for part, following in groups)
-            for groups in parts(labels, setting)
+            sum(share(part) / share(labels) * value(part, following, steps - 1) for part, following in found)
+            for found in parts(labels, setting)
         ]
         return max(answer, discount * choose(expected))
 
@@ -151,6 +155,22 @@ def test_a_search_over_sets_of_levels_finds_the_same_values():
 )
 def test_a_search_over_placings_of_coins_finds_the_same_values(things, suspects, discount, step_limit, is_held):
     agree(counterfeit.Scale(things, suspects, is_held), coins(things, suspects, is_held), discount, step_limit)
+
+
+@pytest.mark.parametrize("suspects, step_limit, is_held", [(3, 5, False), (2, 6, True)])
+def test_a_search_finds_the_same_values_where_a_question_is_told(suspects, step_limit, is_held):
+    """It asks whether the odd thing is among some; it is drawn from one question, its negation, and another one."""
+    first, second = np.array([True, False, False, True]), np.array([False, False, True, False])
+    told = [counterfeit.Scale(4, suspects, is_held, asked) for asked in (first, ~first, second)]
+    solution = resting.Solution(told[0], 0.95, step_limit, told=told)
+    for found, choose in ((solution.value, max), (solution.compared()["random_value"], statistics.fmean)):
+        one, other = (
+            search(*coins(4, suspects, is_held), 0.95, step_limit, choose, lambda label, asked=asked: asked[label[0]])
+            for asked in (first, second)
+        )
+        assert found == pytest.approx((2 * one + other) / 3, abs=1e-9)
+    interactions, right, shares = solution.outcomes()
+    assert shares @ (0.95**interactions * np.where(right, 1, -1)) == pytest.approx(solution.value, abs=1e-9)
 
 
 UNEQUAL = [0.3, 0.2, 0.1, 0.1, 0.1, 0.1, 0.05, 0.05]
