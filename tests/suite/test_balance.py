@@ -1,5 +1,7 @@
 """Balance: the beam tilts to the heavier pan whatever was there before, and nothing else can be read."""
 
+import itertools
+
 import chance
 import episodes
 import numpy as np
@@ -92,3 +94,46 @@ def test_blocks_that_are_known_to_be_like_the_others_are_grey(difficulty):
     pan = model.geom("left_pan").rgba.round(3).tolist()
     grey = [model.geom(f"block_{k}/geom").rgba.round(3).tolist() == pan for k in range(balance.NUM_BLOCKS)]
     assert grey == [False] * (7 - difficulty) + [True] * (difficulty - 1)
+
+
+def test_three_of_ten_questions_and_their_negations_are_held_out():
+    every, train, held_out = (
+        {frozenset(np.flatnonzero(table)) for table in balance.question_sets()[name]}
+        for name in ("all", "train", "held_out")
+    )
+    assert every == set(map(frozenset, itertools.combinations(range(6), 3)))
+    assert train | held_out == every and not train & held_out and len(held_out) == 6
+    for question in every:  # A question and its negation are on the same side.
+        assert (question in train) == (frozenset(range(6)) - question in train)
+    # Any two blocks stay together in some that are not.
+    assert all(
+        sum(pair < question for question in train) >= 2 for pair in map(set, itertools.combinations(range(6), 2))
+    )
+
+
+def test_a_question_is_drawn_and_told_and_changes_nothing_else(seed):
+    hidden, answers = episodes.drawn_with_answers("balance", seed, questions="held_out")
+    weights = episodes.drawn("balance", np.full(len(hidden), seed), np.arange(len(hidden)))
+    np.testing.assert_array_equal(hidden[:, :6], weights)
+    tables, odd = balance.question_sets()["held_out"], np.abs(weights - balance.WEIGHT).argmax(axis=1)
+    numbers = hidden[:, 6].astype(int)
+    chance.assert_drawn(np.bincount(6 * odd + numbers, minlength=36), np.full(36, 1 / 36))
+    np.testing.assert_array_equal(answers, tables[numbers, odd])
+    batch = suite.load_batch("balance", "features", 50, {"questions": "held_out", "random": seed})
+    batch.reset(hidden=hidden[:50])
+    seen = batch.step(np.zeros(50, int))
+    np.testing.assert_array_equal(seen.observation["question"], tables[numbers[:50]])
+    np.testing.assert_array_equal(batch.step(18 + answers[:50]).reward, np.ones(50))
+
+
+def test_lamps_show_the_question_and_images_tell_nothing_else_of_it(seed):
+    """All 20 questions, after each of three placings that tell nothing: images follow from these two alone."""
+    weights = episodes.drawn("balance", np.full(40, seed), np.arange(40))
+    hidden = np.hstack([weights, np.tile(np.arange(20), 2)[:, None]])
+    batch = suite.load_batch("balance", "pixels", 40, {"questions": "all", "random": seed})
+    followed, seen = episodes.Followed(), batch.reset(hidden=hidden).observation
+    for number, action in enumerate((2, 5, 8, None)):  # Blocks 0, 1 and 2 on the right pan.
+        followed.add([(question, number) for question in hidden[:, 6]], seen)
+        if action is not None:
+            seen = batch.step(np.full(40, action)).observation
+    assert followed.num_different() == 4 * 20

@@ -1,6 +1,7 @@
 """Balance: six blocks of which one has another weight, and the question which, and whether it is heavier or lighter."""
 
 import dataclasses
+import functools
 
 from dm_control import mjcf
 import numpy as np
@@ -11,6 +12,7 @@ from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import contract, declarations, rendering, seeding
 from physexp.suite.engine import options as options_lib
 from physexp.suite.parts import arena, material, measures, things
+from physexp.suite.parts import questions as questions_lib
 
 PHYSICS_TIMESTEP = 0.01  # s
 
@@ -18,10 +20,12 @@ PHYSICS_TIMESTEP = 0.01  # s
 # only the side to which the beam tilts is read: how far it tilts would tell the difference after one weighing.
 NUM_BLOCKS = 6
 WEIGHT = 1.0  # kg
+_KINDS = ("heavier", "lighter")
 DIFFERENCES = (0.25, 0.4)  # Shares of the weight by which the odd block differs, the least and the greatest.
 SIDES = {"left": -1, "right": 1}
 PLACES = {"aside": 0, **{f"on the {side} pan": value for side, value in SIDES.items()}}
 """Where a block may be put, and the reading that says so; the actions are in this order."""
+_BLOCK = "block"  # The question which block is odd.
 
 _GRAVITY = 9.81  # m/s^2
 ARM = 0.3  # m, from the hinge to a pan
@@ -45,7 +49,21 @@ _POINTER_Y, _POINTER_TRAVEL = -0.58, 0.34  # m
 _LATCH, _LATCH_TRAVEL = (0.0, 0.55), (0.2, 0.0, 0.0)  # m
 _PAN_HALF_SIZE = (0.08, 0.47, 0.004)  # m
 _PAN_RGBA, _POINTER_RGBA = (0.55, 0.55, 0.60, 1.0), (0.15, 0.15, 0.18, 1.0)
+_LAMP_X, _LAMP_Z, _LAMP_TRAVEL = 0.15, -0.03, 0.06  # m: on a board, and under it when they are off.
+_BOARD_HALF_SIZE = (0.05, 0.45, 0.002)  # m
 _ROOM = dict(mat_size=[0.5, 0.68], camera_pos=[0, -1.9, 3.2], camera_target=[0, -0.07, 0], fovy=19.0)
+
+
+@functools.cache
+def question_sets() -> dict[str, np.ndarray]:
+    """Returns the sets of questions that are told, by name: tables of the blocks that mean yes, bool [Q, NUM_BLOCKS].
+
+    Three blocks mean yes. Held out are those whose numbers add up to 6 or to 9: if three do, so do the other three.
+    """
+    tables = questions_lib.balanced(NUM_BLOCKS)
+    held_out = np.isin(tables @ np.arange(NUM_BLOCKS), (6, 9))
+    named = {"_".join(["among", *map(str, np.flatnonzero(table))]): table[None] for table in tables}
+    return {"all": tables, "train": tables[~held_out], "held_out": tables[held_out], **named}
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -65,6 +83,12 @@ class Options(options_lib.Options):
         checks.flag,
         help="whether a latch holds the beam level until one more action releases it, for a step; harder",
     )
+    questions: str = checked(
+        _BLOCK,
+        checks.word(_BLOCK, *question_sets()),
+        help="block: which block is odd, and is it heavier or lighter; or whether the odd block is among three: "
+        + questions_lib.SETS,
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -80,6 +104,11 @@ def num_suspects(difficulty: float) -> int:
 def _tilt(angles: np.ndarray) -> np.ndarray:
     """Returns to which side the beam tilts, -1, 0 or 1, from its angle, rad [N, 1]; right is positive."""
     return (angles > _READ).astype(float) - (angles < -_READ)
+
+
+def _across(block: int) -> float:
+    """Returns the place of a block along the beam's hinge, m."""
+    return ((NUM_BLOCKS - 1) / 2 - block) * _SPACING
 
 
 def _add_beam(room: arena.Laboratory) -> mjcf.Element:
@@ -106,7 +135,7 @@ class Balance(contract.Task):
         for k in range(NUM_BLOCKS):
             is_suspect = k < num_suspects(self.options.difficulty)
             cube = things.Block(things.COLORS[k] if is_suspect else _PAN_RGBA, mass=WEIGHT, name=f"block_{k}")
-            room.attach(cube).pos = [0, ((NUM_BLOCKS - 1) / 2 - k) * _SPACING, things.HALF_SIZE]
+            room.attach(cube).pos = [0, _across(k), things.HALF_SIZE]
             blocks.append(cube)
             torques.append(room.add_actuator(f"block_{k}", hinge, gear=[0.0 if latch else 1.0]))
         # With a latch these keep the places alone, and others load the beam when it is released.
@@ -138,37 +167,60 @@ class Balance(contract.Task):
             meaning = "1 if the last action released the beam, 0 otherwise"
             readings["released"] = measures.coarse([released], meaning, measures.is_on)
             indicators.append(things.stand_flag(room, "latch", _POINTER_RGBA, _LATCH, "released", _LATCH_TRAVEL))
+        label_names = [f"block {k} is {kind}" for k in range(NUM_BLOCKS) for kind in _KINDS]
+        if self.options.questions != _BLOCK:
+            readings |= self._tell_questions(room, indicators)
         return contract.Scene(
             arena=room,
             interactions=interactions,
-            label_names=[f"block {k} is {kind}" for k in range(NUM_BLOCKS) for kind in ("heavier", "lighter")],
+            label_names=questions_lib.LABELS if self.told else label_names,
             readings=readings,
             indicators=indicators,
         )
 
-    largest_hidden = WEIGHT * (1 + DIFFERENCES[1])
+    def _tell_questions(
+        self, room: arena.Laboratory, indicators: list[declarations.Indicator]
+    ) -> dict[str, declarations.Reading]:
+        """Chooses the questions that are told; adds a lamp beside each block, and returns the reading."""
+        tables = np.repeat(question_sets()[self.options.questions], len(_KINDS), axis=1)
+        self.question = "Is the block with another weight one of those that mean yes?"
+        self.told = told = questions_lib.Questions(tables, count=1, shown=slice(None, None, len(_KINDS)))
+        self.largest_hidden = np.array([self.largest_hidden] * NUM_BLOCKS + [len(tables) - 1])
+        room.add_scenery("board", _BOARD_HALF_SIZE, [_LAMP_X, 0, _BOARD_HALF_SIZE[2]], _POINTER_RGBA)
+        places = [(_LAMP_X, _across(k), _LAMP_Z) for k in range(NUM_BLOCKS)]
+        indicators += told.add_lamps(room, places, _LAMP_TRAVEL)
+        return told.add_reading(room, [f"block {k}" for k in range(NUM_BLOCKS)])
+
+    largest_hidden: float | np.ndarray = WEIGHT * (1 + DIFFERENCES[1])
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
         """Returns the weights of the blocks in some episodes, kg, float64 [N, NUM_BLOCKS].
 
         The odd block and the sign of its difference are drawn uniformly, the difference uniformly within `DIFFERENCES`.
+        Questions that are told add a column with their numbers, which are uniform.
         """
-        draws = seeding.uniforms(seeds, episodes, 2)
+        draws = seeding.uniforms(seeds, episodes, 3)
         labels = np.floor(draws[:, 0] * 2 * num_suspects(self.options.difficulty)).astype(np.int64)
         least, greatest = DIFFERENCES
         differences = WEIGHT * (least + (greatest - least) * draws[:, 1])
         weights = np.full((len(labels), NUM_BLOCKS), WEIGHT)
         weights[np.arange(len(labels)), labels // 2] += np.where(labels % 2, -differences, differences)
-        return weights
+        return np.hstack([weights, self.told.draw(draws[:, 2:])]) if self.told else weights
 
     def answers(self, hidden: np.ndarray) -> np.ndarray:
-        differences = hidden - WEIGHT
+        labels = self.kinds(hidden)
+        return self.told.answers(labels, self.told.drawn(hidden)) if self.told else labels
+
+    def kinds(self, hidden: np.ndarray) -> np.ndarray:
+        """Returns the number of the odd block, times 2, and 1 more if it is lighter, int64 [N]."""
+        differences = hidden[:, :NUM_BLOCKS] - WEIGHT
         odd = np.abs(differences).argmax(axis=1)
         return 2 * odd + (differences[np.arange(len(hidden)), odd] < 0)
 
     def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
-        gains = np.zeros((*hidden.shape, apparatus.model.actuator_gainprm.shape[1]))
-        gains[..., 0] = _GRAVITY * ARM * hidden  # N m at a control of 1
+        weights = hidden[:, :NUM_BLOCKS]
+        gains = np.zeros((*weights.shape, apparatus.model.actuator_gainprm.shape[1]))
+        gains[..., 0] = _GRAVITY * ARM * weights  # N m at a control of 1
         return {"actuator_gainprm": (np.array([apparatus.model.actuator(load).id for load in self._loads]), gains)}
 
     def drive(self, actions: np.ndarray, qpos: np.ndarray, ctrl: np.ndarray) -> np.ndarray:
@@ -185,7 +237,8 @@ class Balance(contract.Task):
         return np.concatenate([places, places * released, released], axis=1)
 
     def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
-        return declarations.Revealed(marks={f"block_{k}": f"{weight:.2f} kg" for k, weight in enumerate(hidden)})
+        weights = enumerate(hidden[:NUM_BLOCKS])
+        return declarations.Revealed(marks={f"block_{k}": f"{weight:.2f} kg" for k, weight in weights})
 
 
 SUITE = contract.features_and_pixels(Balance)
