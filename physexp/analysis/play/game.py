@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 import contextlib
 import dataclasses
 import shutil
+import textwrap
 from typing import Any
 
 from physexp import suite
@@ -163,8 +164,9 @@ def _rules(environment: suite.Environment) -> str:
     actions = "\n".join(f"{number:3}  {name}" for number, name in enumerate(task.action_names))
     count = task.rules.num_questions
     several = f"There are {count} questions; an answer takes a step, too.\n\n" if count > 1 else ""
+    asked = "\n\n".join(filter(None, [task.question, textwrap.fill(task.description, 100)]))
     return (
-        f"{task.question}\n\n{legend}\n\n{several}"
+        f"{asked}\n\n{legend}\n\n{several}"
         f"The right answer is worth 1, a wrong one or none in {task.rules.step_limit} steps -1. Each interaction\n"
         f"before it multiplies that by {task.discount:g}. Type a number:\n\n"
         f"{actions}\n  {_HELP}  show this again\n  {_QUIT}  quit\n"

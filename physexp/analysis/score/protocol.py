@@ -39,6 +39,7 @@ class Question:
       domain, task: as for `suite.load`.
       options: its `task_kwargs` without the seed: those that differ from the domain's defaults.
       question: the question in words.
+      description: the apparatus in words.
       observation_spec: specs of the observations, by name.
       observation_meanings: descriptions of the observations, by name.
       action_spec: the spec of an action.
@@ -55,6 +56,7 @@ class Question:
     task: str
     options: Mapping[str, Any]
     question: str
+    description: str
     observation_spec: Mapping[str, specs.Array]
     observation_meanings: Mapping[str, str]
     action_spec: specs.DiscreteArray
@@ -100,6 +102,7 @@ def _question(domain: str, task: str, given: tuple[tuple[str, Any], ...]) -> Que
         task=task,
         options=options,
         question=played.question,
+        description=played.description,
         observation_spec=played.observation_spec(),
         observation_meanings=played.observation_meanings,
         action_spec=played.action_spec(),

@@ -191,6 +191,28 @@ class Balance(contract.Task):
         indicators += told.add_lamps(room, places, _LAMP_TRAVEL)
         return told.add_reading(room, [f"block {k}" for k in range(NUM_BLOCKS)])
 
+    @property
+    def description(self) -> str:
+        least, greatest = DIFFERENCES
+        suspects = num_suspects(self.options.difficulty)
+        which = "any of them" if suspects == NUM_BLOCKS else f"one of blocks 0 to {suspects - 1}"
+        held = (
+            "The beam is held level except in the step of the action that releases it. " if self.options.latch else ""
+        )
+        told = (
+            "The question is told by numbers, one for each block: 1 means that the answer is yes if it has another "
+            "weight."
+            if self.told
+            else ""
+        )
+        text = (
+            f"{NUM_BLOCKS} blocks lie beside a balance at first. An action moves one of them to a pan, or aside; the "
+            "others stay where they are. A pan holds any number of blocks, and the beam tilts to the heavier pan. "
+            f"{held}All blocks weigh the same but for one, which is {least:.0%} to {greatest:.0%} heavier or lighter. "
+            f"It is {which} with equal probability, and as often heavier as lighter. {told}"
+        )
+        return text.rstrip()
+
     largest_hidden: float | np.ndarray = WEIGHT * (1 + DIFFERENCES[1])
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:

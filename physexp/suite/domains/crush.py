@@ -116,6 +116,16 @@ class Crush(contract.Task):
             indicators=indicators,
         )
 
+    @property
+    def description(self) -> str:
+        count = self.options.num_cans
+        are = f"{count} equally strong cans stand" if count > 1 else "One can stands"
+        return (
+            f"{are} under a press. A press with a force above a can's strength crushes it for good; a lesser one "
+            "changes nothing. Each press takes the first can that is whole; when none is left, a press shows nothing. "
+            "The greatest force always crushes a can. All forces are equally likely."
+        )
+
     largest_hidden = FORCE_SPACING * (NUM_FORCES - MARGIN)
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:

@@ -152,6 +152,16 @@ class LumpTask(contract.Task):
             ],
         )
 
+    @property
+    def description(self) -> str:
+        return (
+            f"A stamp presses a lump with {PRESSES[0]:g} or {PRESSES[-1]:g} N for one step and hides it meanwhile. To "
+            "wait lifts the stamp for one step: then the height of the lump can be read, to a mark of "
+            f"{1000 * self._mark:g} mm. Rubber comes up at once. Clay keeps a dent of a hard press, and none of a soft "
+            "one. Putty keeps a dent of every press, which the next adds to. Foam comes up slowly, within some steps. "
+            "How soft the lump is varies, too. All answers are equally likely."
+        )
+
     def _dent(self, values: np.ndarray) -> np.ndarray:
         """Returns the marks that the lump has sunk, and 0 while it is pressed, from plate and force, [N, 2]."""
         positions, forces = values.T

@@ -153,6 +153,19 @@ class SealedBox(contract.Task):
             ],
         )
 
+    @property
+    def description(self) -> str:
+        soft, hard = PUSHES["to the right"], PUSHES["hard to the right"]
+        return (
+            "A closed box on a rail, brought home by a spring and a damper, holds a weight. A push lasts one step, "
+            f"with {soft:g} N or, if it is hard, {hard:g} N, and the hand hides the box meanwhile. To wait takes the "
+            "hand away for one step: then the place of the box can be read, to a mark of "
+            f"{1000 * self._mark:g} mm. The box goes on moving from one step to the next. A solid weight moves with "
+            "the box; a loose one slides a little and bumps into the walls; one on a spring swings; one in goo lags "
+            f"behind. Box and weight have {MASSES[0]:g} to {MASSES[-1]:g} kg together, of which the weight has "
+            f"{SHARES[0]:.0%} or {SHARES[-1]:.0%}. All answers are equally likely."
+        )
+
     def _place(self, values: np.ndarray) -> np.ndarray:
         """Returns the marks from home to the box, and 0 while it is pushed, from its position and the force, [N, 2]."""
         positions, forces = values.T

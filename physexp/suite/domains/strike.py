@@ -112,6 +112,19 @@ class Strike(contract.Task):
             ],
         )
 
+    @property
+    def description(self) -> str:
+        distance = self.options.goal_distance
+        return (
+            f"A puck with dry friction lies at the end of a covered bay, {BAY:g} m from a barrier. A poke pushes it "
+            "towards the barrier for one step; it slides on until friction or the barrier stops it, and is not put "
+            f"back. {self._num_gates} light gates are evenly spaced, up to the barrier. For the answer the "
+            "puck is put back, the barrier is opened, and the puck is struck with that force for "
+            f"{STRIKE_SECONDS:g} s: the goal begins {distance / RATIO:.3g} m from where it lies, and ends at "
+            f"{distance * RATIO:.3g} m. Mass and friction are hidden; the coefficient of friction is "
+            f"{_FRICTIONS[0]:g} to {_FRICTIONS[-1]:g}. All strikes are equally likely."
+        )
+
     def _gate(self, positions: np.ndarray) -> np.ndarray:
         """Returns the last light gate that the puck has passed, from its position, m [N, 1]; 0 for none."""
         return np.clip(np.floor(positions / (BAY / self._num_gates)), 0, self._num_gates)

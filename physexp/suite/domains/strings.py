@@ -203,6 +203,28 @@ class Strings(contract.Task):
         indicators += told.add_lamps(room, places, _LAMP_TRAVEL)
         return told.add_reading(room, names)
 
+    @property
+    def description(self) -> str:
+        options = self.options
+        clamps = (
+            "There is one clamp: when it is put on another puck, the first one is free."
+            if options.num_clamps == 1
+            else f"There are {options.num_clamps} clamps: when all are in use, another one cannot be put on."
+        )
+        told = (
+            "Each question is told by numbers, one for each possible set of pairs that are joined: 1 means that the "
+            "answer is yes if these are the pairs. "
+            if self.told
+            else ""
+        )
+        return (
+            f"{options.num_pucks} pucks are under a cover, and some pairs of them are joined by rubber bands. To pull "
+            "a puck takes it away from home for one step, and with it all pucks that are joined to it, directly or "
+            "through others; a spring brings them home again before the next step. A clamped puck stays at home and "
+            f"passes no pull on. {clamps} To clamp or to free a puck moves none. {told}Each pair is joined with "
+            f"probability {1 / (1 + options.difficulty):.3g}, whatever the others are."
+        )
+
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
         """Returns the slacks of the bands of some episodes, m, 0 for no band, float64 [N, number of pairs].
 

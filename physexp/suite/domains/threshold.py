@@ -130,6 +130,15 @@ class Threshold(contract.Task):
             ],
         )
 
+    @property
+    def description(self) -> str:
+        likely = "All forces are equally likely." if self.options.difficulty == 1 else "Low forces are likelier."
+        return (
+            "A covered block leans on one of two stops. A push lasts one step and goes away from that stop. If its "
+            "force is greater than the block's friction, which stays the same, the block slides to the other stop; "
+            f"otherwise it does not move. The greatest force always makes it slide. {likely}"
+        )
+
     def _flag(self, values: np.ndarray) -> np.ndarray:
         """Returns 1 where the last push took the block to the other stop, or where the flag is wrong, and 0 elsewhere.
 

@@ -128,6 +128,16 @@ class Towers(contract.Task):
             num_structures=len(tower.PATTERNS),
         )
 
+    @property
+    def description(self) -> str:
+        return (
+            f"Five cubes with edges of {self.options.cube_size:g} m stand one above the other, from block 0 on the "
+            "floor up to block 4. Some neighbours are glued, and move as one rigid body. x and y are horizontal, z is "
+            "the height above the floor, and the tower stands at x = y = 0, more or less, with its sides along x and "
+            f"y. {self._actuator.description} Cubes that have begun to move go on moving during the next steps. The "
+            "numbers of bodies from 1 to 5 are equally likely."
+        )
+
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:
         """Returns the glue patterns of some episodes, drawn from `PRIOR`: indices in `tower.PATTERNS`, int64 [N]."""
         draws = seeding.uniforms(seeds, episodes, 2)

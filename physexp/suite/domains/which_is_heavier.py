@@ -85,6 +85,16 @@ class WhichIsHeavier(contract.Task):
             num_nuisances=5,
         )
 
+    @property
+    def description(self) -> str:
+        return (
+            "Equal-looking blocks stand side by side, each on a vertical rail of its own, without gravity. A spring "
+            f"brings each back to its rest. A poke pushes one block up with {POKE_FORCE:g} N for one step; the heavier "
+            "the block, the less it rises. It sinks back during the next steps. Blocks do not touch one another. Their "
+            f"masses are between {LIGHTEST:g} and {HEAVIEST:g} kg: one is probably heavy, the others are probably "
+            "light, and each block is equally likely to be the heaviest."
+        )
+
     largest_hidden = 1.0
 
     def draw(self, seeds: np.ndarray, episodes: np.ndarray) -> np.ndarray:

@@ -103,6 +103,11 @@ class Task(abc.ABC):
 
     # It may define others.
 
+    @property
+    def description(self) -> str:
+        """The apparatus, in words: the effects of interactions, what lasts, and how likely the labels are."""
+        return ""
+
     def hidden_fields(self, apparatus: apparatus_lib.Apparatus, hidden: np.ndarray) -> declarations.Fields:
         """Returns the model fields that follow from hidden properties: any that `Batch.expand` takes."""
         return {}

@@ -34,6 +34,11 @@ class Pushes:
     joints: Sequence[mjcf.Element] = ()
     readings: dict[str, declarations.Reading] = {}
 
+    description = (
+        f"A push acts on the centre of one cube with {PUSH_FORCE:g} N for one step, along x or y; it moves every cube, "
+        "even with the whole tower on top."
+    )
+
     def attach_to(self, room: arena.Laboratory) -> None:
         """Adds the site whose axes give the directions of the forces."""
         self._axes = room.mjcf_model.worldbody.add("site", name="axes", size=[0.001], group=5)
@@ -85,6 +90,14 @@ class Fist(composer.Entity):
         """The position of the fist's centre, m (3,)."""
         meaning, components = "the fist's centre (x, y, z)", ("x", "y", "z")
         return {"fist_position": declarations.Reading([self._position], (3,), meaning, "m", components, noisy=True)}
+
+    @property
+    def description(self) -> str:
+        return (
+            f"A fist, a sphere with a radius of {FIST_RADIUS:g} m, starts at x = {-self._distance:g} m, y = 0, more or "
+            f"less, {_FIST_HEIGHT:g} m above the floor. A move drives it along x or y for one step, with "
+            f"{FIST_SPEED:g} m/s; it gets {_FIST_REACH:g} m from its start at most."
+        )
 
     def attach_to(self, room: arena.Laboratory) -> None:
         """Places the fist in the room."""
