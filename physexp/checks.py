@@ -64,7 +64,7 @@ def shown(value: Any) -> str:
     """Returns how a value looks in a message: its `repr`, in one line and cut short."""
     try:
         text = " ".join(repr(value).split())
-    except ValueError:  # Python spells no integer of more than 4300 digits.
+    except (ValueError, RecursionError):  # Python spells no integer of more than 4300 digits, and no deep list.
         text = f"a huge {type(value).__name__}"
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
 
