@@ -6,21 +6,6 @@ import textwrap
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples"
 
-_READS = r'''
-"""Halves the levels that are left, which it knows from the words of a prompt alone."""
-
-import re
-import sys
-
-prompt = sys.stdin.read()
-numbers = {name: number for number, name in re.findall(r"^(\d+): (.+)$", prompt, re.M)}
-left = [int(name.split()[1]) for name in numbers if name.startswith("answer")]
-for force, slid in re.findall(r"^You do: push with (\d+) N\.\nYou see .*slid \[(\d)", prompt, re.M):
-    left = [level for level in left if (level <= int(force)) == (slid == "1")]
-middle = left[(len(left) - 1) // 2]
-print("I take", numbers[f"answer: {middle} N" if len(left) == 1 else f"push with {middle} N"])
-'''
-
 _MODULE = textwrap.dedent(
     '''
     """Agents of all sorts."""
@@ -151,8 +136,6 @@ _MODULE = textwrap.dedent(
 
 
 def put_into(folder: Path) -> None:
-    """Makes the modules `made`, `halving` and `in_words` in a folder, and the program `reads.py`."""
-    for name in ("halving.py", "in_words.py"):
-        shutil.copy(EXAMPLES / name, folder)
+    """Makes the modules `made` and `halving` in a folder."""
+    shutil.copy(EXAMPLES / "halving.py", folder)
     (folder / "made.py").write_text(_MODULE)
-    (folder / "reads.py").write_text(_READS)

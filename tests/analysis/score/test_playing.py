@@ -52,12 +52,6 @@ def test_the_policy_of_the_documentation_is_as_good_as_the_ideal():
     assert metrics["success_rate"] == 1
 
 
-def test_a_program_that_reads_and_writes_text_is_scored(monkeypatch):
-    monkeypatch.setenv("EXPERIMENTER", f"{sys.executable} reads.py")
-    metrics = score("in_words:make", count=1)["tasks"]["threshold/features"]
-    assert metrics["score"] == 1 and metrics["mean_interactions"] == 3
-
-
 def test_an_actor_gets_every_time_step_and_its_prints_are_no_output(capfd):
     score("made:Told", count=1)
     seen = "asked ['slid', 'strength']"

@@ -1,0 +1,128 @@
+"""Runs in words: the episodes of a player, such as a language model, in a folder.
+
+`transcript.jsonl` has a line for the player, one for each event of an episode, and one for each report of the client,
+as it comes. `records.jsonl` has a line for each episode that is over: with seed and index, the actions rebuild it.
+"""
+
+from collections.abc import Iterator, Mapping
+import contextlib
+import functools
+import json
+from pathlib import Path
+import time
+from typing import IO, Any
+
+import numpy as np
+
+from physexp.agents import files
+from physexp.analysis.data import lock, provenance
+from physexp.analysis.score import playing, protocol
+from physexp.suite import words
+
+TRANSCRIPT, RECORDS = "transcript.jsonl", "records.jsonl"
+
+EPISODES = 50
+"""The number of episodes of each task for players that are dear."""
+
+
+class Run:
+    """The episodes of a player."""
+
+    def __init__(self, file: IO[bytes], kept: Mapping[tuple[str, int], list[dict[str, Any]]]):
+        self._file, self._kept = file, kept
+
+    def episodes(
+        self,
+        name: str,
+        count: int = EPISODES,
+        *,
+        seed: int = protocol.SEED,
+        level: str = "named",
+        digits: int | None = None,
+    ) -> Iterator[words.Episode]:
+        """Yields the first episodes of a task in words, those alone that are not over; one goes on where it broke off.
+
+        An episode is played before the next one is asked for.
+
+        Args:
+          name: the task, with options, as in `strings/features,difficulty=2`.
+          count: the number of episodes.
+          seed: of the environments; by default the score's.
+          level, digits: as for `words.Episode`.
+
+        Raises:
+          ValueError: for a value that is not allowed, or an episode that was begun with others.
+        """
+        (question,) = protocol.named([name])
+        with contextlib.closing(protocol.load(question, seed)) as environment:
+            for index in range(count):
+                kept = self._kept.get((question.name, index), ())
+                keep = functools.partial(self._write, task=question.name, episode=index)
+                episode = words.Episode(environment, index, level, digits, kept, keep)
+                if not episode.is_over:
+                    yield episode
+
+    def tell(self, **facts: Any) -> None:
+        """Keeps facts about the client's work since the last report, such as its tokens and their cost."""
+        self._write({"time": time.time(), "told": facts})
+
+    def _write(self, event: Mapping[str, Any], **where: Any) -> None:
+        self._file.write(json.dumps({**where, **event}, default=np.generic.item).encode() + b"\n")
+        self._file.flush()
+
+
+@contextlib.contextmanager
+def run(folder: Path, *, model: str, harness: str, tools: str, budget: str) -> Iterator[Run]:
+    """Returns a context for the run of a player, which alone writes into a folder; a run that broke off goes on.
+
+    Args:
+      folder: the folder, which is made if need be.
+      model: the name and the version of the model, or of any other player.
+      harness: the program that leads it, with its version.
+      tools: the tools that it has besides those of an episode; `none`, for instance.
+      budget: its limits, such as tokens or replies for each episode.
+
+    Raises:
+      ValueError: if the folder holds a run of another player, or another process writes into it.
+    """
+    player = {"model": model, "harness": harness, "tools": tools, "budget": budget}
+    with lock.locked(folder, f"{folder} is in use by another process; give another folder"):
+        path = folder / TRANSCRIPT
+        with path.open("a+b") as file:
+            lines = _lines(file)
+            if not lines:
+                file.write(json.dumps({"player": player, "versions": provenance.versions()}).encode() + b"\n")
+            for (name, *_), theirs, ours in playing.differences(lines[0]["player"] if lines else player, player):
+                raise ValueError(
+                    f"{path} has the {name} {theirs!r} instead of {ours!r}; give the same, or another folder"
+                )
+            kept: dict[tuple[str, int], list[dict[str, Any]]] = {}
+            for line in lines[1:]:
+                if "told" not in line:
+                    kept.setdefault((line.pop("task"), line.pop("episode")), []).append(line)
+            try:
+                yield Run(file, kept)
+            finally:
+                found = "".join(json.dumps(record) + "\n" for record in records(path))
+                files.write_atomically(folder / RECORDS, found.encode())
+
+
+def records(transcript: Path) -> list[dict[str, Any]]:
+    """Returns the records of the episodes in a transcript that are over; see `words.Episode.record`.
+
+    Each has the facts about the player, too, and the `task` with its options.
+    """
+    with transcript.open("rb") as file:
+        first, *lines = _lines(file)
+    model, *others = first["player"].items()
+    facts = {"player": model[1], **dict(others)}
+    return [{**facts, "task": line["task"], **line["ended"]} for line in lines if "ended" in line]
+
+
+def _lines(file: IO[bytes]) -> list[dict[str, Any]]:
+    """Returns the content of all whole lines of an open file; cuts off a last one that was not written whole."""
+    file.seek(0)
+    whole = [line for line in file.read().splitlines(keepends=True) if line.endswith(b"\n")]
+    if file.writable():
+        file.truncate(sum(map(len, whole)))
+    return [json.loads(line) for line in whole]
