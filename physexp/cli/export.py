@@ -17,6 +17,7 @@ class Export(Playing):
 
     episodes: int = option(help="number of episodes of each task")
     minari: bool = option(False, "write a Minari data set for each task, too")
+    words: bool = option(False, "write a file of conversations in words for each task, too, to tune language models")
     seed: int | None = option(None, "seed of the environments; by default one that no score uses")
     output: Path | None = option(None, "the folder for all files; by default a new one under exports/")
 
@@ -40,6 +41,7 @@ class Export(Playing):
                 seed=exporting.SEED if self.seed is None else self.seed,
                 timeout=self.timeout,
                 as_minari=self.minari,
+                in_words=self.words,
                 show=show,
             )
         for name, facts in found["tasks"].items():

@@ -1,4 +1,4 @@
-"""Plays a target and writes whole trajectories, as tables of steps and as data sets of Minari."""
+"""Plays a target and writes whole trajectories: tables of steps, data sets of Minari, and conversations in words."""
 
 from collections.abc import Callable, Sequence
 import itertools
@@ -10,7 +10,7 @@ import numpy as np
 
 from physexp import extras
 from physexp.analysis.data import episodes, provenance, tables
-from physexp.analysis.score import judging, log, playing, protocol, scoring, steps, targets
+from physexp.analysis.score import conversations, judging, log, playing, protocol, scoring, steps, targets
 
 FILE = "export.json"
 TABLE = "steps.parquet"
@@ -18,6 +18,9 @@ TABLE = "steps.parquet"
 
 MINARI = "minari"
 """The folder among the exported files for `MINARI_DATASETS_PATH`."""
+
+WORDS = "words"
+"""The folder of conversations, with a file for each task."""
 
 SEED = 3_000_003  # Of the environments, apart from those of training, of evaluation and of the score.
 _MAX_EPISODES = 100_000  # Of each task.
@@ -33,6 +36,7 @@ def export(
     seed: int = SEED,
     timeout: float = 60.0,
     as_minari: bool = False,
+    in_words: bool = False,
     show: Callable[[int], None] = lambda done: None,
 ) -> dict[str, Any]:
     """Plays episodes of some tasks and writes them; returns the content of `export.json`.
@@ -44,6 +48,7 @@ def export(
       target, questions, num_episodes, folder, timeout: as for `scoring.score`, as the errors are.
       seed: of the environments; not the score's.
       as_minari: write a data set of Minari for each task, too; raises MissingExtraError if it is not installed.
+      in_words: write the conversations of each task, too; raises ValueError for a task with images.
       show: called with the number of episodes that have been played.
     """
     if as_minari:
@@ -53,12 +58,16 @@ def export(
         raise ValueError(f"seed is {seed}, whose episodes are scored; give another one")
     minari_name = targets.file_name(target.name) if as_minari else None
     writers = {question: _Writer(folder, question, minari_name) for question in questions}
+    if in_words:
+        for question, writer in writers.items():
+            writer.words = conversations.Writer(folder / WORDS / f"{question.file_name}.jsonl", question, seed)
     names = [question.name for question in questions]
     facts = {"target": target.name, "greedy": target.greedy, "seed": seed, "episodes": num_episodes}
     facts["agent"] = target.describe(questions)
     defining = {**facts, "tasks": names, "versions": provenance.versions()}
     with playing.session(folder, target, timeout, defining) as session:
-        shutil.rmtree(folder / MINARI, ignore_errors=True)  # Of an interrupted session.
+        for name in (MINARI, WORDS):
+            shutil.rmtree(folder / name, ignore_errors=True)  # Of an interrupted session.
         for question, its in itertools.groupby(session.play(questions, num_episodes, seed), lambda one: one[0]):
             for _, episode in its:
                 writers[question].add(episode)
@@ -69,7 +78,12 @@ def export(
 
 
 class _Writer:
-    """Writes the episodes of a task, part by part."""
+    """Writes the episodes of a task, part by part.
+
+    Attributes:
+      question: the task.
+      words: writes conversations, too; None if none are wanted.
+    """
 
     def __init__(self, folder: Path, question: protocol.Question, minari_name: str | None):
         self.question = question
@@ -78,6 +92,7 @@ class _Writer:
         self._judge = judging.Judge(question) if protocol.is_judged(question) else None
         self._minari_folder, self._minari_name = folder / MINARI, minari_name
         self._data_set: Any = None
+        self.words: conversations.Writer | None = None
         self._pending: list[episodes.Episode] = []
         self._num_pending = self._num_parts = 0
         self._played: list[tuple[int, float, float]] = []  # Actions, the share of right answers, and the return.
@@ -110,6 +125,8 @@ class _Writer:
 
             self._data_set = self._data_set or data_set.create(self._minari_folder, self.question, self._minari_name)
             data_set.add(self._data_set, self.question, self._pending, judged)
+        if self.words:
+            self.words.add(zip(self._pending, judged, strict=True))
         self._pending, self._num_pending = [], 0
         self._num_parts += 1
 
