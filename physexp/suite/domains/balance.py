@@ -250,7 +250,7 @@ class Balance(contract.Task):
 
         With a latch, also the places that load the beam, and whether it is released, [N, 2 * NUM_BLOCKS + 1].
         """
-        is_moved = np.asarray(actions)[:, None] // len(PLACES) == np.arange(NUM_BLOCKS)
+        is_moved = actions[:, None] // len(PLACES) == np.arange(NUM_BLOCKS)
         wanted = self.controls[actions]
         places = np.where(is_moved, wanted[:, :NUM_BLOCKS], ctrl[:, :NUM_BLOCKS])
         if not self.options.latch:

@@ -147,7 +147,7 @@ class Crush(contract.Task):
         """Returns the forces on the cans, N [N, cans]: on the first whole one; if none is whole, on the last one."""
         num_cans = qpos.shape[1]
         pressed = np.minimum(_is_crushed(qpos).sum(axis=1).astype(int), num_cans - 1)
-        return self.controls[actions] * np.eye(num_cans)[pressed]
+        return self.controls[actions] * (pressed[:, None] == np.arange(num_cans))
 
     def reveal(self, hidden: np.ndarray) -> declarations.Revealed:
         return declarations.Revealed(marks={"can_0": f"strength {float(hidden):.1f} N"})
